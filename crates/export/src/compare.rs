@@ -1,11 +1,12 @@
-//! A program that was handed over and may have been changed since: what changed, and whether it still holds.
+//! Comparison of a program with the one that was handed over: the changes, and the judgement of the program as it stands.
 //!
-//! The program is made again of its plan with the settings that it states, and both texts are compared line by line. Spaces, and how a
-//! number is written, do not count: editors and controllers change them. What a changed line says otherwise of a point is told in numbers.
+//! The program is exported again from its plan with the settings that it states, and both texts are compared line by line. Spaces
+//! and the notation of numbers do not count: editors and controllers change them. For a changed line the differences of a point
+//! are listed in numbers.
 //!
 //! Two texts, line by line.
 //!
-//! The share of the plan's speed that a program's times tell, where it states none.
+//! The share of the plan's speed that follows from a program's times, where it states none.
 //!
 //! The points of a program, by the lines that name them.
 
@@ -57,7 +58,7 @@ pub enum CompareError {
         /// The file's name.
         name: String,
     },
-    /// It is of another plan.
+    /// The program is of another plan.
     #[error("{name}: the program is of the plan with SHA-256 {found}; the one given has {expected}")]
     OtherPlan {
         /// The file's name.
@@ -67,7 +68,7 @@ pub enum CompareError {
         /// The plan given.
         expected: String,
     },
-    /// It cannot be interpreted.
+    /// The program cannot be interpreted.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// A line that states how the program was made cannot be understood.
@@ -79,7 +80,7 @@ pub enum CompareError {
     /// The program that was handed over cannot be made again.
     #[error("the program that was handed over cannot be made again: {0}")]
     Again(ExportError),
-    /// Its motion cannot be judged.
+    /// The motion of the program cannot be judged.
     #[error(transparent)]
     Prove(#[from] ProveError),
 }
@@ -87,7 +88,7 @@ pub enum CompareError {
 /// Reads a program back, compares it with the one that was handed over of a certified plan, and judges it as it stands.
 ///
 /// # Errors
-/// [`CompareError`] for a text that cannot be interpreted or judged. One that does not hold is no error.
+/// [`CompareError`] for a text that cannot be interpreted or judged. A program that does not hold is no error.
 pub fn compare(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -100,7 +101,7 @@ pub fn compare(
     compare_in(certified, arm, (dialect, files), cancel)
 }
 
-/// [`compare`] for a dialect that is known.
+/// Compares as [`compare`], for a known dialect.
 pub(crate) fn compare_in(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -109,7 +110,8 @@ pub(crate) fn compare_in(
 ) -> Result<Compared, CompareError> {
     refuse_other_plan(certified.plan(), files)?;
     let found = dialect.read(files, arm)?;
-    // Of a program that states no settings the share of the speed is the one that it says otherwise, or that its times tell.
+    // For a program that states no settings, the share of the speed is the one that it states elsewhere, or follows from its
+    // times.
     let told = || speed_share(certified.plan(), &found, dialect.points());
     let otherwise = ExportSettings {
         speed_share: found.speed_share.unwrap_or_else(told),
@@ -193,7 +195,7 @@ impl Compared {
     }
 }
 
-/// Most characters of a line that are told.
+/// Greatest number of characters of a line that are shown.
 const TOLD: usize = 80;
 
 /// Something that a program says otherwise than the one that was handed over.
@@ -209,7 +211,7 @@ pub struct Change {
     pub expected: String,
 }
 
-/// A program: its files, and what they say.
+/// A program: its files and its reading.
 type Said<'a> = (&'a [ProgramFile], &'a Reading);
 
 /// Lists the differences between the lines of two programs.
@@ -243,7 +245,7 @@ struct Texts<'a> {
     rounding_s: f64,
 }
 
-/// A line that says something: its number, from 1, as it stands, and without what does not count.
+/// A line with contents: its number, from 1, its text as it stands, and its text without the parts that do not count.
 struct Line<'a> {
     number: usize,
     text: &'a str,
@@ -275,7 +277,7 @@ impl Texts<'_> {
         }
     }
 
-    /// A line in place of another one: what it says otherwise of its points, or that it is another one.
+    /// Lists the changes of a line that replaces another one: the differences of its points, or the other line.
     fn changed(&self, new: &Line<'_>, old: &Line<'_>, all: &mut Vec<Change>) {
         let [found, expected] = self.steps;
         let found = found.get(&(self.found.name.as_str(), new.number));
@@ -345,18 +347,18 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// A line as it is told: without spaces around it, and not too long.
+/// A line for display: without spaces around it, and not too long.
 fn shown_line(text: &str) -> String {
     shortened(text.trim(), TOLD)
 }
 
-/// Shares are told in steps of one in so many.
+/// Shares are rounded to steps of one over this number.
 const STEPS: f64 = 1e6;
 
-/// Least share that is told.
+/// Least share that is accepted.
 const LEAST: f64 = 1e-3;
 
-/// Steps of the search, each of which squares what it is off by.
+/// Steps of the search, each of which squares the error.
 const ROUNDS: usize = 8;
 
 /// The share of the plan's speed at which a program runs, by its times.
@@ -401,7 +403,7 @@ fn of_rows(plan: &Plan, found: &Reading) -> f64 {
         }
         match slope > 0.0 {
             true => (share + off / slope).clamp(least, most),
-            // An arm that does not move tells nothing.
+            // An arm that does not move gives no information.
             false => share,
         }
     })

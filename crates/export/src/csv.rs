@@ -1,7 +1,7 @@
-//! A table of positions and speeds at fixed steps, for whatever reads tables, and a text beside it that explains it.
+//! A table of positions and speeds at fixed steps, for any program that reads tables, and a text beside it that explains it.
 //!
-//! The table is strict: a header with a unit in each name, rows of numbers, nothing else. `plan_t_s` is the moment of the plan that a row
-//! is, so that the table itself says at which share of the plan's speed it runs.
+//! The table is strict: a header with a unit in each name, rows of numbers, nothing else. `plan_t_s` is the time in the plan of
+//! each row, so that the table itself shows the share of the plan's speed at which it runs.
 
 use crate::dialect::{Dialect, Place, Point, Points, Program, ProgramFile, ReadError};
 use crate::header::wrapped;
@@ -57,7 +57,7 @@ impl Dialect for Csv {
     }
 
     fn accepts(&self, _job: &JobTerms, _arm: &RobotModel) -> Result<(), Refusal> {
-        // A table speaks of joints alone: any arm has six, and what it holds is not said.
+        // A table states joints alone: any arm has six, and the tool is not stated.
         Ok(())
     }
 

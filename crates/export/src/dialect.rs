@@ -2,7 +2,7 @@
 //!
 //! All dialects. Another one is a line here, beside its file and its fixture.
 //!
-//! What is handed over, in no dialect.
+//! A program in no dialect, as it is handed over.
 //!
 //! Text files of a program, and lines in them.
 
@@ -26,7 +26,7 @@ pub trait Dialect: Debug + Sync {
     /// Checks that a file is a program of this dialect, by its name and text.
     fn is_in(&self, file: &ProgramFile) -> bool;
 
-    /// Which points of a plan it is given.
+    /// Choice of the plan's points that it is given.
     fn points(&self) -> Points;
 
     /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry.
@@ -48,7 +48,7 @@ pub trait Dialect: Debug + Sync {
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError>;
 }
 
-/// Which points of a plan a program names.
+/// Choice of the plan's points that a program names.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Points {
     /// So many that even motion between them keeps to a tolerance, no closer than `least_s` \[s\] at the full speed.
@@ -104,7 +104,7 @@ pub fn names() -> String {
 /// Largest distance of the arm from the start of the plan, joint by joint \[°\]: programs check it where they can.
 pub const START_WITHIN_DEG: f64 = 0.5;
 
-/// A program to be written: points in time, and what must be said with them.
+/// A program to be written: points in time, and the notes that must accompany them.
 #[derive(Debug, Clone)]
 pub struct Program<'a> {
     /// A name that every dialect takes: a letter, then letters, digits and `_`, 20 at most.

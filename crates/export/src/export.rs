@@ -38,7 +38,7 @@ pub enum ExportError {
     /// The motion cannot be judged, or the work was given up.
     #[error(transparent)]
     Prove(#[from] ProveError),
-    /// The program that was written does not say what it should: a fault of this program.
+    /// The program that was written does not match the intended one: a fault of platewash.
     #[error("the {dialect} program that was written does not read back: {reason}")]
     Unfaithful {
         /// The dialect.
@@ -51,7 +51,7 @@ pub enum ExportError {
 /// A certified plan of an arm as a program of a dialect.
 ///
 /// # Errors
-/// [`ExportError`]; [`Refusal`] where the plan, its job or what the program does stands against it.
+/// [`ExportError`]; [`Refusal`] where the plan, its job or the motion of the program is refused.
 pub fn export(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -67,7 +67,8 @@ pub fn export(
     Ok(exported)
 }
 
-/// The program as it was handed over, whatever was accepted then: what an edited one is compared with.
+/// Writes the program again as it was handed over, without the checks on the plan that came before: an edited one is compared
+/// with it.
 pub(crate) fn again(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -121,7 +122,7 @@ fn check_start(stands: &JointVector, start: &JointVector) -> Result<(), Refusal>
     })
 }
 
-/// The program with what is proved of it at its head, which is judged before its header is known.
+/// The program with its proof at its head; it is judged before its header is known.
 fn written(
     certified: &Certified<Plan>,
     arm: &RobotModel,

@@ -1,5 +1,4 @@
-//! What stands at the head of a program: what it is, from which plan, what is proved of it, and what it rests on. A statement an
-//! entry.
+//! Head of a program: its kind, its plan, its proof, and the assumptions of the proof. One statement per entry.
 //!
 //! Sentences as lines of a comment that every controller can show.
 
@@ -18,7 +17,7 @@ use platewash_workcell::words::{counted, quoted};
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// Significant digits of what is assumed.
+/// Significant digits of assumed values.
 const DIGITS: usize = 9;
 
 /// Plates whose places are listed.
@@ -75,7 +74,7 @@ fn attitude(mount: &Pose) -> String {
     format!("turned by the quaternion (w, x, y, z) = ({parts}): the controller must be set up for that mount")
 }
 
-/// Arm, mount, tool, and what stands around them.
+/// Lines on arm, mount, tool, and the bodies around them.
 fn workcell(source: &Source<'_>) -> Vec<String> {
     let job = &source.plan.job;
     let world = &job.workcell;
@@ -217,7 +216,7 @@ pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
     (!all.is_empty()).then(|| all.join(", "))
 }
 
-/// A measure with what it is held against, both times a factor.
+/// A measure with its limit, both times a factor.
 fn told(check: &Check, beside: &str, factor: f64) -> String {
     let name = match check.requirement {
         Requirement::JointPosition => "distance from the joints' limits".to_owned(),
@@ -285,7 +284,7 @@ pub(crate) fn wrapped<'a>(prefix: &str, sentences: impl IntoIterator<Item = &'a 
     text
 }
 
-/// Text of visible ASCII characters and spaces alone; what has no such spelling is a question mark.
+/// Text of visible ASCII characters and spaces alone; other characters without such a spelling become question marks.
 pub(crate) fn ascii(text: &str) -> String {
     let mut told = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,6 +1,6 @@
-//! What is proved of a program that was read back: of the motion that it leads to under each assumption about corners.
+//! Proof of a program that was read back: of its motion under each assumption about corners.
 //!
-//! How an arm is assumed to move along a program that was read: straight in the joints with rounded corners, or on cubics.
+//! Assumed motion of an arm along a program: straight in the joints with rounded corners, or on cubics.
 //!
 //! At a corner between segments of the speeds v₀ and v₁ the joints are assumed to accelerate evenly, for as long before the point as after
 //! it: a parabola that leaves the straight segments where the corner begins and meets them again where it ends. A corner begins no farther
@@ -19,20 +19,20 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::KnotError;
 use serde::Serialize;
 
-/// Share of the arm's joint speeds that a program may use: what a controller needs to keep its time is left.
+/// Share of the arm's joint speeds that a program may use: the rest is left for the controller to keep its time.
 pub const JOINT_SPEED_SHARE: f64 = 0.95;
 
 /// Judgement of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// Under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
+    /// Judgements under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
     pub cases: Vec<Case>,
 }
 
 /// Judgement of a program under one assumption.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Case {
-    /// Size of its corners relative to what the program says; `None` where it has none.
+    /// Size of its corners relative to the program's text; `None` where it has none.
     pub corner_scale: Option<f64>,
     /// Proof of the motion.
     #[serde(skip)]
@@ -54,7 +54,7 @@ pub struct Asked {
     pub speed_step_rad_s: f64,
 }
 
-/// Judges what a program that was read does, against the plan that it should be of.
+/// Judges the motion of a program that was read against its plan.
 ///
 /// # Errors
 /// [`ProveError`] for points that are no motion, and when it is given up.
@@ -117,7 +117,7 @@ impl Judged {
         worst_of(self.cases.iter().map(|case| &case.proof.checks))
     }
 
-    /// The worst of what is implied, over all assumptions.
+    /// Returns the worst of the implied checks, over all assumptions.
     #[must_use]
     pub fn implied(&self) -> Vec<Check> {
         worst_of(self.cases.iter().map(|case| &case.proof.implied))
@@ -194,7 +194,7 @@ fn badness(check: &Check) -> (bool, f64) {
     (!check.status.is_kept(), check.measure.as_ref().map_or(0.0, beyond))
 }
 
-/// Sizes of corners, relative to what a program says, with which its motion is judged.
+/// Sizes of corners, relative to the program's text, with which its motion is judged.
 pub const CORNER_SCALES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
 
 /// Shortest line between two corners that counts as a line \[s\].
@@ -203,7 +203,7 @@ const NOTHING_S: f64 = 1e-9;
 /// The motion of a program under one assumption.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpreted {
-    /// Size of its corners relative to what the program says; `None` where it has none.
+    /// Size of its corners relative to the program's text; `None` where it has none.
     pub corner_scale: Option<f64>,
     /// The motion in the plan's time.
     pub motion: PiecewiseMotion,
@@ -270,7 +270,7 @@ pub(crate) fn rounded_motions(points: &[Passed], arm: &RobotModel, tip: &Frame) 
     CORNER_SCALES.into_iter().map(motion).collect()
 }
 
-/// Refuses what is no motion.
+/// Refuses points that are no motion.
 fn check(points: &[Passed]) -> Result<(), KnotError> {
     for (knot, point) in points.iter().enumerate() {
         let t_s = point.t_s;
@@ -447,7 +447,7 @@ mod tests {
         }
     }
 
-    /// A share of the speed stretches time; what is judged is in the plan's.
+    /// A share of the speed stretches time; the judged motion is in the time of the plan.
     #[test]
     fn motions_are_in_the_time_of_the_plan() {
         let steps = [(0.2, [0.2; 6], Some(0.005)), (0.2, [0.15; 6], None)];

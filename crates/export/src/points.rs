@@ -1,4 +1,4 @@
-//! Which points of a plan a program names.
+//! Choice of the points of a plan that a program names.
 //!
 //! Between two points a program moves evenly in the joints. Over a step h the tip then leaves the plan by about h²/8 · ‖J q̈‖ (the rest of
 //! the tip's acceleration comes from the arm's own curvature, which both have), so that points are spread with the density
@@ -35,7 +35,7 @@ const MOMENTS: usize = 4;
 /// Moments at which a step is compared with the plan.
 const COMPARED: usize = 20;
 
-/// A plan with what points are chosen by.
+/// A plan with the data by which points are chosen.
 pub(crate) struct Source<'a> {
     pub plan: &'a Plan,
     pub motion: Trajectory,
@@ -88,7 +88,7 @@ impl<'a> Source<'a> {
 
     /// Multiples of a step up to the first that is not before the end \[s\].
     fn steps(&self, step_s: f64) -> impl Iterator<Item = f64> {
-        // What rounding leaves of a step is none.
+        // A remainder within rounding is no step.
         let count = (self.motion.duration_s() / step_s - 1e-6).ceil().max(1.0);
         (0..=count as usize).map(move |k| k as f64 * step_s)
     }
@@ -111,7 +111,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// When the plan rests, in ascending order: at its ends, and where a wash begins and ends \[s\].
+    /// Times at which the plan rests, in ascending order: at its ends, and where a wash begins and ends \[s\].
     fn rests(&self) -> Vec<f64> {
         let washes = self
             .plan
@@ -131,7 +131,8 @@ impl<'a> Source<'a> {
         let rests = self.rests();
         let allowed_m = allowed_m(settings);
         let mut density = Density::new(self, allowed_m);
-        // Programs state times in whole microseconds, which the plan is then looked at for. Where it rests it does not move meanwhile.
+        // Programs state times in whole microseconds, so points are chosen at these times of the plan. Where the plan rests it
+        // does not move meanwhile.
         let grid_s = GRID_S * settings.speed_share;
         let rounded = |t_s: f64| match rests.contains(&t_s) {
             true => t_s,

@@ -1,4 +1,4 @@
-//! What a program says, read back out of its text.
+//! Motion of a program, read back from its text.
 //!
 //! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
@@ -35,7 +35,7 @@ impl Reading {
 pub struct ReadPoint {
     /// The line that names it.
     pub place: Place,
-    /// When it is reached, in the program's time, as the sum of what the lines say \[s\].
+    /// Time at which it is reached, in the program's time, as the sum of the times in the lines \[s\].
     pub t_s: f64,
     /// Joint positions \[rad\].
     pub q_rad: JointVector,
@@ -52,7 +52,7 @@ pub enum Between {
     RoundedLines,
     /// Evenly and straight in the joints, through every point.
     Lines,
-    /// On the cubic that has the stated positions and speeds at both ends.
+    /// Along the cubic that has the stated positions and speeds at both ends.
     Cubics,
 }
 

@@ -17,7 +17,7 @@ pub enum Refusal {
     Arm {
         /// The dialect.
         dialect: &'static str,
-        /// Which arms it is for.
+        /// Arms that it is for.
         expected: &'static str,
         /// The plan's arm.
         found: String,
@@ -74,7 +74,7 @@ pub enum Refusal {
         1e3 * .deviation_m, 1e3 * .least_s, 1e3 * .tolerance_m
     )]
     TooClose {
-        /// When \[s\].
+        /// Time in the plan \[s\].
         t_s: f64,
         /// Deviation of the tip from the plan \[m\].
         deviation_m: f64,
@@ -88,7 +88,7 @@ pub enum Refusal {
     NotKept {
         /// Requirement that is not kept.
         requirement: Requirement,
-        /// Under which assumption, in words that follow a noun; empty where there is but one.
+        /// The assumption, in words that follow a noun; empty where there is only one.
         assuming: String,
         /// Value found, and its place.
         words: String,

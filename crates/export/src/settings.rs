@@ -7,7 +7,7 @@ use platewash_kinematics::{JointVector, Pose};
 /// The shortest tolerance that rounding leaves room for \[m\].
 const LEAST_TOLERANCE_M: f64 = 2e-5;
 
-/// The largest tolerance: what is farther off is no longer the plan \[m\].
+/// Largest tolerance \[m\]: a motion farther off is no longer the plan.
 const GREATEST_TOLERANCE_M: f64 = 2e-3;
 
 /// The largest corner \[m\].
@@ -86,7 +86,7 @@ impl ExportSettings {
         lines
     }
 
-    /// The settings that a text states in such lines, whatever stands before them; those that it does not state are as they are in
+    /// Reads the settings of a text from such lines, with any text before them; settings that it does not state are taken from
     /// `otherwise`. `None` where a line cannot be read.
     pub(crate) fn stated(text: &str, otherwise: Self) -> Option<Self> {
         let mut settings = otherwise;

@@ -1,6 +1,6 @@
 //! Modules as data and procedures.
 //!
-//! What a motion is made of: joint targets, zones and tools.
+//! Values of a motion: joint targets, zones and tools.
 
 use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::rapid::is_taken;
@@ -66,7 +66,7 @@ pub(crate) struct Modules {
 /// Reads all modules.
 ///
 /// # Errors
-/// [`ReadError`] with the line of what is not read.
+/// [`ReadError`] with the line that is not read.
 pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
     let mut modules = Modules::default();
     for file in files {

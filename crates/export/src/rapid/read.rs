@@ -1,4 +1,4 @@
-//! What a program does: its procedures from `main` on, and each motion as a point in time.
+//! Motion of a program: its procedures from `main` on, and each motion as a point in time.
 //!
 //! Read are the programs that [`super::write`] makes, and what people add to them: motions with `MoveAbsJ`, waits, speeds, zones, messages,
 //! outputs and comments. The checks before the first motion are read as they are written, token by token. Everything else is refused with
@@ -70,7 +70,7 @@ struct Time {
 /// Interprets a program.
 ///
 /// # Errors
-/// [`ReadError`] with the line of what is not read.
+/// [`ReadError`] with the line that is not read.
 pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
     let modules = modules(files)?;
     check_blocks(&modules)?;
@@ -499,7 +499,7 @@ impl<'a> Run<'a> {
         }
         self.tool = Some(motion.tool);
         let (t_s, place) = match (self.points.last(), motion.time) {
-            // From wherever the arm stands: how long that takes is not counted.
+            // The start of this motion is unknown: its duration is not counted.
             (None, _) if motion.corner_m.is_some() => {
                 return Err(
                     "the first motion leads to the start and must stop there: expected `fine`, found a zone".to_owned(),

@@ -5,13 +5,13 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | what a message says; times in it | `message`, `timing` |
+//! | contents of a message; times in it | `message`, `timing` |
 //! | YAML and JSON; numbers in them | `language`, `number` |
 //! | messages as YAML and JSON | `write` |
 //! | YAML as a tree with lines; that as a reading | `node`, `read` |
 //! | the script that sends a goal | `player`, `play.py` |
 //!
-//! What a message says.
+//! Contents of a message.
 
 mod node;
 mod number;

@@ -173,7 +173,7 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
     Ok(all)
 }
 
-/// For each joint of the arm its place in the message.
+/// Place in the message of each joint of the arm.
 fn order(node: &Node<'_>, known: &[&str]) -> Result<[usize; AXES], Fault> {
     let mut names: Vec<String> = Vec::new();
     for name in list(node)? {

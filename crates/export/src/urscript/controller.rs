@@ -1,4 +1,4 @@
-//! What the controller is assumed to do at each instruction.
+//! Assumed action of the controller at each instruction.
 //!
 //! The arm goes evenly in the joints to where a `servoj` sends it, and is there when its time is over. `movej` has a path in time of its
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
@@ -69,7 +69,7 @@ impl Value {
         }
     }
 
-    /// As many numbers as `COUNT`.
+    /// Reads a list of `COUNT` numbers.
     pub(crate) fn list<const COUNT: usize>(&self) -> Result<[f64; COUNT], String> {
         let found = match self {
             Self::List(list) => match list.as_slice().try_into() {
@@ -85,12 +85,12 @@ impl Value {
 /// Stage of the program so far.
 #[derive(Debug, Default)]
 enum Stage {
-    /// Nothing: where it stands is not known.
+    /// No motion yet: the position of the arm is not known.
     #[default]
     Before,
-    /// It stands at its start, or moves.
+    /// The arm stands at its start, or moves.
     Moving,
-    /// It has been stopped for good.
+    /// The arm has been stopped for good.
     Stopped,
 }
 

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | a program's text | `write` |
 //! | a program that is read | `read` |
-//! | what the controller is assumed to do | `controller` |
+//! | the assumed actions of the controller | `controller` |
 
 mod controller;
 mod read;

@@ -1,4 +1,4 @@
-//! What a program does: its lines from the first on, each of which is carried out by a [`Controller`].
+//! Motion of a program: its lines from the first on, each of which a [`Controller`] carries out.
 //!
 //! Read are the programs that [`super::write`] makes, and what people add to them: motions with `servoj`, messages, outputs and comments.
 //! The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions, threads, functions
@@ -22,7 +22,7 @@ const SHARE: &str = "speed_share";
 /// Joint positions that the arm measures.
 const MEASURED: &str = "get_actual_joint_positions";
 
-/// Words that begin what `end` closes.
+/// Words that begin a block, which `end` closes.
 const BLOCKS: [&str; 6] = ["def", "if", "while", "for", "thread", "sec"];
 
 /// A line that says something.
@@ -35,7 +35,7 @@ struct Line {
 /// Interprets a program.
 ///
 /// # Errors
-/// [`ReadError`] with the line of what is not read.
+/// [`ReadError`] with the line that is not read.
 pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     let lines = lines(file)?;
     let at = |line: usize, reason: String| ReadError::at(&file.name, line, reason);
@@ -117,7 +117,7 @@ struct Run<'a> {
     controller: Controller,
     functions: BTreeMap<&'a str, &'a [Line]>,
     globals: BTreeMap<&'a str, Value>,
-    /// The variable that holds what the arm measures.
+    /// The variable that holds the measured joints of the arm.
     measured: Option<&'a str>,
     /// Configuration in which the check expects the arm \[rad\], and the joints that it checks.
     start: Option<JointVector>,
@@ -260,7 +260,7 @@ impl<'a> Run<'a> {
         }
         self.start = Some(start);
         self.checked[j] |= (0.0..=START_WITHIN_DEG.to_radians() * (1.0 + NEARLY)).contains(limit);
-        // What is told there must be readable, too.
+        // The message in it must be readable, too.
         let message = behind.first().map_or(&[][..], |line| &line.tokens[..]);
         self.arguments(&message[1..], Controller::parameters("popup").unwrap_or_default())
             .map(|_| ())

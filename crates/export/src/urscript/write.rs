@@ -69,7 +69,7 @@ fn head(program: &Program<'_>) -> String {
     text + &format!("  global speed_share = {share}\n")
 }
 
-/// The tool: its tip and what it weighs.
+/// Lines for the tool: its tip and its weight.
 fn tool(program: &Program<'_>) -> String {
     let tool = program.tool();
     let tip = Rigid::from(&tool.tip);

@@ -45,8 +45,8 @@ pub fn nearest_place(job: &WashJob, plate: usize, watch: &Watch<'_>) -> Result<O
 }
 
 impl Pipeline<'_> {
-    /// Returns the wash path of a plate, and the configuration near which it starts \[rad\]. That is the end of the plate before
-    /// it, or home, where a check of a few points shows that the former cannot be washed.
+    /// Returns the wash path of a plate, and the configuration near which it starts \[rad\]: the last one of the plate before it, or
+    /// home, if a check of a few points shows that this plate cannot be washed.
     fn start_on(&self, scene: &Scene<'_>, order: &[usize], plate: usize) -> Result<(WashPath, JointVector), Cancelled> {
         let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
         let path = self.path_of(scene, order, turn);

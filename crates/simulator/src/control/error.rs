@@ -64,7 +64,7 @@ pub enum ControlError {
     },
 }
 
-/// Significant digits of what is suggested.
+/// Significant digits of suggested values.
 const DIGITS: usize = 5;
 
 fn degrees(q: &JointVector) -> String {
@@ -73,7 +73,7 @@ fn degrees(q: &JointVector) -> String {
 }
 
 fn remedy(rate: Option<f64>, frequency: Option<f64>) -> String {
-    // Rounded towards what is stable: what is suggested holds when it is typed in.
+    // Rounded towards stability: the suggested value is stable when it is typed in.
     let rate = rate.map(|rate| rounded_up(rate, DIGITS));
     let frequency = frequency.map(|frequency| rounded_down(frequency, DIGITS));
     match (rate, frequency) {

@@ -1,4 +1,4 @@
-//! What every law is asked and answers.
+//! Input and output of every law.
 //!
 //! A perfect servo.
 //!
@@ -21,14 +21,14 @@ use platewash_workcell::trajectory::JointState;
 /// Commanded states at a sample and at the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
-    /// At the sample.
+    /// State at the sample.
     pub now: JointState,
-    /// At the next one.
+    /// State at the next sample.
     pub next: JointState,
 }
 
 impl Reference {
-    /// To be at rest at `q` \[rad\], now and at the next sample: a waypoint.
+    /// Reference at rest at `q` \[rad\], now and at the next sample: a waypoint.
     #[must_use]
     pub fn towards(q: JointVector) -> Self {
         let still = JointVector::zeros();
@@ -185,8 +185,8 @@ impl ControlLaw for Pd {
     }
 }
 
-/// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); moving, it
-/// is what accelerations need, about q̈_d/ω².
+/// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); in motion it is
+/// the error that the accelerations require, about q̈_d/ω².
 #[derive(Debug, Clone, PartialEq)]
 pub struct PdGravity<'a> {
     /// The arm as the law believes it to be.

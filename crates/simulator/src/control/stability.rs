@@ -1,4 +1,4 @@
-//! Whether a sampled torque law is stable, linearised about rest.
+//! Stability of a sampled torque law, linearised about rest.
 //!
 //! About a configuration that the arm shall hold, with gravity's slope left out, x = (δq, δq̇) obeys
 //! M δq̈ = −S δq − (D + C) δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction,
@@ -98,7 +98,7 @@ impl Stability {
             Integrator::SemiImplicitEuler => euler(&stiffness, &damping, h),
             Integrator::Rk4 => rk4(&stiffness, &damping, h),
         };
-        // The torque is that of the sample's first state, whatever the arm does until the next one.
+        // The torque is that of the sample's first state, until the next one.
         let (passed, forced) = repeated(step, input, self.substeps);
         let mut feedback = Transition::zeros();
         feedback.fixed_view_mut::<6, 6>(6, 0).copy_from(&-gain(&self.gains.kp));
@@ -122,7 +122,7 @@ fn repeated(mut step: Transition, mut input: Transition, mut count: usize) -> (T
     (passed, forced)
 }
 
-/// One step of semi-implicit Euler: what it makes of the state, and of an acceleration in rows 6 to 11.
+/// One step of semi-implicit Euler: its effect on the state, and on an acceleration in rows 6 to 11.
 fn euler(stiffness: &MassMatrix, damping: &MassMatrix, h: f64) -> (Transition, Transition) {
     let speed = MassMatrix::identity() - damping * h;
     let mut step = Transition::identity();

@@ -1,6 +1,6 @@
 //! A rigid body: mass, centre of mass, inertia.
 //!
-//! Whether a body can exist.
+//! Check that a body can exist.
 //!
 //! The tool as a body.
 
@@ -21,7 +21,7 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// Nothing.
+    /// Body without mass.
     #[must_use]
     pub fn none() -> Self {
         Self {
@@ -185,7 +185,7 @@ mod tests {
     }
 
     proptest! {
-        /// Masses at random points make a body, whatever their number.
+        /// Masses at random points make a body, for any number of points.
         #[test]
         fn points_of_mass_are_a_body(points in prop::collection::vec((0.01..2.0f64, prop::array::uniform3(-1.0..1.0f64)), 1..9)) {
             let point = |(mass_kg, at): &(f64, [f64; 3])| RigidBody {

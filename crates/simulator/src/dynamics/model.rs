@@ -1,4 +1,4 @@
-//! The arm's bodies, joint by joint: what every algorithm here works on.
+//! The arm's bodies, joint by joint: the data of every algorithm here.
 //!
 //! Body i is everything that joint i moves and joint i + 1 does not, in the folded frame of joint i (z along its axis, origin
 //! on it). A body whose inertia about its own joint's axis is above zero moves only if kinetic energy does: by induction from
@@ -167,7 +167,7 @@ impl Body {
     }
 }
 
-/// Index of the body that a link belongs to, 0 for what joint 1 moves; `None` for the base.
+/// Index of the body that a link belongs to, 0 for links moved by joint 1; `None` for the base.
 fn behind_joint(link: &Link) -> Option<usize> {
     link.frame.body().checked_sub(1)
 }

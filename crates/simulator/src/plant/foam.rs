@@ -6,11 +6,11 @@
 //! | --- | --- |
 //! | 0 to 0.6 | E ε: the elastic foundation of [`platewash_workcell::contact`], on which the certificate rests |
 //! | 0.6 to 1 | E (0.6 + 20 (ε − 0.6)): the foam bottoms out. That it is 20 times as stiff there is an assumption |
-//! | 1 to 2 | what is left of the energy is let go of smoothly: the holder would be in the plate, which nothing real is |
+//! | 1 to 2 | the rest of the energy fades smoothly: the holder would be in the plate, which no real one is |
 //!
 //! Pressure is the derivative of the energy everywhere, so that no motion gains any.
 //!
-//! What a sponge feels of a plate: force, moment and energy; and how much of a column is on the plate at its rim.
+//! Load on a sponge from a plate: force, moment and energy; and the share of a column that is on the plate at its rim.
 //!
 //! The longest step with which foam on a plate is integrated stably.
 //!
@@ -88,7 +88,7 @@ impl Foam {
         )
     }
 
-    /// Pressure with what the damping adds at a speed of compression \[m/s\]: the foam never pulls.
+    /// Pressure with the part that the damping adds at a speed of compression \[m/s\]: the foam never pulls.
     #[inline]
     #[must_use]
     pub fn damped(&self, compression_m: f64, pressure_pa: f64, speed_m_s: f64) -> f64 {
@@ -154,7 +154,7 @@ pub fn longest_step_s(mass: &MassMatrix, slope: &ContactSlope, integrator: Integ
         return 0.0;
     };
     let scaled = inverse * slope.stiffness * inverse.transpose();
-    // The largest magnitude; a NaN stays one, and 0 is what it gives.
+    // The largest magnitude; a NaN stays one, and gives 0.
     let stiffest = scaled
         .symmetric_eigenvalues()
         .iter()

@@ -1,4 +1,4 @@
-//! A sponge on a flat face: what [`super::sponge`] sums over columns, without a column to be met one by one.
+//! A sponge on a flat face: the sums of [`super::sponge`] over columns, without a column to be met one by one.
 //!
 //! On a level face the compression is linear across the sponge: of a column at (x, y) on the unit disc, w = w₀ − s·(x, y), with
 //! w₀ = c − z/cos τ and s = r (u_z, v_z)/cos τ. As long as every column is compressed, within the limit of the foam, undamped and on the
@@ -83,7 +83,7 @@ impl LevelColumns {
         within_m >= 0.0 && face.pose.tip.xy().norm_squared() <= within_m * within_m
     }
 
-    /// In closed form.
+    /// Closed form of the sums.
     fn whole(&self, foam: &Foam, face: &Face<'_>) -> Wrench {
         let stiffness = foam.stiffness_pa / foam.free_height_m * self.area_m2;
         let (w, [s, t]) = (face.middle_m, face.slope);

@@ -40,11 +40,11 @@ pub struct SpongeOnPlates {
     reach_m: f64,
 }
 
-/// A plate, with what does not change of it.
+/// A plate, with its constant data.
 #[derive(Debug, Clone)]
 struct Target {
     plate: Plate,
-    /// From the plate's frame to the base's.
+    /// Rotation from the plate's frame to the base's.
     turn: Matrix3<f64>,
     /// Position of its pole, base frame \[m\].
     pole: Vector3<f64>,
@@ -300,7 +300,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
-        /// On a flat face what is worked out at once is what columns that are met one by one sum to: on the face and over the rim,
+        /// On a flat face the closed form equals the sum over columns that are met one by one: on the face and over the rim,
         /// pressed in part, wholly and too hard, upright and leaning, damped and not.
         #[test]
         fn a_flat_face_is_summed_as_any_other(

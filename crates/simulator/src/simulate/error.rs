@@ -1,6 +1,6 @@
-//! Why a plan could not be simulated.
+//! Errors of a simulation.
 //!
-//! Whether settings make sense.
+//! Checks of its settings.
 
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
@@ -124,7 +124,7 @@ pub enum SimulationError {
          the rate or the steps a sample, or lower the gains", .joint + 1
     )]
     Divergence {
-        /// When \[s\].
+        /// Time in the simulation \[s\].
         t_s: f64,
         /// Joint index, 0 for joint 1.
         joint: usize,
@@ -133,7 +133,7 @@ pub enum SimulationError {
         /// Speed of the joint \[rad/s\].
         speed_rad_s: f64,
     },
-    /// The work was given up, as it was told to be.
+    /// The work was cancelled on request.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// Coverage could not be measured.
@@ -147,7 +147,7 @@ const STIFFEST_PA: f64 = 1e9;
 /// Largest excess of a stiffness over the bounds of the sponge's range, as a part of them.
 const ROUNDING: f64 = 1e-12;
 
-/// Checks what the law does not check by itself; a plan file may state anything.
+/// Checks the settings that the law does not check by itself; a plan file may state any value.
 pub(crate) fn check(settings: &SimulationSettings, tool: &Tool) -> Result<(), SimulationError> {
     check_period(settings)?;
     check_plant(&settings.plant)?;
@@ -157,7 +157,7 @@ pub(crate) fn check(settings: &SimulationSettings, tool: &Tool) -> Result<(), Si
     }
 }
 
-/// Foam within what the sponge states, and no other force beside it.
+/// Checks that the foam is within the sponge's stated range, and that no other force is set.
 fn check_contact(plant: &PlantSettings, contact: &FoamContact, tool: &Tool) -> Result<(), SimulationError> {
     let refuse = |name, expected, found| Err(SimulationError::Setting { name, expected, found });
     if plant.contact_force_n > 0.0 {

@@ -11,7 +11,7 @@ use std::fmt;
 /// One sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// When \[s\].
+    /// Time of the sample \[s\].
     pub t_s: f64,
     /// Index of the plan's segment.
     pub segment: usize,
@@ -36,7 +36,7 @@ pub struct Execution {
     pub samples: Vec<Sample>,
     /// Torque limits of the plant; `None` under a kinematic law.
     pub limits: Option<TorqueLimits>,
-    /// Samples at which a torque limit cut what the law asked for.
+    /// Samples at which a torque limit cut the torque of the law.
     pub saturated: usize,
 }
 

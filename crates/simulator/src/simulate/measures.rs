@@ -35,9 +35,9 @@ pub struct JointEffort {
 pub struct Effort {
     /// Joint by joint.
     pub joints: [JointEffort; AXES],
-    /// Work of all motors, none of what braking takes up being used again \[J\].
+    /// Work of all motors; energy from braking is not reused \[J\].
     pub work_j: f64,
-    /// Share of the samples at which a torque limit cut what the law asked for.
+    /// Share of the samples at which a torque limit cut the torque of the law.
     pub saturated_share: f64,
 }
 
@@ -179,7 +179,7 @@ pub const IRB120_PAYLOAD_KG: f64 = 3.0;
 pub enum PayloadVerdict {
     /// The tool weighs no more than the rated payload.
     Within,
-    /// It weighs more.
+    /// The tool weighs more.
     Exceeded,
     /// No payload is known for this arm, and none is stated.
     Unknown,

@@ -1,4 +1,4 @@
-//! How the sponge pressed while it washed a plate: force, contact lost, and what was in contact.
+//! Pressing of the sponge while it washed a plate: force, contact lost, and area in contact.
 //!
 //! Forces are those along the tool's axis, Σ p dA, as in the certificate. Measurements at samples, not bounds.
 
@@ -54,7 +54,7 @@ pub struct ContactLost {
     pub share: f64,
     /// Total time \[s\].
     pub time_s: f64,
-    /// When first \[s\].
+    /// Time of the first loss \[s\].
     pub first_t_s: f64,
 }
 
@@ -64,9 +64,9 @@ pub struct ContactLost {
 pub struct ExecutedContact {
     /// Compressed by the least compression.
     pub contact: f64,
-    /// In contact long enough.
+    /// Share in contact long enough.
     pub time: f64,
-    /// With enough of a dose.
+    /// Share with enough of a dose.
     pub dose: f64,
 }
 

@@ -31,9 +31,9 @@ pub enum SimulationVerdict {
     NotSwept,
     /// A raised plate of a dry run is not swept.
     NotFollowed,
-    /// The arm may not carry its tool, whatever is washed with it.
+    /// The arm may not carry its tool, even if the plates are washed with it.
     Overloaded,
-    /// The plan's hash does not match its contents: whatever was simulated is not the plan that was written.
+    /// The plan's hash does not match its contents: the simulated plan is not the one that was written.
     Altered,
 }
 
@@ -74,9 +74,9 @@ impl SimulationVerdict {
 /// State of a plan's hash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Seal {
-    /// Its hash is that of its contents.
+    /// The hash is that of the contents.
     Whole,
-    /// It is not, or there is none.
+    /// The hash differs from that of the contents, or is missing.
     Broken,
 }
 
@@ -138,7 +138,7 @@ impl SimulationReport {
         Self::judge(plan, robot, settings, execution, Seal::of(plan))
     }
 
-    /// The report where it is known whether the plan is as it was written.
+    /// Report of a plan with the given state of its hash.
     pub(crate) fn judge(
         plan: &Plan,
         robot: &RobotModel,

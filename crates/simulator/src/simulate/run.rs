@@ -42,7 +42,7 @@ pub fn simulate(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) 
     simulate_with(plan, robot, settings, &CancelToken::new())
 }
 
-/// As [`simulate`], to be given up half-way when `token` says so.
+/// Simulates as [`simulate`], and stops half-way when `token` is cancelled.
 ///
 /// # Errors
 /// The errors of [`simulate`], and [`SimulationError::Cancelled`].
@@ -55,8 +55,8 @@ pub fn simulate_with(
     simulate_watched(plan, robot, settings, token, &mut |_| {})
 }
 
-/// As [`simulate_with`], and tells `watch` of each sample as soon as it is known, in time order and once. The run goes on when `watch`
-/// returns, which may take its time, and is the same whatever it does.
+/// Simulates as [`simulate_with`], and passes each sample to `watch` as soon as it is known, in time order and once. The run
+/// waits for `watch` to return, and its result does not depend on it.
 ///
 /// # Errors
 /// The errors of [`simulate_with`]; samples before the fault have been sent by then.
@@ -467,7 +467,7 @@ pub(crate) fn standings(
 /// Checks that the steps of integration are short enough for the foam.
 ///
 /// # Errors
-/// [`SimulationError::StiffContact`], with what would do.
+/// [`SimulationError::StiffContact`], with settings that are short enough.
 pub(crate) fn check_steps(
     plant: &Plant,
     standings: &[Standing],

@@ -34,7 +34,7 @@ pub struct TuneRow {
     pub frequency_rad_s: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
-    /// Its outcome, or why it was refused.
+    /// Its outcome, or the error with which it was refused.
     pub outcome: Result<TuneOutcome, SimulationError>,
 }
 

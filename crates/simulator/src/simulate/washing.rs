@@ -1,4 +1,4 @@
-//! What was washed: contact, coverage and verdict, plate by plate.
+//! Washing of the plates: contact, coverage and verdict, plate by plate.
 //!
 //! The planned and the executed motion are measured alike: the tip seen along the plate's axis at every sample of the plate's wash; a
 //! sponge tilted by τ counts as a disc of radius s cos τ, τ the largest tilt of that wash. The executed sponge sweeps only where it
@@ -27,7 +27,7 @@ use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 use std::fmt;
 
-/// As fine as the planner's own report: the proven error is about a tenth of a percent.
+/// Cell size, as in the planner's own report: the proven error is about a tenth of a percent.
 const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
 
 /// Points of a path nearer to the last one than this are left out \[m\]: on a circle of 10 mm the chord is off by 3 µm.
@@ -39,9 +39,9 @@ const SPACING_M: f64 = 5e-4;
 pub enum PlateVerdict {
     /// Enough of it is surely swept, and the tool never had to be in the plate.
     Washed,
-    /// The same where the job requires no contact.
+    /// Washed in this sense, where the job requires no contact.
     Swept,
-    /// The same of a plate that a dry run has raised: nothing is there, and nothing is washed.
+    /// Swept in this sense, on a plate that a dry run has raised: nothing is there, and nothing is washed.
     SweptInAir,
     /// Not washed.
     NotWashed,
@@ -348,7 +348,7 @@ pub enum Cause {
         share: f64,
         /// Height of the tip, at most \[m\].
         most_m: f64,
-        /// When \[s\].
+        /// Time of the sample \[s\].
         t_s: f64,
     },
     /// The arm sinks: the tip is deeper below the surface than the sponge is high, where in truth the plate would stop it.
@@ -357,16 +357,16 @@ pub enum Cause {
         share: f64,
         /// Depth of the tip, at most \[m\].
         most_m: f64,
-        /// When \[s\].
+        /// Time of the sample \[s\].
         t_s: f64,
     },
     /// The tip strays sideways from its path by more than a tenth of the sponge's radius.
     Strayed {
         /// Root mean square of the horizontal distance \[m\].
         rms_m: f64,
-        /// At most \[m\].
+        /// Largest horizontal distance \[m\].
         most_m: f64,
-        /// When \[s\].
+        /// Time of the sample \[s\].
         t_s: f64,
     },
     /// Less is surely swept than is required.
