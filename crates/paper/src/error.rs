@@ -56,7 +56,7 @@ pub enum PaperError {
     Cancelled(#[from] Cancelled),
 }
 
-// The messages above hold those of their causes, which are therefore not told again as sources.
+// The messages above contain those of their causes. The causes are therefore not repeated as sources.
 impl From<LayoutError> for PaperError {
     fn from(error: LayoutError) -> Self {
         Self::Layout(error)

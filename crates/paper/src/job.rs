@@ -1,4 +1,4 @@
-//! What the paper's program is to do: arm, workcell, plates, settings.
+//! Job of the paper's program: arm, workcell, plates, settings.
 
 use crate::error::PaperError;
 use crate::part::PaperPart;

@@ -11,7 +11,7 @@ use platewash_workcell::surface::Surface;
 /// A part of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperPart {
-    /// Its text.
+    /// The text of the paper.
     Text,
     /// The program in its appendix.
     Appendix,
@@ -74,7 +74,7 @@ impl PaperPart {
         }
     }
 
-    /// Its plates for a seed, about an arm.
+    /// Draws its plates for a seed, about an arm.
     ///
     /// # Errors
     /// [`LayoutError::NoRoom`] where every layout begun came to a dead end.

@@ -1,4 +1,4 @@
-//! What decides a run of the paper's program besides arm, plates and control law.
+//! Settings of a run of the paper's program besides arm, plates and control law.
 
 use crate::cubic::Interpolation;
 use crate::order::PaperOrder;
@@ -21,7 +21,7 @@ pub struct PaperSettings {
     pub arc: Arc,
     /// The inverse kinematics.
     pub ik: PaperIk,
-    /// In which order plates are washed.
+    /// Order in which plates are washed.
     pub order: PaperOrder,
 }
 
@@ -41,7 +41,7 @@ pub struct TransitCurve {
 pub struct PaperIk {
     /// The solver.
     pub method: IkMethod,
-    /// From where each waypoint is solved.
+    /// Configuration from which each waypoint is solved.
     pub seed: IkSeed,
     /// Largest accepted position error \[m\].
     pub position_tolerance_m: f64,
@@ -59,7 +59,7 @@ pub enum IkMethod {
     Analytic,
 }
 
-/// From where each waypoint is solved.
+/// Configuration from which each waypoint is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IkSeed {

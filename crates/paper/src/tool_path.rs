@@ -1,4 +1,4 @@
-//! What the tip shall do: segments of waypoints, as positions of the tip frame.
+//! Path of the tip: segments of waypoints, as positions of the tip frame.
 //!
 //! The tip frame stands at the centre of the sponge's far face with z leaving the tool; without a tool body it is
 //! the mounting frame (`tool0`). It points straight down everywhere.

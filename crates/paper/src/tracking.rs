@@ -1,4 +1,4 @@
-//! Inverse kinematics along the tool path and what the arm makes of it, one step a waypoint.
+//! Inverse kinematics along the tool path and the motion of the arm, one step per waypoint.
 //!
 //! The two belong together in the paper's program: each waypoint is solved from the configuration that the arm
 //! **really** has, which lags behind, and an unsolved waypoint's best configuration is commanded all the same.
@@ -30,7 +30,7 @@ pub enum IkOutcome {
     },
 }
 
-/// One waypoint: what was asked, commanded and done.
+/// One waypoint: target, command and executed motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     /// Index of the segment.
@@ -113,7 +113,7 @@ pub enum TrackingError {
         /// Index of the waypoint, over all segments.
         waypoint: usize,
     },
-    /// The work was given up, as it was told to be.
+    /// The work was cancelled on request.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

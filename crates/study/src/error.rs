@@ -81,7 +81,7 @@ pub enum StudyError {
         /// Error in it.
         problem: String,
     },
-    /// It was told to give up; the rows that were done are kept.
+    /// The study was cancelled on request; the rows that were done are kept.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

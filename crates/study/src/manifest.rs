@@ -1,4 +1,4 @@
-//! What a folder keeps a study of: enough to tell it from every other.
+//! Manifest of the study in a folder: enough to tell it from every other.
 
 use crate::axis::AxisKind;
 use crate::error::StudyError;
@@ -36,7 +36,7 @@ pub struct Manifest {
     pub axes: Vec<ManifestAxis>,
     /// The files that its rows name: descriptions of arms, meshes.
     pub files: Vec<ManifestFile>,
-    /// The study file as it was given, for commands that reproduce a row; it is no part of what tells studies apart.
+    /// The study file as it was given, for commands that reproduce a row; it does not count when studies are compared.
     pub file: String,
     /// SHA-256 of all rows, as they are exported: there as soon as the study is finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -47,7 +47,7 @@ pub struct Manifest {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ManifestScenario {
-    /// As the study names it.
+    /// Its name in the study.
     pub name: String,
     /// SHA-256 of its text.
     pub sha256: String,
@@ -59,7 +59,7 @@ pub struct ManifestScenario {
 pub struct ManifestFile {
     /// Its path, from the study file's folder where it lies below it.
     pub path: String,
-    /// SHA-256 of what it held.
+    /// SHA-256 of its contents.
     pub sha256: String,
 }
 
@@ -139,7 +139,7 @@ impl Manifest {
         Some((what, without(&mine, &its), without(&its, &mine)))
     }
 
-    /// All that tells studies apart, with what it is called.
+    /// All facts in which studies can differ, with their names.
     fn facts(&self) -> [(&'static str, Vec<String>); 7] {
         let axis = |axis: &ManifestAxis| format!("{} ({} values, {:?})", axis.key, axis.count, axis.kind);
         let scenario = |scenario: &ManifestScenario| format!("{} {}", scenario.name, scenario.sha256);

@@ -1,4 +1,4 @@
-//! A row: what came of one scenario of a study. `docs/studies.md` says what each field means; they change with [`ROW_SCHEMA`] alone.
+//! A row: the result of one scenario of a study. `docs/studies.md` describes each field; they change with [`ROW_SCHEMA`] alone.
 
 use platewash_certificate::{Certificate, Requirement, Verdict};
 use platewash_kinematics::ik::IkPathError;
@@ -48,7 +48,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// A row of which nothing is known yet.
+    /// A row without a result yet.
     pub(crate) fn new(index: u64, key: String, scenario: String, axes: BTreeMap<String, Value>) -> Self {
         Self {
             schema: ROW_SCHEMA,
@@ -75,7 +75,7 @@ impl Row {
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// With what came of a plan.
+    /// The row with the results of a plan.
     pub(crate) fn planned(self, planned: &Planned, certificate: &Certificate) -> Self {
         let clearance = certificate.check(Requirement::Clearance);
         Self {
@@ -92,7 +92,7 @@ impl Row {
         }
     }
 
-    /// With why there is no plan.
+    /// The row with the reason that there is no plan.
     pub(crate) fn failed(self, error: &Failure) -> Self {
         Self {
             place: Place::of_failure(error),
@@ -100,7 +100,7 @@ impl Row {
         }
     }
 
-    /// With an outcome and its reason.
+    /// The row with an outcome and its reason.
     pub(crate) fn ended(self, outcome: Outcome, reason: String) -> Self {
         Self {
             outcome,
@@ -129,7 +129,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// All of them.
+    /// All outcomes.
     pub const ALL: [Self; 6] = [
         Self::Proved,
         Self::NotProved,
@@ -173,7 +173,7 @@ impl From<&Failure> for Outcome {
     }
 }
 
-/// The place of a reason; what does not apply is `None`.
+/// The place of a reason; fields that do not apply are `None`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
@@ -236,7 +236,7 @@ fn waypoint(error: &IkPathError) -> Option<usize> {
     }
 }
 
-/// Which plans a study keeps beside its rows: the key `plans` of a study file.
+/// Choice of the plans that a study keeps beside its rows: the key `plans` of a study file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Keep {

@@ -24,8 +24,9 @@ pub struct Progress {
     pub left_s: f64,
 }
 
-/// Works on the rows that the journal does not have, on rayon's threads, and keeps each as soon as it is done; `told` hears of each.
-/// `make` is [`Resolver::row`](crate::Resolver::row), or whatever else makes a row: `None` where it was told to give up.
+/// Works on the rows that the journal does not have, on rayon's threads, keeps each as soon as it is done, and reports each to
+/// `told`. `make` is [`Resolver::row`](crate::Resolver::row), or another function that makes a row: it returns `None` when it is
+/// cancelled.
 ///
 /// # Errors
 /// [`StudyError`]: a row could not be made or kept, or the token cancelled. The rows that were kept by then stay.
@@ -44,7 +45,7 @@ pub fn run(
             let began = Instant::now();
             cancel.check()?;
             let row = make(index, cancel)?.ok_or(Cancelled)?;
-            // Where nobody keeps rows any more, that is told below.
+            // The receiver is gone once rows are no longer kept: the code below reports that.
             sender.send((row, began.elapsed())).map_err(|_| Cancelled.into())
         });
         match keeping.join() {

@@ -1,4 +1,4 @@
-//! What a study file states, checked; what is wrong is told with its line and key.
+//! Statements of a study file, checked; errors name their line and key.
 
 use crate::axis::{Axis, Values, canonical, spaced};
 use crate::error::StudyError;
@@ -52,7 +52,7 @@ pub(crate) enum ScenarioStatement {
     Text(TextStatement),
 }
 
-/// A scenario's text, and what the study calls it.
+/// A scenario's text, and its name in the study.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TextStatement {
@@ -61,7 +61,7 @@ pub(crate) struct TextStatement {
 }
 
 impl OneOrMore {
-    /// All of them.
+    /// All scenarios of it.
     fn all(&self) -> &[ScenarioStatement] {
         match self {
             Self::One(one) => std::slice::from_ref(one),

@@ -1,4 +1,4 @@
-//! What the rows of a study come to: outcomes by axis, durations, the rows to look at.
+//! Summary of the rows of a study: outcomes by axis, durations, the rows to look at.
 
 use crate::error::StudyError;
 use crate::kept::{check_unchanged, read_manifest, rows};

@@ -1,7 +1,8 @@
 //! A page: a document in the bundle that all pages share, as one file of HTML that needs no other.
 //!
-//! Whatever a document says is text. Each stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
-//! block, and the name of what is shown stands in the title with its markup written out. Placeholders are looked for in the template alone.
+//! Every document is text. It stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
+//! block. The name of the subject stands in the title with its markup escaped. Placeholders are searched for in the template
+//! alone.
 
 use crate::bundle::Bundle;
 use crate::view::View;
@@ -101,7 +102,7 @@ fn next_placeholder(text: &str) -> Option<(&str, &str, &str)> {
     Some((before, name, after))
 }
 
-/// Refuses a part in which the element that holds it would end, in whatever case.
+/// Refuses a part that contains the end of its own element, in any case of letters.
 fn refuse_end(part: &'static str, text: &str, end: &'static str) -> Result<(), PageError> {
     let ends = |window: &[u8]| window.eq_ignore_ascii_case(end.as_bytes());
     let mut places = text.match_indices("</").map(|(at, _)| at);
@@ -111,7 +112,7 @@ fn refuse_end(part: &'static str, text: &str, end: &'static str) -> Result<(), P
     }
 }
 
-/// The title: what is shown, and by whom.
+/// The title: the name of the subject, and of the program.
 fn title(view: &View) -> String {
     let name = printable(&view.heading.scenario);
     let before = view.heading.dry_run.as_ref().map_or("", |_| "Dry run: ");

@@ -1,4 +1,4 @@
-//! What is worth knowing of a run and no figure shows.
+//! Findings of a run that no figure shows.
 
 use super::PlateReport;
 use crate::cubic::Interpolation;

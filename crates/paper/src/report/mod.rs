@@ -58,7 +58,7 @@ pub struct PaperReport {
 }
 
 impl PaperRun {
-    /// Judges the run: what was reached, how near it came, what it covered.
+    /// Judges the run: waypoints reached, distances kept, plates covered.
     ///
     /// # Errors
     /// [`PaperError::Clearance`] or [`PaperError::Coverage`].

@@ -1,4 +1,4 @@
-//! A motion against the limits, and how near the arm comes to itself and to what stands around it.
+//! A motion against the limits, and the distances of the arm from itself and from the bodies around it.
 
 use crate::run::PaperRun;
 use crate::tracking::Step;
@@ -43,7 +43,7 @@ pub struct Violation {
 /// The nearest approach of two bodies, and when.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ClosestApproach {
-    /// When \[s\].
+    /// Time in the run \[s\].
     pub t_s: f64,
     /// The pair, its distance and its place.
     #[serde(flatten)]
@@ -177,7 +177,7 @@ fn nearness(clearance: &ClearanceModel, q: &JointVector, working: &[usize], run:
         pair,
     };
     let nearest = clearance.smallest(q, working);
-    // Nearly all configurations keep their distance; only the others are looked at pair by pair.
+    // Nearly all configurations keep their distance; only the others are checked pair by pair.
     let too_near = match &nearest {
         Some(pair) if !is_clear(pair.distance_m, required_m) => clearance.too_near(q, working, required_m),
         _ => Vec::new(),

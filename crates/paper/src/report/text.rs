@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 /// Violations listed one by one for a motion before the rest is only counted.
 const LISTED_VIOLATIONS: usize = 12;
 
-/// Significant digits of what the scenario states.
+/// Significant digits of stated values.
 const SHOWN_DIGITS: usize = 6;
 
 impl Display for PaperReport {

@@ -1,4 +1,4 @@
-//! What came of the waypoints on each plate, and of those between plates.
+//! Results on the waypoints of each plate, and on those between plates.
 
 use super::motion::{ClosestApproach, Nearness, nearest};
 use crate::run::PaperRun;
@@ -42,8 +42,8 @@ pub struct PlateReport {
     /// Waypoints at which the executed sponge is on the plate: there is a tool body, and its tip is no higher than 1 mm above the
     /// surface and no deeper than the sponge.
     pub in_contact: usize,
-    /// Covered share of the plate had the tip followed the waypoints, seen from above: as if the sponge touched wherever the
-    /// tip passes.
+    /// Covered share of the plate if the tip had followed the waypoints, seen from above, with the sponge touching along the
+    /// whole path of the tip.
     pub ideal_coverage: Coverage,
     /// Covered share of the plate as executed, seen from above.
     pub executed_coverage: Coverage,

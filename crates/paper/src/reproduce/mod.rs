@@ -1,4 +1,4 @@
-//! Re-measures what the paper's program does, over many layouts.
+//! Measures the results of the paper's program again, over many layouts.
 //!
 //! Every quantity is measured by running the program's own parts (layout law, spiral, transit, inverse kinematics
 //! seeded with the executed configuration, control law), not copied from anywhere. The paper's column says what its text

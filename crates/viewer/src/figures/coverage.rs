@@ -1,4 +1,5 @@
-//! What of each plate is swept, or pressed where the job says what counts as contact, and for how long: as planned, and as executed.
+//! Swept area of each plate, or pressed area where the job states what counts as contact, with its dwell time: planned and
+//! executed.
 
 use super::axes::{round_above, words};
 use super::error::FigureError;
@@ -11,7 +12,7 @@ use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::PlanSegment;
 
-/// Most plates of one figure, where there is what is planned, and with what is executed.
+/// Greatest number of plates in one figure: with the planned motion, and with the executed one.
 const MOST: [usize; 2] = [24, 12];
 
 /// Most plates whose executed maps stand below the planned ones.
@@ -25,7 +26,7 @@ const STEPS: [&str; 8] = [
     "#e5f5f9", "#cdeae6", "#a3d9cf", "#74c2b4", "#48a999", "#278a80", "#0f6b66", "#014d4d",
 ];
 
-/// The colour of what is missed.
+/// Colour of missed places.
 const MISSED: &str = EXECUTED;
 
 /// A map: a plate as planned or as executed.
@@ -35,7 +36,7 @@ struct Map {
     plate: usize,
     is_executed: bool,
     counted: Option<Counted>,
-    /// For how long each cell counts \[s\]; none outside the rim.
+    /// Time for which each cell counts \[s\]; `None` outside the rim.
     dwell_s: Vec<Option<f64>>,
 }
 
@@ -184,7 +185,7 @@ impl Map {
             };
             return Some((words, proved, required));
         }
-        // What a simulation measures is what is swept; of what is pressed there is the map.
+        // A simulation measures the swept area; the pressed area is taken from the map.
         if self.counted.is_some() {
             let inside = self.dwell_s.iter().flatten();
             let reached = inside.clone().filter(|seconds| **seconds > 0.0).count();

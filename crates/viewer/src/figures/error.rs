@@ -18,10 +18,10 @@ pub enum FigureError {
     /// The motion leads nowhere that could be drawn.
     #[error("at {t_s} s the tip is not at a finite place, or farther from the base than {FARTHEST_M} m")]
     Nowhere {
-        /// When \[s\].
+        /// Time \[s\].
         t_s: f64,
     },
-    /// A segment that names what there is not, or a time that is none.
+    /// A segment whose plate does not exist, or whose times are not valid.
     #[error(
         "segment {segment}: plate {plate} of {plates}, from {t_start_s} to {t_end_s} s, is no stretch of the motion"
     )]

@@ -1,4 +1,4 @@
-//! Joints and tip over time: positions, speeds and accelerations as shares of what is allowed.
+//! Joints and tip over time: positions, speeds and accelerations as shares of the limits.
 
 use super::axes::{Axes, ROOM};
 use super::page::{self, Entry, Sign, legend};
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// Moments that are drawn.
 const MOMENTS: usize = 1200;
 
-/// Height of the strip that says what the arm does \[px\].
+/// Height of the strip that names the segments of the motion \[px\].
 const STRIP: f64 = 26.0;
 
 /// Colours of the six joints.

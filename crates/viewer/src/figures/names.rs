@@ -10,7 +10,7 @@ pub struct UnknownFigure {
     instead: String,
 }
 
-/// Names of figures that are gone, and what shows the same.
+/// Names of removed figures, with their replacements.
 const REMOVED: [(&str, &str); 7] = [
     ("cleaning", PAGE),
     ("transit", PAGE),
@@ -28,7 +28,7 @@ const PAGE: &str = "the page of `platewash view` shows the arm at every moment, 
 /// A figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Figure {
-    /// The workcell from above with what is washed, in which order, and the ways between.
+    /// The workcell from above with the washed areas, their order, and the paths between.
     Layout,
     /// Joints and tip over time.
     Joints,

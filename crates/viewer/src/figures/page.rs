@@ -1,4 +1,4 @@
-//! The sheet of a figure: its words, and what lines and colours mean. As large as a slide.
+//! The sheet of a figure: its words, and the key of its lines and colours. It has the size of a slide.
 
 use super::svg::{Drawing, END, GREY, INK, LINE, Rect, SMALL, Spot, WORDS, lines, stroke, width};
 use platewash_workcell::words::shortened;

@@ -8,7 +8,7 @@ use platewash_kinematics::trig::sin_cos;
 /// Corners of a sector's arc in a turn.
 const CORNERS: f64 = 144.0;
 
-/// The colour of what can be washed.
+/// The colour of washable squares.
 const WASHABLE: &str = "#74c2b4";
 
 /// Region to draw: base frame.

@@ -1,4 +1,4 @@
-//! What figures are drawn of: a plan with its arm, and what is known of them; words that figures share.
+//! Subject of figures: a plan with its arm, and the further data on them; words that figures share.
 
 use super::error::{FARTHEST_M, FigureError};
 use super::page::Words;
@@ -14,7 +14,7 @@ use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use platewash_workcell::words::quoted;
 
-/// Most samples of an execution that are looked at, and the time between two of them where there are not too many \[s\].
+/// Greatest number of samples of an execution that are read, and the time between two of them where there are fewer \[s\].
 const MOST_SAMPLES: f64 = 20_000.0;
 const STEP_S: f64 = 0.01;
 
@@ -36,7 +36,7 @@ pub struct Ideal {
 /// The way of the tip, segment by segment.
 pub(super) type Track = Vec<Vec<Tip>>;
 
-/// A plan with its arm, and what is known of them. What is not known is not drawn.
+/// A plan with its arm, and the further data on them. Data that are not there are not drawn.
 #[derive(Debug, Clone)]
 pub struct Subject<'a> {
     /// The plan.
@@ -97,7 +97,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The same with what an arm made of it.
+    /// The same subject with the executed motion of an arm.
     ///
     /// # Errors
     /// [`FigureError::Nowhere`].

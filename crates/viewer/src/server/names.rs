@@ -1,4 +1,4 @@
-//! Which addresses and origins requests may name.
+//! Addresses and origins that requests may name.
 //!
 //! A page of another site cannot read what this server answers, unless its own name is made to mean this machine once it is open (DNS
 //! rebinding). Its requests then still carry its name as Host. So a Host has to be an address, which nobody can give a new meaning,

@@ -1,4 +1,4 @@
-//! What is served.
+//! Contents that are served.
 
 use super::answer::Refusal;
 use super::live::{EVENTS, Live};
@@ -19,7 +19,7 @@ const ICON: &str = "/favicon.ico";
 pub struct Site {
     /// The page.
     pub page: Page,
-    /// The run whose events it shows; `None` where it shows what is done.
+    /// The run whose events it shows; `None` for a page of a finished result.
     pub live: Option<Arc<Live>>,
     /// Service that answers its questions; `None` where it has none, and nothing but reading is allowed.
     pub service: Option<Arc<dyn Service>>,
@@ -27,7 +27,7 @@ pub struct Site {
 
 /// A page, as HTML.
 pub enum Page {
-    /// The same each time.
+    /// The same text each time.
     Fixed(String),
     /// Made anew each time; or why it cannot be, which is shown as text.
     Made(Box<MakePage>),

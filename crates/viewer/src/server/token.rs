@@ -1,4 +1,4 @@
-//! What a page shows to be of this server.
+//! Token with which a page proves that it is from this server.
 
 use super::error::ServerError;
 use rand::TryRng;

@@ -1,4 +1,4 @@
-//! The arm: joints, links, what they look like and what counts for the proof.
+//! The arm: joints, links, their visual shapes, and the shapes that count for the proof.
 
 use super::body::{Body, Shape};
 use platewash_kinematics::{AXES, Frame, Link as ModelLink, Pose, RobotModel};
@@ -13,7 +13,7 @@ pub struct Arm {
     /// `T_world_base`.
     #[serde(serialize_with = "pose::serialize")]
     pub mount: Pose,
-    /// From the base to the tip.
+    /// The joints from the base to the tip.
     pub joints: Vec<Joint>,
     /// All links.
     pub links: Vec<Link>,

@@ -1,4 +1,4 @@
-//! What is proved, in the words of the certificate.
+//! The proof, in the words of the certificate.
 
 use platewash_certificate::{self as proved, Status, Worst};
 use platewash_workcell::job::ContactRequirements;
@@ -31,7 +31,7 @@ pub struct Contact {
     pub plates: Vec<proved::PlateContact>,
 }
 
-/// A requirement and what came of it.
+/// A requirement and its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
     /// The certificate's.
@@ -39,7 +39,7 @@ pub struct Check {
     pub check: proved::Check,
     /// The requirement in words.
     pub words: String,
-    /// Bound, limit, what was found, and what does not agree; empty where there is nothing to add.
+    /// Bound, limit, value found, and discrepancies; empty where there is nothing to add.
     pub detail: String,
     /// Worst place: pair, joint, segment and plate in words; empty where none is known.
     pub place: String,

@@ -1,6 +1,7 @@
-//! How plates get swept, or pressed: sampled to look at, not the proof.
+//! Swept or pressed area of the plates: sampled for display, not the proof.
 //!
-//! Where a job says what counts as contact, and on every profile, a place counts as long as the foam presses it (`pressed.rs`). On a
+//! Where a job states what counts as contact, and on every profile, a place counts as long as the foam presses it (`pressed.rs`).
+//! On a
 //! disc without such a job, a sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at that moment:
 //! tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
 //! ([`platewash_workcell::tool::Tool::touch`]).
@@ -33,15 +34,15 @@ pub struct PlateCoverage {
     pub half_m: f64,
     /// Contact that counts; `None` where the sponge only has to be over a place.
     pub counted: Option<Counted>,
-    /// When and for how long.
+    /// Times at which each place counts, and for how long.
     #[serde(flatten)]
     pub marks: Marks,
-    /// The least share of what counts that the certificate proves; `None` without one.
+    /// The least share of the counted area that the certificate proves; `None` without one.
     pub proved: Option<f64>,
 }
 
 impl PlateCoverage {
-    /// The least share of what counts that a certificate proves; `None` where it says nothing of the plate.
+    /// The least share of the counted area that a certificate proves; `None` where it has no entry for the plate.
     #[must_use]
     pub fn proved_by(&self, certificate: &proved::Certificate) -> Option<f64> {
         proved_share(certificate, self.plate, self.counted)

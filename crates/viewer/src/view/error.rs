@@ -25,7 +25,7 @@ pub enum ViewError {
         end_s: f64,
         /// The plan's \[s\].
         plan_s: f64,
-        /// By how much it may be later \[s\].
+        /// Largest delay allowed \[s\].
         slack_s: f64,
     },
 }

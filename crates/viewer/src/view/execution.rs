@@ -1,4 +1,4 @@
-//! What an arm did with a plan, however that is known: simulated, followed without a plant, recorded, or still to come.
+//! Execution of a plan by an arm: simulated, followed without a plant, recorded, or still to come.
 
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
@@ -87,7 +87,7 @@ impl Executed {
         });
         let told = Told {
             headline: Some(report.headline.clone()),
-            // Nothing is asked of a dry run that could be washed.
+            // A dry run has no requirements on washing.
             washed: report.dry_run.is_none().then_some(report.verdict.is_done()),
             torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
             ..Told::new(Source::Simulated, Some(report.law))
@@ -117,7 +117,7 @@ impl Executed {
         Self { told, samples }
     }
 
-    /// A recorded motion: nothing but its samples is known.
+    /// A recorded motion: only its samples are known.
     #[must_use]
     pub fn recorded(motion: &RecordedMotion) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! What a page is about.
+//! Heading of a page.
 
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Treatment, WashJob};

@@ -1,18 +1,18 @@
-//! What a page shows: the document `platewash-view/2`. `page/src/view.ts` states the same for those who read it.
+//! Contents of a page: the document `platewash-view/2`. `page/src/view.ts` states the same for its readers.
 //!
-//! Units are SI and radians. What is drawn is in the world frame unless it says otherwise. Nothing in a document is a proof but what it
-//! repeats of the certificate: distances and swept areas over time are sampled to look at.
+//! Units are SI and radians. Data are in the world frame unless stated otherwise. Only the parts of a document that repeat the
+//! certificate are proved: distances and swept areas over time are sampled for display.
 //!
 //! | concept | file |
 //! | --- | --- |
 //! | arrays as text | `numbers.rs` |
 //! | shapes of links | `body.rs` |
-//! | what the page is about; what is proved | `heading.rs`, `certificate.rs` |
+//! | heading of the page; proof | `heading.rs`, `certificate.rs` |
 //! | arm; plates and paths | `arm.rs`; `plates.rs` |
 //! | the tip along the planned motion | `tips.rs` |
 //! | smallest distance over time | `clearance.rs` |
 //! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
-//! | what an arm did: as it is known, as it is shown | `execution.rs` |
+//! | executed motion: its data, its display | `execution.rs` |
 //!
 //! Tool, obstacles, plates, segments and checks are as plan files and certificates state them.
 
@@ -177,7 +177,7 @@ impl View {
         }
     }
 
-    /// The arm of a job in a configuration \[rad\], among the plates and whatever stands around.
+    /// The arm of a job in a configuration \[rad\], among the plates and the bodies around.
     fn of_terms(terms: &JobTerms, robot: &RobotModel, region: &TaskRegion, q: &JointVector) -> Self {
         let workcell = &terms.workcell;
         let flange = workcell.tool.mounting_frame(robot);

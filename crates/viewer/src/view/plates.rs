@@ -1,4 +1,4 @@
-//! Plates, and what the tip follows on them.
+//! Plates, and the paths that the tip follows on them.
 
 use super::numbers::Numbers;
 use super::tips::{Tips, washes};
@@ -53,7 +53,7 @@ impl Plate {
     }
 }
 
-/// The wash paths that a plan states, in the order of washing; where it states none, what the tip does while it washes.
+/// The wash paths that a plan states, in the order of washing; where it states none, the paths of the tip while it washes.
 pub(super) fn paths(plan: &Plan, tips: &Tips<'_>) -> Vec<WashPath> {
     let path = |plate, points: Vec<Vector3<f64>>| WashPath {
         plate,

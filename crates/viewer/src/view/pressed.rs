@@ -1,8 +1,7 @@
-//! Where the foam presses a plate, and when: sampled to look at, not the proof.
+//! Area of a plate that the foam presses, over time: sampled for display, not the proof.
 //!
 //! The sponge is the elastic foundation of [`platewash_workcell::contact`]. A place of the face counts as long as the foam over it is
-//! compressed by what is asked for, wherever within the stated error of its height the plate lies; between two moments by the lines
-//! through both.
+//! compressed as required, for every height of the plate within the stated error; between two moments by the lines through both.
 
 use super::raster::Raster;
 use super::tips::Tip;
@@ -45,9 +44,10 @@ impl Counted {
         promised.or_else(|| (!plate.surface.is_flat()).then_some(touched))
     }
 
-    /// Adds what of a plate is pressed on a way of the tip. Where the sponge is pressed in farther than it can be, nothing counts.
+    /// Adds the pressed area of a plate on a path of the tip. Where the sponge is pressed in farther than it can be, nothing
+    /// counts.
     pub(crate) fn add(&self, raster: &mut Raster, plate: &Plate, tool: &Tool, way: &[Tip]) {
-        // Whatever its stiffness: no force is asked for.
+        // The stiffness does not matter: no force is computed.
         let foundation = Foundation::stiff(&tool.sponge, [0.0; 2]);
         let wanted = Wanted {
             compression_m: self.compression_m,

@@ -15,7 +15,7 @@ const MOST_STEPS: usize = 64;
 /// The tip at a moment.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tip {
-    /// When \[s\].
+    /// Time \[s\].
     pub t_s: f64,
     /// Position of the tip, world frame \[m\].
     pub at: Vector3<f64>,
