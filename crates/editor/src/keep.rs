@@ -1,4 +1,4 @@
-//! The file on disk: what stands there, and what is written.
+//! The file on disk: its contents, and writing.
 
 use crate::protocol::{DiskLine, DiskQuestion, FORMAT, HelloLine, SaveLine, SaveQuestion};
 use crate::told::Told;
@@ -23,8 +23,8 @@ pub trait Keeper: Debug + Send + Sync {
     /// The reason that it cannot be read, in words.
     fn on_disk(&self) -> Result<Option<Vec<u8>>, String>;
 
-    /// Writes a scenario's text there, and beside it what comes of the scenario: all of it or nothing. `still` is asked once all is ready,
-    /// just before anything is replaced; where it says no, nothing is.
+    /// Writes a scenario's text there, and the results of the scenario beside it: all of it or nothing. `still` is called once
+    /// all is ready, just before anything is replaced; where it returns false, nothing is replaced.
     ///
     /// # Errors
     /// [`NotWritten`].
@@ -47,7 +47,7 @@ pub enum NotWritten {
     /// The file on disk has changed meanwhile.
     #[error("the file was changed meanwhile")]
     Changed,
-    /// It cannot be, in words.
+    /// Writing is impossible, for the reason in words.
     #[error("{0}")]
     Cannot(String),
 }
@@ -103,7 +103,7 @@ impl Kept {
         self.keeper.file()
     }
 
-    /// SHA-256 of what stands there; `None` for nothing, or what cannot be read.
+    /// SHA-256 of the file on disk; `None` where there is none, or it cannot be read.
     pub fn hash(&self) -> Option<String> {
         self.standing().ok()?.hash()
     }
@@ -136,7 +136,7 @@ impl Kept {
         Ok(standing)
     }
 
-    /// Answers whether what stands there has changed.
+    /// Answers if the file on disk has changed.
     pub fn look(&self, question: &DiskQuestion, told: &mut Told<'_>) {
         let standing = match self.settled(question.disk.as_deref()) {
             Ok(standing) => standing,
@@ -174,7 +174,7 @@ impl Kept {
             Err(words) => return told.failed(&words),
         };
         let hash = standing.hash();
-        // What is there already needs no asking.
+        // A text that is there already needs no check.
         let is_same = standing.text() == Some(&question.text);
         if !question.force && hash != question.disk && !is_same {
             return told_conflict(&standing, told);

@@ -42,9 +42,9 @@ pub struct Edit {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Want {
-    /// To the guess.
+    /// Up to the outlook.
     Preview,
-    /// To the proof.
+    /// Up to the proof.
     Proof,
 }
 
@@ -60,7 +60,7 @@ pub struct MapQuestion {
     pub plate: usize,
 }
 
-/// To write the scenario, and what comes of it beside it.
+/// Request to write the scenario, and its results beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SaveQuestion {
@@ -68,7 +68,7 @@ pub struct SaveQuestion {
     pub session: String,
     /// The scenario.
     pub text: String,
-    /// SHA-256 of what the page takes to stand on disk; `None` for nothing.
+    /// SHA-256 of the file on disk, as the page knows it; `None` where there is none.
     pub disk: Option<String>,
     /// True to overwrite the file on disk, whatever it holds.
     pub force: bool,
@@ -80,7 +80,7 @@ pub struct SaveQuestion {
 pub struct DiskQuestion {
     /// The page that asks.
     pub session: String,
-    /// SHA-256 of what the page takes to stand there.
+    /// SHA-256 of the file on disk, as the page knows it.
     pub disk: Option<String>,
 }
 
@@ -147,11 +147,11 @@ pub enum CellLine<'a> {
     },
 }
 
-/// The end of an answer before all is told; nothing follows.
+/// Early end of an answer; nothing follows.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum EndLine<'a> {
-    /// It is no scenario, or states no job, or not what is asked about.
+    /// The text is no scenario, or states no job, or not the subject of the question.
     Refused {
         /// Reason of the refusal.
         #[serde(flatten)]
@@ -232,7 +232,7 @@ pub enum PlateMoves {
         /// Position of each section's plates \[m\].
         at_m: Vec<[f64; 3]>,
     },
-    /// They are not moved.
+    /// The plates cannot be moved.
     Nothing {
         /// Reason, in words.
         words: &'static str,
@@ -270,14 +270,14 @@ pub struct FindingLine {
     pub plates: Vec<usize>,
 }
 
-/// A guess about a plate.
+/// Outlook for a plate.
 #[derive(Debug, Serialize)]
 pub struct PlateChance {
     /// The plate.
     pub plate: usize,
-    /// The guess.
+    /// The chance that it can be washed.
     pub chance: Chance,
-    /// It in words.
+    /// The chance in words.
     pub words: &'static str,
 }
 
@@ -342,12 +342,12 @@ pub enum MapLine<'a> {
         washable_m: &'a [[f64; 2]],
         /// Middles of the others \[m\].
         unwashable_m: &'a [[f64; 2]],
-        /// Squares looked at so far.
+        /// Squares checked so far.
         done: usize,
-        /// Squares in all, as far as is known.
+        /// Total number of squares, as far as is known.
         of: usize,
     },
-    /// All is told.
+    /// The map is complete.
     MapDone {
         /// Meaning of the map, in words.
         words: &'a str,
@@ -360,13 +360,13 @@ pub enum MapLine<'a> {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SaveLine<'a> {
-    /// It stands on disk.
+    /// The text is on disk.
     Saved {
         /// SHA-256 of it.
         disk: &'a str,
         /// The file.
         file: &'a str,
-        /// All that was written.
+        /// All files that were written.
         files: &'a [String],
         /// Result of the scenario, in one line.
         words: &'a str,
@@ -386,9 +386,9 @@ pub enum SaveLine<'a> {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename = "disk")]
 pub struct DiskLine<'a> {
-    /// SHA-256 of what stands there; `None` for nothing.
+    /// SHA-256 of the file on disk; `None` where there is none.
     pub disk: Option<&'a str>,
-    /// It, where it differs from what the page knows.
+    /// Contents of the file, where they differ from those that the page knows.
     pub text: Option<&'a str>,
     /// Reason that it cannot be read.
     pub words: Option<&'a str>,
@@ -402,6 +402,6 @@ pub struct HelloLine<'a> {
     pub format: &'a str,
     /// File that the scenario is saved in.
     pub file: Option<&'a str>,
-    /// SHA-256 of what stands there.
+    /// SHA-256 of the file on disk.
     pub disk: Option<&'a str>,
 }

@@ -1,4 +1,4 @@
-//! What is edited: a scenario as it was opened, what a question makes of it, how much work that may be, and what came last.
+//! Subject of an editor: the scenario as it was opened, its change by a question, the limit on work, and the latest answer.
 
 use crate::protocol::{Edit, Refusal};
 use crate::refusal::{about, at, of_edit, of_scenario, plain};
@@ -77,7 +77,7 @@ pub struct Latest {
     pub plan: Option<Arc<Plan>>,
     /// The proof of it.
     pub certificate: Option<Arc<Certificate>>,
-    /// The first line of what came of it.
+    /// The first line of its result.
     pub headline: String,
 }
 
@@ -97,7 +97,7 @@ impl Subject {
         self.latest.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Remembers what came of a question, where that is wanted.
+    /// Remembers the result of a question, where that is enabled.
     pub fn remember(&self, news: impl FnOnce() -> Latest) {
         if self.remembers {
             *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(news());
@@ -201,7 +201,7 @@ pub fn may_name_its_files(subject: &Subject, scenario: &Scenario) -> Result<(), 
 /// Arms that are kept.
 const KEPT: usize = 4;
 
-/// Arms by what decides them.
+/// Arms by the data that decide them.
 #[derive(Debug, Default)]
 pub struct Arms {
     kept: Mutex<Vec<Loaded>>,
@@ -210,7 +210,7 @@ pub struct Arms {
 /// An arm, and an id of its description.
 #[derive(Debug, Clone)]
 pub struct Loaded {
-    /// The id: another one wherever another arm may come of it.
+    /// The id: it differs wherever the arm may differ.
     pub id: String,
     /// The arm.
     pub arm: Arc<RobotModel>,
@@ -253,13 +253,13 @@ fn written(path: &Path) -> Option<(SystemTime, u64)> {
     Some((file.modified().ok()?, file.len()))
 }
 
-/// A job, and what its scenario says beside it.
+/// A job, and the further statements of its scenario.
 pub struct Placed {
     /// The scenario.
     pub scenario: Scenario,
     /// The arm.
     pub loaded: Loaded,
-    /// The plates, and what is to be said about them.
+    /// The plates, and the findings on them.
     pub layout: Layout,
     /// The job.
     pub job: WashJob,

@@ -71,7 +71,7 @@ impl ScenarioError {
         Self::new(source_name, line, Problem::Syntax { detail })
     }
 
-    /// The key that it is about: a path of the table of keys or a section, where a file is at fault, or whatever a file states in
+    /// The key at fault: a path of the table of keys or a section, where a file is at fault, or the name that a file states in
     /// place of one; of keys that contradict each other, the first.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
@@ -86,7 +86,7 @@ impl ScenarioError {
 }
 
 impl Problem {
-    /// As [`ScenarioError::key`].
+    /// The key at fault, as [`ScenarioError::key`].
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         match self {
@@ -147,7 +147,7 @@ fn guess(nearest: Option<&str>) -> String {
 pub struct BodyError {
     /// List that it belongs to.
     pub section: BodySection,
-    /// Which of the sections, from 0.
+    /// Index of the section, from 0.
     pub index: usize,
     /// Its name.
     pub name: String,
@@ -186,7 +186,7 @@ impl BodySection {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum BodyFault {
-    /// Its mesh cannot be read: why, with the file.
+    /// Its mesh cannot be read; the error names the file and the reason.
     Mesh(MeshError),
     /// Its mesh is no body.
     Solid {

@@ -1,6 +1,7 @@
-//! Why a scenario could not be carried out, in the scenario's own keys.
+//! Failures of a scenario, in the scenario's own keys.
 //!
-//! Whoever plans, proves or simulates knows no keys: the errors name things of the domain. Here each gets the keys that decide it.
+//! Planner, prover and simulator know no keys: their errors name things of the domain. Here each error gets the keys that decide
+//! it.
 
 use crate::error::{BodyError, ScenarioError};
 use crate::resolve::arm::ArmError;

@@ -2,8 +2,8 @@
 //!
 //! The cause points to keys; each is tried by itself, up and down as the cause has it, by planning the changed job whole and proving the plan.
 //! A change is so many steps of the key's own grid: 1, 2, 4, 8, 16 and so on, until the plan is proved, then halved down to the least with which
-//! it is: at most [`MOST_TRIALS`] jobs a key and direction, in as many threads as there are. The search ends after a time that the caller
-//! states: what was not tried until then is named.
+//! it is: at most [`MOST_TRIALS`] jobs per key and direction, in as many threads as there are. The search ends after a time that
+//! the caller states: keys that were not tried until then are named.
 
 use crate::failure::home_key;
 use crate::scenario::Scenario;
@@ -66,7 +66,7 @@ pub struct Remedies {
 }
 
 impl fmt::Display for Remedies {
-    /// Nothing where nothing was tried.
+    /// Writes nothing where nothing was tried.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const FEW: usize = 3;
         let few = |is_proved: bool| {
@@ -111,7 +111,7 @@ struct Grid {
     key: &'static str,
     /// A step up (above 0) or down, in the key's unit.
     steps: &'static [f64],
-    /// Its value, where it decides anything.
+    /// Its value, where it has an effect.
     get: fn(&Scenario) -> Option<f64>,
     set: fn(&mut Scenario, f64),
 }

@@ -18,7 +18,7 @@ use platewash_workcell::job::MAX_SEED;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// A job in full: what a scenario file states, with defaults filled in. Ranges are checked by
+/// A job in full: all values of a scenario file, with defaults filled in. Ranges are checked by
 /// [`Scenario::parse`] and [`Scenario::validate`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -60,7 +60,7 @@ pub struct Scenario {
     pub control: ControlSection,
     /// The arm as a physical system.
     pub plant: PlantSection,
-    /// No part of what is stated: meshes that were cut before, for scenarios that name the same.
+    /// Cache of meshes that were cut before, for scenarios that name the same; it is no part of the file.
     #[serde(skip)]
     pub solids: Solids,
     /// No part of it either: where the files that it names come from.
@@ -135,7 +135,7 @@ mod tests {
     }
 }
 
-/// Refuses a seed above [`MAX_SEED`], by the name of whatever states it.
+/// Refuses a seed above [`MAX_SEED`], by the name of the key that states it.
 ///
 /// # Errors
 /// [`Problem::Value`].

@@ -1,4 +1,5 @@
-//! What suits the arm and the tool of a scenario: a home, where plates like its own are washed, and pairs of links that need no check.
+//! Suggestions for the arm and the tool of a scenario: a home, a region in which plates like its own are washed, and pairs of
+//! links that need no check.
 
 use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
@@ -52,7 +53,7 @@ impl Scenario {
             None => place_in_front(arm, &self.tool_on(arm)?, &alone.robot.mount()),
         };
         let layout = &mut alone.layout;
-        // One that stands at an angle stays where it is said to be.
+        // A plate that stands at an angle stays at its stated place.
         alone.plate.truncate(1);
         for obstacle in &mut alone.obstacle {
             let holds = obstacle.held(1).contains(&0);

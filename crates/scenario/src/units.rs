@@ -11,7 +11,7 @@ use std::fmt;
 /// An arm that reaches farther than this is described in millimetres \[m\]: six axes reach some five metres.
 const LONGEST_REACH_M: f64 = 20.0;
 
-/// Significant digits of what is suggested.
+/// Significant digits of suggested values.
 const DIGITS: usize = 4;
 
 /// Notice to the user about a scenario or an arm that is accepted.
@@ -26,7 +26,7 @@ pub enum Note {
         key: &'static str,
         /// Values stated \[deg\].
         found_deg: [f64; AXES],
-        /// It in degrees, if radians were meant \[deg\].
+        /// The values in degrees, if radians were intended \[deg\].
         meant_deg: [f64; AXES],
     },
     /// A certified job without a home: one is looked for.

@@ -1,4 +1,4 @@
-//! What a text becomes where a key gets a value, or loses it.
+//! Change of a text where a key gets a value, or loses it.
 
 use crate::draft::{EditError, Target, elements};
 use crate::keys::KEYS;
@@ -36,7 +36,7 @@ pub(crate) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Resu
     let change = || {
         let document = Document::parse(plain.as_str()).map_err(|_| Stop::Unplaced)?;
         let mut document = document.into_mut();
-        // What is not printed as it stands, such as dotted keys of two sections that take turns, would be moved.
+        // Text that is not printed as it stands, such as dotted keys of two sections that take turns, would be moved.
         if document.to_string() != plain {
             return Err(Stop::Unplaced);
         }
@@ -193,7 +193,7 @@ fn has_keys(document: &DocumentMut) -> bool {
     document.iter().any(|(_, item)| is_key(item))
 }
 
-/// Takes what stands at the beginning of a text without keys: the comments up to the last blank line before the first section.
+/// Takes the head of a text without keys: the comments up to the last blank line before the first section.
 fn take_head(document: &mut DocumentMut) -> String {
     let tables = tables_of(document.as_table_mut()).into_iter();
     if let Some(first) = tables.min_by_key(|table| table.position()) {
@@ -291,7 +291,7 @@ fn keep_lead(document: &mut DocumentMut, target: &Target, lead: &str) {
     }
 }
 
-/// All tables with a header.
+/// Returns all tables with a header.
 fn tables_of(table: &mut Table) -> Vec<&mut Table> {
     let mut all = Vec::new();
     for (_, item) in table.iter_mut() {
@@ -363,7 +363,7 @@ pub(crate) fn parsed(text: &str) -> Result<Value, Stop> {
     text.parse().map_err(|_| Stop::Unplaced)
 }
 
-/// A value's text without what stands around it.
+/// A value's text without the text around it.
 fn bare(value: &Value) -> String {
     let mut bare = value.clone();
     bare.decor_mut().clear();

@@ -1,6 +1,6 @@
-//! Elements of lists that change, come and go; what stays keeps its layout and its comments.
+//! Elements of lists that change, come and go; the other elements keep their layout and their comments.
 //!
-//! `toml_edit` keeps what stands between two elements, a comment behind the comma too, before the second one.
+//! `toml_edit` keeps the text between two elements, also a comment behind the comma, before the second one.
 
 use crate::draft::change::{Stop, json, merge as merge_value, parsed, same, text_of};
 use crate::keys::value::on_one_line;

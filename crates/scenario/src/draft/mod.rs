@@ -231,7 +231,7 @@ pub enum EditError {
         /// The most that are read \[bytes\].
         limit: u64,
     },
-    /// The changed text would not state what it should.
+    /// The changed text would not state the new value.
     #[error("{key} cannot be changed without changing something else; change it by hand")]
     Unplaced {
         /// The key.

@@ -1,6 +1,6 @@
 //! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
 //!
-//! The table of keys as data, for whoever draws a form of it.
+//! The table of keys as data, for programs that draw a form of it.
 
 use crate::keys::key::{Domain, Key};
 use crate::keys::value::{on_one_line, values_of};
@@ -81,7 +81,7 @@ pub struct FormKey {
     pub expected: String,
     /// Meaning of the key.
     pub meaning: &'static str,
-    /// Its value where a file states none; `None` where there is none then.
+    /// Its value where a file states none; `None` where it has no default.
     pub default: Option<Value>,
 }
 

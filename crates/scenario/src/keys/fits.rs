@@ -1,10 +1,10 @@
-//! Whether a value lies in a key's domain, and what is said where it does not: the same of files and of edits.
+//! Check that a value lies in a key's domain, and the message where it does not: the same for files and for edits.
 //!
 //! Keys that do not exist.
 //!
-//! The word that was probably meant.
+//! The word that was probably intended.
 //!
-//! What is checked of sections that a file states several times.
+//! Checks of sections that a file states several times.
 //!
 //! Lines of a text by their numbers, and where a text states a key.
 
@@ -185,7 +185,7 @@ pub(crate) fn hint(
 /// Fault of a value, and its byte in the text.
 pub(crate) type Misfit = (usize, Problem);
 
-/// Checks what a file states for a list.
+/// Checks a list of a file.
 pub(crate) fn check_list(list: &List, value: &toml::Spanned<DeValue<'_>>) -> Result<(), Misfit> {
     let misfit = |found: String| {
         let problem = Problem::Value {

@@ -61,7 +61,7 @@ pub struct List {
     pub name: &'static str,
     /// Greatest number of sections.
     pub most: usize,
-    /// Its keys, by their paths: those of the second one are told as `name[1].key`.
+    /// Its keys, by their paths: messages name those of the second section `name[1].key`.
     pub keys: &'static [Key],
 }
 

@@ -39,10 +39,10 @@ pub enum ArmError {
     },
 }
 
-/// The arm that the section asks for, out of files of the disk or of what was read before.
+/// The arm of the section, from files on disk or from files read before.
 ///
 /// # Errors
-/// [`ArmError`] with the file and what is wrong in it.
+/// [`ArmError`] with the file and its error.
 pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
         (Some(urdf), _) => load_description(urdf, section.srdf.as_deref(), &section.package_path, files),
@@ -54,7 +54,7 @@ pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, Arm
 /// in `package_path`, the others in the folder of the URDF.
 ///
 /// # Errors
-/// [`ArmError`] with the file and what is wrong in it.
+/// [`ArmError`] with the file and its error.
 pub fn load_description(
     urdf: &Path,
     srdf: Option<&Path>,

@@ -1,4 +1,4 @@
-//! What `[wash]` asks of the contact of sponge and plate, with its defaults, and keys of it that contradict each other.
+//! Requirements of `[wash]` on the contact of sponge and plate, with their defaults, and keys of it that contradict each other.
 
 use crate::error::{Problem, conflict};
 use crate::scenario::Scenario;
@@ -108,7 +108,7 @@ impl Scenario {
         Ok(())
     }
 
-    /// Refuses a promise that no plan can keep, whatever it does.
+    /// Refuses a promise that no plan can keep.
     ///
     /// The tip washes on the face, so that the column at the sponge's axis is compressed by c + δ cos τ with the plate at its highest. Nowhere
     /// is the sponge pressed by more than its greatest strain, and its force is then E π s² times that at most. With the plate at its lowest
@@ -321,7 +321,7 @@ mod tests {
             "wash.tilt_deg = 15",
             "wash.pattern = \"rings\"\nwash.turns = 99\nwash.path_radius_m = 0.1\nwash.closing_ring = true",
             "wash.pattern = \"spiral\"\nwash.closing_ring = false\nwash.turns = 2.5",
-            // The paper's program takes what it does not use.
+            // The paper's program accepts keys that it does not use.
             "job.program = \"paper\"\nwash.pattern = \"rings\"\nwash.turns = 2.5",
         ] {
             assert!(parsed(lines).is_ok(), "{lines}");

@@ -1,6 +1,6 @@
 //! From the `[layout]` section to plates.
 //!
-//! The plates that a scenario states one by one or kind by kind: how many of which shape, and what is checked of them.
+//! The plates that a scenario states one by one or kind by kind: their numbers and shapes, and their checks.
 
 use crate::error::{Problem, conflict};
 use crate::failure::Failure;
@@ -323,7 +323,7 @@ impl ShapeKeys {
         }
     }
 
-    /// The same problem with the keys as they are called here.
+    /// The same problem with the names of the keys here.
     fn of_problem(self, problem: Problem) -> Problem {
         match problem {
             Problem::Conflict { keys, detail } => Problem::Conflict {

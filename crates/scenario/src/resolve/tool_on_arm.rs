@@ -28,7 +28,7 @@ impl Scenario {
         for (index, section) in self.tool_body.iter().enumerate() {
             shapes.push(section_shape(index, section)?);
         }
-        // What a mesh weighs and fills is known once its file is read.
+        // The weight and volume of a mesh are known once its file is read.
         let shapes: Option<Vec<_>> = shapes.into_iter().map(BodyOf::convex).collect();
         let Some(shapes) = shapes else {
             return Ok(());
