@@ -1,9 +1,8 @@
 //! The live cell: a scenario that a user changes on a page, planned and proved at once.
 //!
-//! The page holds the scenario, as the text of its file; an [`Editor`] answers its questions, each of which carries all that its answer
-//! needs. An answer is lines of JSON that are sent as they are known: the scenario, the parts of the cell, an outlook, the plan,
-//! its proof.
-//! `crates/viewer/page/src/edit/protocol.ts` states the same words for the page.
+//! The page holds the scenario, as the text of its file; an [`Editor`] answers its questions, each of which carries all that its
+//! answer needs. An answer is lines of JSON that are sent as they are known: the scenario, the parts of the cell, an outlook, the
+//! plan, its proof. `crates/viewer/page/src/edit/protocol.ts` states the same words for the page.
 //!
 //! | concept | file |
 //! | --- | --- |

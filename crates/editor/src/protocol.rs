@@ -70,7 +70,7 @@ pub struct SaveQuestion {
     pub text: String,
     /// SHA-256 of the file on disk, as the page knows it; `None` where there is none.
     pub disk: Option<String>,
-    /// True to overwrite the file on disk, whatever it holds.
+    /// True to overwrite the file on disk without a check of its contents.
     pub force: bool,
 }
 

@@ -4,8 +4,8 @@
 //!
 //! At a corner between segments of the speeds v₀ and v₁ the joints are assumed to accelerate evenly, for as long before the point as after
 //! it: a parabola that leaves the straight segments where the corner begins and meets them again where it ends. A corner begins no farther
-//! from the point than its radius, nor than half-way to either neighbour, measured at the tip. How large a controller really makes it is not
-//! known: programs are judged with no corners, and with corners of half, once and twice their size.
+//! from the point than its radius, nor than half-way to either neighbour, measured at the tip. The true size on a controller is
+//! not known: programs are judged with no corners, and with corners of half, once and twice their size.
 
 use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
@@ -45,8 +45,8 @@ pub struct Case {
 /// Demands of a motion on the controller, which times it: measured, not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Asked {
-    /// The greatest acceleration of a joint at each corner, as a share of what the plan's job allows: the median of all corners. `None`
-    /// where there are none.
+    /// The greatest acceleration of a joint at each corner, as a share of the limit of the plan's job: the median of all corners.
+    /// `None` where there are none.
     pub acceleration_median: Option<f64>,
     /// The greatest of all; `None` where the motion has neither corners nor curves.
     pub acceleration_most: Option<f64>,

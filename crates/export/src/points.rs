@@ -2,8 +2,8 @@
 //!
 //! Between two points a program moves evenly in the joints. Over a step h the tip then leaves the plan by about h²/8 · ‖J q̈‖ (the rest of
 //! the tip's acceleration comes from the arm's own curvature, which both have), so that points are spread with the density
-//! √(‖J q̈‖ / 8 tol). What that leads to is measured on the interpreted motion, corners and all, and points are packed more closely where it
-//! is too far away.
+//! √(‖J q̈‖ / 8 tol). The resulting deviation is measured on the interpreted motion, corners and all, and points are packed more
+//! closely where it is too large.
 
 use crate::dialect::{Point, Points};
 use crate::judged::{Passed, rounded_motions};

@@ -85,7 +85,7 @@ impl From<TrackingError> for PaperError {
 }
 
 impl PaperError {
-    /// Returns how firmly it is known that the plates have no room: proved, or only none found; `None` for bad input.
+    /// Returns the verdict on plates without room: proved infeasible, or no room found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {

@@ -185,7 +185,7 @@ impl PlanError {
         self.infeasibility().is_some()
     }
 
-    /// Returns how firmly the job is known to be infeasible: proved, or only no way found; `None` for bad input.
+    /// Returns the verdict on a job without a plan: proved infeasible, or no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         let found = |proved| Some(Infeasibility::proved_if(proved));

@@ -17,7 +17,7 @@ pub struct TravelTimes {
     pub back: Vec<f64>,
 }
 
-/// Degree to which an order is known to be the best.
+/// Proof level of an order: the best of all, or only a local optimum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Optimality {

@@ -75,7 +75,7 @@ pub struct TourSummary {
     pub travel_s: f64,
     /// The same estimate for an order that always takes the plate reached soonest \[s\].
     pub nearest_next_s: f64,
-    /// Degree to which the order is known to be the best under that estimate.
+    /// Proof level of the order under that estimate.
     pub optimality: Option<Optimality>,
 }
 

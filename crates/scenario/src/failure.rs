@@ -55,7 +55,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Returns how firmly the job is known to be infeasible: proved, or only no way found; `None` for bad input.
+    /// Returns the verdict on a job without a plan: proved infeasible, or no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {

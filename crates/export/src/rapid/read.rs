@@ -1,8 +1,9 @@
 //! Motion of a program: its procedures from `main` on, and each motion as a point in time.
 //!
-//! Read are the programs that [`super::write`] makes, and what people add to them: motions with `MoveAbsJ`, waits, speeds, zones, messages,
-//! outputs and comments. The checks before the first motion are read as they are written, token by token. Everything else is refused with
-//! its line: loops, conditions, jumps, assignments, functions, and motions that the controller times or plans by itself.
+//! It reads the programs that [`super::write`] makes, and usual additions by hand: motions with `MoveAbsJ`, waits, speeds, zones,
+//! messages, outputs and comments. The checks before the first motion are read as they are written, token by token. Everything
+//! else is refused with its line: loops, conditions, jumps, assignments, functions, and motions that the controller times or
+//! plans by itself.
 //!
 //! Numbers are IEEE singles, as on the controller.
 

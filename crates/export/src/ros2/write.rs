@@ -90,7 +90,7 @@ fn key(name: &str, language: Language) -> String {
     }
 }
 
-/// `key: value`, where the value begins with what stands between.
+/// Writes `key: value`, where the value begins with the text between.
 fn field(name: &str, value: &str, language: Language, indent: &str) -> String {
     let more = if language == Language::Json { "  " } else { "" };
     format!("{more}{indent}{}{value}", key(name, language))

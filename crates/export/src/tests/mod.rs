@@ -404,7 +404,7 @@ fn a_program_of_another_plan_is_refused_by_its_hash() {
     );
 }
 
-/// A tolerance that somebody widened in the head is the one that is told.
+/// A tolerance that was widened in the head is the one that the program is judged by.
 #[test]
 fn a_setting_that_was_changed_is_what_is_judged_by() {
     let found = compared(|text| text.replace("tolerance_m = 0.0002", "tolerance_m = 0.001")).unwrap();
@@ -415,7 +415,7 @@ fn a_setting_that_was_changed_is_what_is_judged_by() {
     assert!(matches!(refused, Err(CompareError::Setting { .. })), "{refused:?}");
 }
 
-/// A program is not judged for what its plan promises of contact, and says so; where nothing is promised there is nothing to say.
+/// The text of a program names the promises about contact for which it is not judged; without promises it says nothing.
 #[test]
 fn what_is_not_judged_of_contact_is_told() {
     let job = &kitchen().plan().job;

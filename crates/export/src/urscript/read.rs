@@ -1,8 +1,8 @@
 //! Motion of a program: its lines from the first on, each of which a [`Controller`] carries out.
 //!
-//! Read are the programs that [`super::write`] makes, and what people add to them: motions with `servoj`, messages, outputs and comments.
-//! The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions, threads, functions
-//! with parameters, and computed values.
+//! It reads the programs that [`super::write`] makes, and usual additions by hand: motions with `servoj`, messages, outputs and
+//! comments. The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions,
+//! threads, functions with parameters, and computed values.
 
 use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
 use crate::reading::{self, Reading, Token};

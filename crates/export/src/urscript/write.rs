@@ -1,6 +1,6 @@
 //! A program's text.
 //!
-//! The first line is the program's `def`, and the header stands inside: what reaches the controller by a socket is taken from the first
+//! The first line is the program's `def`, and the header stands inside: a controller takes text from a socket from the first
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
 use crate::dialect::{Point, Program, START_WITHIN_DEG};

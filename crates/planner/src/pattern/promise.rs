@@ -40,7 +40,7 @@ const OFF_FACE_M: f64 = 1e-5;
 /// A compression that every place has \[m\].
 const ANY_M: f64 = -1e3;
 
-/// Margins by which an estimate must exceed the promise: it looks at some places and moments only, and is no bound.
+/// Margins by which an estimate must exceed the promise: it samples some places and moments only, and is no bound.
 #[derive(Debug, Clone, Copy)]
 pub struct Margin {
     /// Factor on time and dose.

@@ -248,8 +248,8 @@ const MOST_LAYOUTS: usize = 200;
 /// Draws layouts until every plate of one can be washed whole under `terms`, whose own plates are ignored.
 ///
 /// # Errors
-/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and whatever [`check`](crate::check)
-/// refuses.
+/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and the errors of
+/// [`check`](crate::check).
 pub fn draw_washable_layout(
     arm: &Arc<RobotModel>,
     terms: &JobTerms,

@@ -124,7 +124,7 @@ impl Pipeline<'_> {
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
         let mut offered = patterns.first().iter().copied().chain(patterns.wider());
         let mut denser = patterns.denser();
-        // Whether the one found lacks a little margin, once that is asked.
+        // True where the washing found lacks a little of the margin, once that is checked.
         let mut lacks = None;
         loop {
             let Some(pattern) = offered.next().or_else(|| {

@@ -10,14 +10,14 @@
 //!
 //! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
 //! ([`Scene::tip_pose`](crate::scene::Scene::tip_pose)). Of the two directions in which the tool can tilt, the one in the arm's
-//! own plane is the useful one, but for what stands beside the arm.
+//! own plane is the useful one, except for obstacles beside the arm.
 //!
 //! # Method
 //!
 //! 1. `TiltPolicy` (`scene/stance.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
 //!    points.
-//! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that will do, smoothed
-//!    (`tilt_spline`) as far as it stays within what will do.
+//! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that is possible, smoothed
+//!    (`tilt_spline`) as far as it stays possible.
 //!
 //! Before the second, a check of a few points of the last turn (`blocked`) shows if it can find anything at all.
 //!

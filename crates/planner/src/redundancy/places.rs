@@ -124,10 +124,10 @@ const FURTHER_M: [f64; 7] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 9e-3, 17e-3];
 pub const MOST_CHECKS: usize = 32;
 
 /// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
-/// overlaps neither another plate nor the base, and `holds` agrees; `None` within [`SEARCHED_M`] of where it lies. Tried in 24
-/// directions on growing rings, halved towards where it lies, put on the grid, and stepped further out until the place on the
-/// grid itself passes: right to about a tenth of its distance. `holds` is asked [`MOST_CHECKS`] times at most; `tell` hears of
-/// each ring before it is tried, from 1 to [`RINGS`].
+/// overlaps neither another plate nor the base, and `holds` agrees; `None` if there is none within [`SEARCHED_M`] of the plate's
+/// own place. Places are tried in 24 directions on growing rings, halved towards the plate's own place, put on the grid, and
+/// stepped further out until the place on the grid itself passes: right to about a tenth of its distance. `holds` is called
+/// [`MOST_CHECKS`] times at most; `tell` gets each ring before it is tried, from 1 to [`RINGS`].
 ///
 /// # Errors
 /// [`RedundancyError`] for numbers out of range, or where the search was given up.

@@ -1,16 +1,16 @@
 //! Plates that cannot be washed, known from a few contact points before any search.
 //!
-//! A search along a wash path fails where some contact point has no configuration at all, whatever the branch and the points
-//! before it. The points farthest from the plate's centre are the likeliest: the farthest from axis 1 may be out of reach, the
-//! nearest too close to the base. So the last turn is checked, on every branch and at every tilt that the search would try.
+//! A search along a wash path fails where some contact point has no configuration at all, on any branch and after any points. The
+//! points farthest from the plate's centre are the likeliest: the farthest from axis 1 may be out of reach, the nearest too close
+//! to the base. So the last turn is checked, on every branch and at every tilt that the search would try.
 //!
 //! Dead ends: the obstructions where a search finds nothing.
 //!
 //! Exhaustive check of a contact point: every branch, every tilt, in every direction.
 //!
 //! It judges the planner: where it finds nothing, a failure is the arm's. It takes no short cut that the planner
-//! takes: tilts out of the arm's plane are tried too, and neighbouring points are not looked at. Yaw about the tool's
-//! axis is left out where it changes nothing but joint 6: with the tool along axis 6.
+//! takes: tilts out of the arm's plane are tried too, and neighbouring points are not used. Yaw about the tool's axis is left out
+//! where it changes nothing but joint 6: with the tool along axis 6.
 
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Stop, Task, check_step};
@@ -76,7 +76,7 @@ pub(crate) fn blocked(task: &Task<'_>, graph: &Graph) -> Result<Option<Redundanc
     }))
 }
 
-/// The layers to look at; none where not every branch of the arm is known.
+/// Returns the layers to check; none where not every branch of the arm is known.
 fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
     if !task.scene.inverse.knows_all_branches() {
         return Vec::new();

@@ -2,9 +2,9 @@
 //!
 //! Leaning across the arm's plane, away from obstacles beside the arm.
 //!
-//! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along whatever stands beside them. Where that is in the
-//! way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay within the
-//! path's cone.
+//! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along obstacles beside them. Where these are
+//! in the way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay
+//! within the path's cone.
 
 use crate::redundancy::samples::{TiltSpline, smoothed};
 use crate::redundancy::search::{Graph, GraphPath};

@@ -1,6 +1,6 @@
 //! The knots on the path: where they are, and how the joints and the tip move there with the path's parameter.
 //!
-//! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 whatever u is.
+//! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 for any u.
 //!
 //! How the tip moves when the joints do, and bounds on how fast that changes.
 //!

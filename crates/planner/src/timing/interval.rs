@@ -1,4 +1,4 @@
-//! What the limits say about one interval between two knots, as constraints on x = ṡ² at its ends.
+//! Limits on one interval between two knots, as constraints on x = ṡ² at its ends.
 //!
 //! Between knots the motion is the cubic Hermite piece of the promised trajectory, not the path itself. With σ = √x,
 //! duration `h = 2 Δ / (σ₀ + σ₁)` (s̈ constant), `d = (q₁ − q₀)/Δ` and slopes `q′`, its accelerations at the ends are
@@ -8,8 +8,8 @@
 //!
 //! `σ₀ σ₁ = (x₀ + x₁)/2 − (σ₁ − σ₀)²/2`; without the last term, which is of second order in h, both are linear in
 //! (x₀, x₁). As a piece's acceleration is a line in time, its ends are all that counts. So a joint's limit is a pair of
-//! strips `|α x₀ + β x₁| ≤ 1`, and the tip's is the same with vectors. What the dropped term adds is found when the
-//! motion is checked, and then taken off the interval's limits ([`Interval::tighten_joints`]).
+//! strips `|α x₀ + β x₁| ≤ 1`, and the tip's is the same with vectors. The effect of the dropped term is found when the motion is
+//! checked, and then taken off the interval's limits ([`Interval::tighten_joints`]).
 //!
 //! The linear program of one interval: the largest x₀ from which some x₁ within limits can be reached.
 //!

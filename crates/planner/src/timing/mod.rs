@@ -1,8 +1,8 @@
 //! Time-optimal timing along a path of the joints.
 //!
-//! [`time_optimal`] makes a [`JointPath`] a motion from rest to rest that is as fast as its limits allow. What is promised
-//! is the motion itself, cubic Hermite pieces between knots: their accelerations, not those of the path, are what the
-//! limits constrain, and no motion is returned that breaks a limit anywhere.
+//! [`time_optimal`] makes a [`JointPath`] a motion from rest to rest that is as fast as its limits allow. The limits hold for the
+//! motion itself, cubic Hermite pieces between knots: they constrain the accelerations of these, not those of the path, and no
+//! motion is returned that breaks a limit anywhere.
 //!
 //! | concept | file |
 //! | --- | --- |

@@ -2,7 +2,7 @@
 //!
 //! The arc round the base, as a path of the joints.
 //!
-//! A quintic from one state of the joints to another: C² where it joins what comes before and after.
+//! A quintic from one state of the joints to another: C² where it joins the pieces before and after.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
 use crate::scene::{Contact, Scene};

@@ -95,7 +95,7 @@ fn plan_among(set: &Set, free: Free<'_>, arc: Option<f64>) -> Result<Transit, Tr
     Ok(transit)
 }
 
-/// From rest to rest, within limits, and free at a hundred times more places than the planner looked at.
+/// Checks a transit: from rest to rest, within limits, and free at a hundred times more places than the planner checks.
 fn check(set: &Set, transit: &Transit, free: Free<'_>) {
     let motion = &transit.timed.motion;
     let (start, end) = (motion.at(0.0).unwrap(), motion.at(motion.duration_s()).unwrap());

@@ -76,7 +76,7 @@ impl LevelColumns {
         if least_m < 0.0 || most_m > DENSE_STRAIN * foam.free_height_m {
             return false;
         }
-        // A column stands no more than r from the tip as seen from above, and what it is longer leads aside by sin τ.
+        // A column stands no more than r from the tip as seen from above; the rest of its length leads aside by sin τ.
         let along_m = (self.compression_m - face.middle_m).abs() + face.steep_m;
         let reach_m = self.radius_m + along_m * face.pose.axis.xy().norm();
         let within_m = rim_within(face.rim_m, self.half_width_m) - reach_m;

@@ -1,12 +1,13 @@
 //! A sponge that plates push back.
 //!
-//! Of every column of the sponge's face ([`Columns`], turning with the tool) that a plate compresses by w, with a the tool's axis, n the
-//! normal and x the point where it meets the face, dA its cross-section and g the share of it that is on the plate,
+//! The sums are over every column of the sponge's face ([`Columns`], turning with the tool) that a plate compresses by w. With a
+//! the tool's axis, n the normal and x the point where the column meets the face, dA its cross-section and g the share of it that
+//! is on the plate,
 //!
 //! energy  g Ψ(w) dA,  force  g p(w) dA n/(−a·n) − Ψ(w) dA g′(ρ) (ρ̂ + n (ρ̂·a)/(−a·n)),
 //!
-//! the force at x: exactly what the energy loses with any motion of the tool ([`super::foam`] has Ψ and p). The second part is the rim's:
-//! g falls from 1 to 0 over the width of a column, and foam that bulges over the rim is pushed off it. Without friction.
+//! the force at x: exactly the loss of energy with any motion of the tool ([`super::foam`] has Ψ and p). The second part is the
+//! rim's: g falls from 1 to 0 over the width of a column, and foam that bulges over the rim is pushed off it. Without friction.
 //!
 //! The law is one of the sponge's face. Where the tool leans more than about 50° from a plate's axis its side would meet the plate; energy and
 //! force then fade, to nothing at about 65°, with the moment about the tip that goes with it. No plan comes there.

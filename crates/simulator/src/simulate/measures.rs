@@ -20,7 +20,7 @@ use serde::Serialize;
 pub struct JointEffort {
     /// |τ| \[N·m\].
     pub torque_n_m: Spread,
-    /// Largest |τ| as a share of the limit; `None` where none is known.
+    /// Largest |τ| as a share of the limit; `None` without a known limit.
     pub share_of_limit: Option<f64>,
     /// Work done by the motor, braking apart: Σ max(τ Δq, 0) \[J\].
     pub work_j: f64,

@@ -127,8 +127,8 @@ fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
 }
 
 impl Panel {
-    /// A diagram of lines that must stay between two numbers: a range with both in it and all lines, but for what is much greater than
-    /// nearly all of them.
+    /// A diagram of lines that must stay between two numbers. Its range has both numbers and all lines in it, except values much
+    /// greater than nearly all of them.
     fn new(name: &'static str, lines: Vec<(Vec<f64>, &'static str)>, limits: [f64; 2]) -> Self {
         let mut numbers: Vec<f64> = lines.iter().flat_map(|(line, _)| line.iter().copied()).collect();
         numbers.sort_by(f64::total_cmp);

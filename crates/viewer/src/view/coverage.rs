@@ -1,10 +1,9 @@
 //! Swept or pressed area of the plates: sampled for display, not the proof.
 //!
 //! Where a job states what counts as contact, and on every profile, a place counts as long as the foam presses it (`pressed.rs`).
-//! On a
-//! disc without such a job, a sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at that moment:
-//! tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
-//! ([`platewash_workcell::tool::Tool::touch`]).
+//! On a disc without such a job, a sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at
+//! that moment: tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as
+//! the sponge touches ([`platewash_workcell::tool::Tool::touch`]).
 
 use super::pressed::Counted;
 use super::raster::{Disc, Marks, Raster};

@@ -1,4 +1,4 @@
-//! Leaning away from what stands beside the arm.
+//! Leaning away from obstacles beside the arm.
 
 use crate::redundancy::tests::*;
 use crate::scene::Stance;

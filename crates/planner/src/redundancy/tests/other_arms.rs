@@ -1,4 +1,4 @@
-//! Arms of other makers: branches that are searched for, and what follows where none is found.
+//! Arms of other makers: branches that are searched for, and the conclusion where none is found.
 
 use crate::redundancy::tests::*;
 use platewash_kinematics::urdf::MeshSource;
