@@ -63,8 +63,8 @@ fn hash(certificate: &Certificate) -> String {
     serde_json_canonicalizer::to_vec(certificate).map_or_else(|_| "none".to_owned(), |text| sha256_hex(&text))
 }
 
-/// Describes the attitude of the base. A base that is not turned needs no further words; otherwise the controller must know the
-/// turn for its dynamics, and no program states it.
+/// Describes the attitude of the base: upright, or a quaternion. The controller must know a turn for its dynamics, and no program
+/// states it.
 fn attitude(mount: &Pose) -> String {
     if mount.rotation == UnitQuaternion::identity() {
         return "upright".to_owned();

@@ -51,7 +51,7 @@ pub struct VisitSummary {
     pub curve: WashCurve,
     /// Time on the plate \[s\].
     pub wash_s: f64,
-    /// Ratio of that time to the least time of the area, and the limit that binds.
+    /// Least time of the area, and the shares of that time at each limit.
     pub pace: Pace,
 }
 

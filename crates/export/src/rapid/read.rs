@@ -101,7 +101,7 @@ fn is_block(key: &str) -> bool {
     [CHECK_SHARE, CHECK_START, CHECK_JOINT].contains(&key)
 }
 
-/// Checks that the procedures that check the start are as they were written.
+/// Checks that the procedures with the checks before the motion are as they were exported.
 fn check_blocks(found: &Modules) -> Result<(), ReadError> {
     let written = modules(&[ProgramFile {
         name: "checks".to_owned(),

@@ -23,7 +23,7 @@ const INSETS: [f64; 6] = [0.95, 0.92, 0.85, 0.77, 0.7, 0.5];
 /// λ₀ and w₀ of blends \[rad\]: shorter ones are shorter ways, and on the IRB 120 longer times, as joints reach their accelerations.
 const BLEND: [f64; 2] = [2.0, 1.7];
 
-/// ℓ of the innermost ring, in what it has where rings lie evenly: farther out it lies nearer to the next ones.
+/// ℓ of the innermost ring, relative to that of evenly spaced rings: farther out it lies nearer to the next ones.
 const INNER: [f64; 3] = [1.0, 1.08, 1.17];
 
 /// Rings that are tried at most, where their number is not stated.

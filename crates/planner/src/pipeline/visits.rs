@@ -141,7 +141,7 @@ impl Pipeline<'_> {
             };
             match self.washing(scene, &path, near) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
-                // Places that the widest cone does not reach are reported.
+                // The last error is reported: that of the widest cone.
                 Err(error) => found = found.or(Err(error)),
                 Ok(washing) => {
                     let speed_m_s = pattern.speed_share * self.terms.wash_speed_m_s();

@@ -63,7 +63,7 @@ impl Task<'_> {
     }
 }
 
-/// Rule for lines: must they be clear, and was one refused because of it.
+/// Rule for the lines over the ends of a path, with a flag that is set once a line is refused because it is not clear.
 #[derive(Debug, Clone)]
 pub(crate) struct Lines {
     must_be_clear: bool,

@@ -43,7 +43,7 @@ pub(crate) struct Rounds<'a> {
     /// Ranges in which the parameter moves slowly.
     slow: Vec<Slow>,
     intervals: Vec<Interval>,
-    /// Factor by which the speed of each interval is lowered.
+    /// Divisor of the speed limit of each interval.
     slowed: Vec<f64>,
     /// Bounds on x = ṡ² at the knots.
     most: Vec<f64>,

@@ -41,7 +41,8 @@ impl LevelColumns {
         }
     }
 
-    /// Force of a flat face with a rim, in its plate's frame: along z, and at the rim off it. The tool is not level: cos τ > 0.
+    /// Wrench of a flat face with a rim, in its plate's frame: the force is along z, and at the rim off it. The tool is not level:
+    /// cos τ > 0.
     pub fn pressed(
         &self,
         foam: &Foam,

@@ -12,7 +12,7 @@ use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::PlanSegment;
 
-/// Greatest number of plates in one figure: with the planned motion, and with the executed one.
+/// Greatest number of plates in one figure: with the planned motion alone, and with the executed one besides.
 const MOST: [usize; 2] = [24, 12];
 
 /// Most plates whose executed maps stand below the planned ones.
