@@ -1,5 +1,5 @@
-//! From the scenario to the proof, a line a step: what there is, a guess, the plan and its proof, or why there is none, and where plates could
-//! lie.
+//! Work from the scenario to the proof, one line per step: the parts of the cell, an outlook, the plan and its proof, or the
+//! reason that there is none, and places at which plates could lie.
 
 use crate::moves::moves;
 use crate::protocol::{
@@ -22,7 +22,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::verdict::Verdict;
 use std::sync::Arc;
 
-/// What a map means.
+/// Meaning of a map, in words for the page.
 const MEANING: &str = "Where a plate of this size could lie, the others as they are: at the middle of each square it has room, and \
                        configurations were found for all of its wash path. Not planned, not proved.";
 
@@ -75,7 +75,7 @@ fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>) ->
     Ok(())
 }
 
-/// Tells what there is; `arm` is the id of the arm that the page has.
+/// Sends the parts of the cell; `arm` is the id of the arm that the page has.
 fn tell_parts(placed: &Placed, arm: Option<&str>, told: &mut Told<'_>) {
     let Placed {
         scenario,
@@ -116,7 +116,7 @@ fn tell_preview(placed: &Placed, told: &mut Told<'_>) -> Option<PlanError> {
     None
 }
 
-/// A plan, the proof of it, and the first line of what came of it.
+/// A plan, its proof, and the first line of the result.
 type Proved = (Option<Arc<Plan>>, Option<Arc<Certificate>>, String);
 
 /// Tells a plan, then its proof.
@@ -201,7 +201,7 @@ fn tell_unplanned(placed: &Placed, error: PlanError, is_wanted: bool, told: &mut
     Ok(report.headline)
 }
 
-/// Answers a question for a map: where a plate could be washed, told as it is found.
+/// Answers a question for a map: places at which a plate could be washed, sent as they are found.
 pub fn map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>, deadline: &Deadline) {
     let answered = told_map(subject, question, told);
     told.step("map");
@@ -242,7 +242,7 @@ fn told_map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>) -> R
     Ok(())
 }
 
-/// Why there is no plan, without another place for a plate: that is told behind it.
+/// Reason that there is no plan, without another place for a plate: that follows in a line of its own.
 fn reason(error: PlanError) -> String {
     match error {
         PlanError::Unwashable(plate) => plate.why().to_string(),

@@ -1,4 +1,4 @@
-//! An editor: who answers the page's questions, what the page is given to begin with, and the page's server.
+//! An editor: it answers the page's questions, makes the page's first contents, and serves the page.
 
 use crate::cell;
 use crate::keep::{Keeper, Kept, Standing};
@@ -21,14 +21,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Why there is nothing to edit.
+/// Reason that there is nothing to edit.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EditorError {
     /// The scenario cannot be read.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// It cannot be carried out so far that there is anything to show.
+    /// The scenario fails before there is anything to show.
     #[error(transparent)]
     Failure(#[from] platewash_scenario::Failure),
     /// The page cannot be made.
@@ -39,7 +39,7 @@ pub enum EditorError {
     Token(String),
 }
 
-/// A scenario that is edited. It holds no state of a page but what is under way: the page holds the scenario.
+/// A scenario that is edited. Its only state of a page is the work under way: the page holds the scenario.
 #[derive(Debug)]
 pub struct Editor {
     subject: Subject,
@@ -70,7 +70,7 @@ impl Editor {
         })
     }
 
-    /// The same, saved by a keeper. What stands on disk is read again for each page.
+    /// The same editor, saved by a keeper. The file on disk is read again for each page.
     #[must_use]
     pub fn kept_by(self, keeper: Box<dyn Keeper>) -> Self {
         Self {
@@ -79,14 +79,14 @@ impl Editor {
         }
     }
 
-    /// The same for pages that other machines can reach: they name no files but those that the scenario names.
+    /// The same editor for pages that other machines can reach: they may name no files except those that the scenario names.
     #[must_use]
     pub fn open_to_others(mut self) -> Self {
         self.subject.is_open_to_others = true;
         self
     }
 
-    /// The same, which remembers what came last.
+    /// The same editor, which remembers its latest answer.
     #[must_use]
     pub fn remembering(mut self) -> Self {
         self.subject.remembers = true;
@@ -99,7 +99,7 @@ impl Editor {
         &self.subject.name
     }
 
-    /// Where paths in the scenario begin.
+    /// Folder that relative paths in the scenario start from.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.subject.folder.as_deref()
@@ -111,7 +111,7 @@ impl Editor {
         &self.subject.text
     }
 
-    /// What came last, of an editor that is [`Editor::remembering`].
+    /// Latest answer of an editor that is [`Editor::remembering`].
     #[must_use]
     pub fn latest(&self) -> Option<Latest> {
         self.subject.latest()
@@ -132,7 +132,7 @@ impl Editor {
         Ok(page::html_with(&view, &edit, bundle)?)
     }
 
-    /// The arm at home: what is shown before the first answer.
+    /// The arm at home: the view before the first answer.
     fn view(&self, text: &str) -> Result<View, EditorError> {
         let subject = &self.subject;
         let scenario = stated(subject, text).ok();
@@ -147,8 +147,8 @@ impl Editor {
         Ok(view)
     }
 
-    /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it is known;
-    /// where that says that nobody listens any more, or `gone` is cancelled, the work is given up.
+    /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it
+    /// is known. The work stops where `tell` returns that nobody listens any more, or `gone` is cancelled.
     pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
         let mut told = Told::new(tell, gone);
         let answered = catch_unwind(AssertUnwindSafe(|| self.answer_told(path, question, &mut told, gone)));
@@ -195,7 +195,7 @@ impl Editor {
         Ok(())
     }
 
-    /// Saves a text, with what comes of it where it states a cell that is planned while somebody waits.
+    /// Saves a text, with the result of its scenario where that is small enough to plan while the user waits.
     fn save(
         &self,
         kept: &Kept,
@@ -233,13 +233,13 @@ fn read<'a, Q: Deserialize<'a>>(question: &'a [u8]) -> Result<Q, String> {
     serde_json::from_slice(question).map_err(|error| format!("the question is none: {error}"))
 }
 
-/// Where the page's questions go.
+/// Channel for the page's questions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Channel {
-    /// To the page's own address.
+    /// Questions go to the page's own address.
     Server,
-    /// To the window around it, by messages.
+    /// Questions go to the window around it, by messages.
     Frame,
 }
 
@@ -256,7 +256,7 @@ struct EditDocument<'a> {
 }
 
 impl<'a> EditDocument<'a> {
-    /// Of a scenario, and the file that it is saved in.
+    /// Document of a scenario, with the file that it is saved in.
     fn new(channel: Channel, text: &'a str, kept: Option<&Kept>) -> Self {
         let standing = kept.and_then(|kept| kept.standing().ok());
         Self {
@@ -282,7 +282,7 @@ struct Served {
     token: String,
 }
 
-/// The site of an editor: its page, made anew for each who opens it, and its answers. Whoever opens the page sees the scenario; who asks a
+/// The site of an editor: its page, made anew for each visitor, and its answers. Every visitor of the page sees the scenario; a
 /// question needs the token, which the page takes from its address ([`Service::token`]).
 ///
 /// # Errors
@@ -290,7 +290,7 @@ struct Served {
 pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
     let token = token().map_err(|error| EditorError::Token(error.to_string()))?;
     let served = Arc::new(Served { editor, bundle, token });
-    // Found out now, not when somebody looks at it.
+    // An error shows now, not at the first visit.
     served.page()?;
     let pages = served.clone();
     let page = Page::Made(Box::new(move || pages.page().map_err(Into::into)));
@@ -301,7 +301,7 @@ pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
 }
 
 impl Served {
-    /// The page of what stands on disk; of the scenario as it was opened where nothing does, or nothing that is one.
+    /// The page of the file on disk; of the scenario as it was opened, where there is no file or it is no scenario.
     fn page(&self) -> Result<String, EditorError> {
         let on_disk = self.editor.kept.as_ref().and_then(Kept::scenario);
         let text = on_disk.as_deref().unwrap_or(self.editor.text());

@@ -1,4 +1,4 @@
-//! The file on disk: what stands there, and what is written.
+//! The file on disk: its contents, and writing.
 
 use crate::protocol::{DiskLine, DiskQuestion, FORMAT, HelloLine, SaveLine, SaveQuestion};
 use crate::told::Told;
@@ -9,29 +9,29 @@ use std::fmt::Debug;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Who keeps the scenario's file and what is written beside it.
+/// Store of the scenario's file and of the files written beside it.
 pub trait Keeper: Debug + Send + Sync {
     /// The file, in words.
     fn file(&self) -> String;
 
-    /// Whether what stands there is the scenario that is edited, and no other one that is to be written over.
+    /// Returns true where the file on disk is the scenario that is edited, and no other one that would be overwritten.
     fn is_scenario(&self) -> bool;
 
-    /// What stands there: `None` for nothing.
+    /// Reads the file on disk: `None` where there is none.
     ///
     /// # Errors
-    /// Why it cannot be read, in words.
+    /// The reason that it cannot be read, in words.
     fn on_disk(&self) -> Result<Option<Vec<u8>>, String>;
 
-    /// Writes a scenario's text there, and beside it what comes of the scenario: all of it or nothing. `still` is asked once all is ready,
-    /// just before anything is replaced; where it says no, nothing is.
+    /// Writes a scenario's text there, and the results of the scenario beside it: all of it or nothing. `still` is called once
+    /// all is ready, just before anything is replaced; where it returns false, nothing is replaced.
     ///
     /// # Errors
     /// [`NotWritten`].
     fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Written, NotWritten>;
 }
 
-/// What is to be written.
+/// Contents to write.
 #[derive(Debug, Clone, Copy)]
 pub struct Save<'a> {
     /// The text.
@@ -40,24 +40,24 @@ pub struct Save<'a> {
     pub scenario: Result<&'a Scenario, &'a str>,
 }
 
-/// Why nothing was written.
+/// Reason that nothing was written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotWritten {
-    /// What stands there has changed meanwhile.
+    /// The file on disk has changed meanwhile.
     #[error("the file was changed meanwhile")]
     Changed,
-    /// It cannot be, in words.
+    /// Writing is impossible, for the reason in words.
     #[error("{0}")]
     Cannot(String),
 }
 
-/// What was written.
+/// Result of writing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
     /// The files.
     pub files: Vec<String>,
-    /// What came of the scenario, in a line.
+    /// Result of the scenario, in one line.
     pub words: String,
 }
 
@@ -68,7 +68,7 @@ pub struct Kept {
     one_at_a_time: Mutex<()>,
 }
 
-/// What stands on disk.
+/// Contents of the file on disk.
 pub struct Standing {
     bytes: Option<Vec<u8>>,
 }
@@ -103,7 +103,7 @@ impl Kept {
         self.keeper.file()
     }
 
-    /// SHA-256 of what stands there; `None` for nothing, or what cannot be read.
+    /// SHA-256 of the file on disk; `None` where there is none, or it cannot be read.
     pub fn hash(&self) -> Option<String> {
         self.standing().ok()?.hash()
     }
@@ -114,7 +114,7 @@ impl Kept {
         standing?.into_text()
     }
 
-    /// What stands there.
+    /// Reads the file on disk.
     pub fn standing(&self) -> Result<Standing, String> {
         self.keeper.on_disk().map(|bytes| Standing { bytes })
     }
@@ -136,7 +136,7 @@ impl Kept {
         Ok(standing)
     }
 
-    /// Answers whether what stands there has changed.
+    /// Answers if the file on disk has changed.
     pub fn look(&self, question: &DiskQuestion, told: &mut Told<'_>) {
         let standing = match self.settled(question.disk.as_deref()) {
             Ok(standing) => standing,
@@ -174,7 +174,7 @@ impl Kept {
             Err(words) => return told.failed(&words),
         };
         let hash = standing.hash();
-        // What is there already needs no asking.
+        // A text that is there already needs no check.
         let is_same = standing.text() == Some(&question.text);
         if !question.force && hash != question.disk && !is_same {
             return told_conflict(&standing, told);

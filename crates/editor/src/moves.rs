@@ -1,9 +1,9 @@
-//! What hands may move on the page, and the keys that say where it is.
+//! Things that a user can move on the page, and the keys that state their positions.
 
 use crate::protocol::{BodyMove, Moves, PlateMoves};
 use platewash_scenario::{BodyShape, HeldPlates, Scenario};
 
-/// How the things of a cell are moved.
+/// Lists the keys that move the things of a cell.
 pub fn moves(scenario: &Scenario) -> Moves {
     Moves {
         plates: plates(scenario),
@@ -25,7 +25,7 @@ fn plates(scenario: &Scenario) -> PlateMoves {
     }
 }
 
-/// In the order in which they stand around: floor, table, obstacles.
+/// Lists the bodies around the arm in their order: floor, table, obstacles.
 fn bodies(scenario: &Scenario) -> Vec<BodyMove> {
     let fixed = |words: &str| BodyMove {
         key: None,

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// The format of the words.
 pub const FORMAT: &str = "platewash-edit/1";
 
-/// What the scenario with some changes looks like, planned and proved.
+/// Question for the scenario with some changes, planned and proved.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellQuestion {
@@ -22,7 +22,7 @@ pub struct CellQuestion {
     pub text: String,
     /// Changes to it, in order.
     pub edits: Vec<Edit>,
-    /// How far to go.
+    /// Last stage of the work.
     pub want: Want,
     /// Id of the arm that the page has.
     pub arm: Option<String>,
@@ -38,17 +38,17 @@ pub struct Edit {
     pub value: Option<Value>,
 }
 
-/// How far to go.
+/// Last stage of the work for a question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Want {
-    /// To the guess.
+    /// Up to the outlook.
     Preview,
-    /// To the proof.
+    /// Up to the proof.
     Proof,
 }
 
-/// Where a plate could be washed, the others as they lie.
+/// Question for the places at which a plate could be washed, with the others in place.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MapQuestion {
@@ -60,7 +60,7 @@ pub struct MapQuestion {
     pub plate: usize,
 }
 
-/// To write the scenario, and what comes of it beside it.
+/// Request to write the scenario, and its results beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SaveQuestion {
@@ -68,19 +68,19 @@ pub struct SaveQuestion {
     pub session: String,
     /// The scenario.
     pub text: String,
-    /// SHA-256 of what the page takes to stand on disk; `None` for nothing.
+    /// SHA-256 of the file on disk, as the page knows it; `None` where there is none.
     pub disk: Option<String>,
-    /// Whether to write whatever stands there.
+    /// True to overwrite the file on disk without a check of its contents.
     pub force: bool,
 }
 
-/// Whether what stands on disk has changed.
+/// Question whether the file on disk has changed.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DiskQuestion {
     /// The page that asks.
     pub session: String,
-    /// SHA-256 of what the page takes to stand there.
+    /// SHA-256 of the file on disk, as the page knows it.
     pub disk: Option<String>,
 }
 
@@ -92,20 +92,20 @@ pub enum CellLine<'a> {
     Scenario {
         /// Its text, comments and order kept.
         text: &'a str,
-        /// What the text states.
+        /// Values that the text states.
         stated: &'a BTreeMap<String, Value>,
-        /// What counts, defaults filled in; empty where it is no scenario.
+        /// Values in effect, defaults filled in; empty where it is no scenario.
         values: &'a BTreeMap<String, Value>,
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
-    /// What there is before anything is planned.
+    /// Parts of the cell that are known before anything is planned.
     Cell(Box<CellParts<'a>>),
     /// A guess, plate by plate.
     Preview {
         /// The plates.
         plates: Vec<PlateChance>,
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
     /// Planned, not proved.
@@ -114,24 +114,24 @@ pub enum CellLine<'a> {
     Unplanned {
         /// The first line.
         headline: &'a str,
-        /// Why, in full.
+        /// Reason in full.
         reason: &'a str,
-        /// Whether it is known that there is none.
+        /// True where it is proved that there is none.
         proved: bool,
         /// The plates concerned.
         plates: &'a [Unwashable],
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
-    /// Where else a plate could lie.
+    /// Other place at which a plate could lie.
     Place {
         /// The plate.
         plate: usize,
         /// The nearest centre found \[m\].
         nearest_m: Option<[f64; 2]>,
-        /// How far was looked \[m\].
+        /// Greatest distance searched \[m\].
         searched_m: f64,
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
     /// The proof, behind the plan.
@@ -140,35 +140,35 @@ pub enum CellLine<'a> {
         certificate: &'a view::Certificate,
         /// Its first line.
         headline: &'a str,
-        /// What of each plate is proved to be swept.
+        /// Area of each plate that is proved to be swept.
         proved: Vec<PlateProof>,
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
 }
 
-/// The end of an answer before all is told; nothing follows.
+/// Early end of an answer; nothing follows.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum EndLine<'a> {
-    /// It is no scenario, or states no job, or not what is asked about.
+    /// The text is no scenario, or states no job, or not the subject of the question.
     Refused {
-        /// Why.
+        /// Reason of the refusal.
         #[serde(flatten)]
         refusal: &'a Refusal,
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
     /// A later question of the same page came.
     Superseded,
     /// Too much work, a file that cannot be written, or a fault of the program.
     Failed {
-        /// What is wrong.
+        /// Fault, in words.
         words: &'a str,
     },
 }
 
-/// Why a scenario is refused.
+/// Reason that a scenario is refused.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Refusal {
     /// In words.
@@ -179,10 +179,10 @@ pub struct Refusal {
     pub line: Option<usize>,
 }
 
-/// What there is before anything is planned.
+/// Parts of a cell that are known before anything is planned.
 #[derive(Debug, Serialize)]
 pub struct CellParts<'a> {
-    /// What it is about.
+    /// Heading of the page.
     pub heading: &'a view::Heading,
     /// The arm, where the page does not have it.
     pub arm: Option<ArmLine<'a>>,
@@ -190,7 +190,7 @@ pub struct CellParts<'a> {
     pub arm_id: &'a str,
     /// The tool.
     pub tool: &'a Option<Tool>,
-    /// What stands around.
+    /// Bodies around the arm.
     pub surroundings: &'a view::Surroundings,
     /// The plates.
     pub plates: &'a [view::Plate],
@@ -198,28 +198,28 @@ pub struct CellParts<'a> {
     pub centres_m: Vec<[f64; 2]>,
     /// Their radii \[m\].
     pub radius_m: Vec<f64>,
-    /// Whether the text lists the plates.
+    /// True where the text lists the plates.
     pub listed: bool,
-    /// How plates and what stands around are moved.
+    /// Keys that move the plates and the bodies around the arm.
     pub moves: Moves,
-    /// Where the arm is at home \[rad\].
+    /// Home configuration of the arm \[rad\].
     pub pose_rad: [f64; 6],
-    /// What is to be said about how plates lie.
+    /// Findings on the layout of the plates.
     pub findings: Vec<FindingLine>,
-    /// How long it took.
+    /// Time that it took.
     pub ms: Milliseconds,
 }
 
-/// How the things of a cell are moved.
+/// Keys that move the things of a cell.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Moves {
     /// Plates.
     pub plates: PlateMoves,
-    /// What stands around, body by body.
+    /// Bodies around the arm, one by one.
     pub bodies: Vec<BodyMove>,
 }
 
-/// What says where plates are.
+/// Part of the text that states the positions of plates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "by", rename_all = "snake_case")]
 pub enum PlateMoves {
@@ -227,26 +227,26 @@ pub enum PlateMoves {
     Positions,
     /// The `[[plate]]` sections.
     Sections {
-        /// Of each plate its section.
+        /// Index of the section of each plate.
         sections: Vec<usize>,
-        /// Of each section its place \[m\].
+        /// Position of each section's plates \[m\].
         at_m: Vec<[f64; 3]>,
     },
-    /// They are not moved.
+    /// The plates cannot be moved.
     Nothing {
-        /// Why.
+        /// Reason, in words.
         words: &'static str,
     },
 }
 
-/// What says where a body is that stands around.
+/// Key that states the position of a body around the arm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyMove {
     /// The key; none where it is not moved.
     pub key: Option<String>,
     /// Its value \[m\], x and y first.
     pub at_m: Vec<f64>,
-    /// Why it is not moved.
+    /// Reason that it cannot be moved.
     pub words: Option<String>,
     /// The plates that it holds, by their index, with which it goes; none where it holds every plate.
     pub holds: Option<Vec<usize>>,
@@ -261,7 +261,7 @@ pub struct ArmLine<'a> {
     pub arm: &'a view::Arm,
 }
 
-/// What is to be said about how plates lie.
+/// Finding on the layout of the plates.
 #[derive(Debug, Serialize)]
 pub struct FindingLine {
     /// In words.
@@ -270,25 +270,25 @@ pub struct FindingLine {
     pub plates: Vec<usize>,
 }
 
-/// A guess about a plate.
+/// Outlook for a plate.
 #[derive(Debug, Serialize)]
 pub struct PlateChance {
     /// The plate.
     pub plate: usize,
-    /// The guess.
+    /// The chance that it can be washed.
     pub chance: Chance,
-    /// It in words.
+    /// The chance in words.
     pub words: &'static str,
 }
 
 /// A plan as it is shown.
 #[derive(Debug, Serialize)]
 pub struct PlanParts<'a> {
-    /// What it is about.
+    /// Heading of the page.
     pub heading: &'a view::Heading,
     /// The first line.
     pub headline: String,
-    /// What the tip follows.
+    /// Paths that the tip follows.
     pub paths: &'a [view::WashPath],
     /// The stretches of the motion.
     pub segments: &'a [PlanSegment],
@@ -296,13 +296,13 @@ pub struct PlanParts<'a> {
     pub motion: &'a Option<view::Motion>,
     /// The smallest distance over time.
     pub clearance: &'a Option<view::Clearance>,
-    /// How plates get swept.
+    /// Swept area of the plates.
     pub coverage: &'a [view::PlateCoverage],
-    /// How long it took.
+    /// Time that it took.
     pub ms: Milliseconds,
 }
 
-/// What of a plate is proved to be swept or, where the job says what counts as contact, pressed.
+/// Area of a plate that is proved to be swept or, where the job states what counts as contact, pressed.
 #[derive(Debug, Serialize)]
 pub struct PlateProof {
     /// The plate.
@@ -316,11 +316,11 @@ pub struct PlateProof {
 pub struct Unwashable {
     /// The plate.
     pub plate: usize,
-    /// Whether it is known that it cannot.
+    /// True where it is proved that it cannot be washed.
     pub proved: bool,
     /// In words.
     pub words: String,
-    /// What keeps parts of it from being washed.
+    /// Causes that keep parts of it from being washed.
     pub causes: Vec<String>,
     /// Share of its wash path for which configurations were found.
     pub share: Option<f64>,
@@ -342,16 +342,16 @@ pub enum MapLine<'a> {
         washable_m: &'a [[f64; 2]],
         /// Middles of the others \[m\].
         unwashable_m: &'a [[f64; 2]],
-        /// Squares looked at so far.
+        /// Squares checked so far.
         done: usize,
-        /// Squares in all, as far as is known.
+        /// Total number of squares, as far as is known.
         of: usize,
     },
-    /// All is told.
+    /// The map is complete.
     MapDone {
-        /// What it means.
+        /// Meaning of the map, in words.
         words: &'a str,
-        /// How long it took.
+        /// Time that it took.
         ms: Milliseconds,
     },
 }
@@ -360,24 +360,24 @@ pub enum MapLine<'a> {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SaveLine<'a> {
-    /// It stands on disk.
+    /// The text is on disk.
     Saved {
         /// SHA-256 of it.
         disk: &'a str,
-        /// Where.
+        /// The file.
         file: &'a str,
-        /// All that was written.
+        /// All files that were written.
         files: &'a [String],
-        /// What came of it.
+        /// Result of the scenario, in one line.
         words: &'a str,
     },
     /// Something else stands there.
     Conflict {
         /// SHA-256 of that; `None` for nothing.
         disk: Option<&'a str>,
-        /// That, where it is text.
+        /// Contents of the file on disk, where it is text.
         text: Option<&'a str>,
-        /// What is wrong.
+        /// Conflict, in words.
         words: &'a str,
     },
 }
@@ -386,22 +386,22 @@ pub enum SaveLine<'a> {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename = "disk")]
 pub struct DiskLine<'a> {
-    /// SHA-256 of what stands there; `None` for nothing.
+    /// SHA-256 of the file on disk; `None` where there is none.
     pub disk: Option<&'a str>,
-    /// It, where it differs from what the page knows.
+    /// Contents of the file, where they differ from those that the page knows.
     pub text: Option<&'a str>,
-    /// Why it cannot be read.
+    /// Reason that it cannot be read.
     pub words: Option<&'a str>,
 }
 
-/// What a page needs that comes from a server that is gone.
+/// Facts that a page needs after its server was replaced by another one.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename = "hello")]
 pub struct HelloLine<'a> {
     /// [`FORMAT`].
     pub format: &'a str,
-    /// Where it is saved.
+    /// File that the scenario is saved in.
     pub file: Option<&'a str>,
-    /// SHA-256 of what stands there.
+    /// SHA-256 of the file on disk.
     pub disk: Option<&'a str>,
 }

@@ -13,7 +13,7 @@ pub fn of_scenario(error: &ScenarioError) -> Refusal {
     }
 }
 
-/// A refusal of what a scenario asks for.
+/// Refusal of a scenario's job.
 pub fn of_failure(failure: &Failure) -> Refusal {
     match failure {
         Failure::Scenario(error) => of_scenario(error),
@@ -54,7 +54,7 @@ pub fn at(key: &str, words: &str) -> Refusal {
     }
 }
 
-/// Characters of a refusal, at most: what is refused may be quoted in it.
+/// Greatest number of characters of a refusal: it may quote the refused text.
 const LONGEST: usize = 2000;
 
 /// A refusal that is about no key.

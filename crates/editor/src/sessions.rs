@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What kinds of work a page can have under way, one of each.
+/// Kinds of work that a page can have under way, one of each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Lane {
     /// Guesses, while something moves.
@@ -19,7 +19,7 @@ pub enum Lane {
 /// Length of the name of a session: a shorter one might be guessed by another page, which could end its questions then.
 const LENGTH: RangeInclusive<usize> = 16..=64;
 
-/// What pages have under way.
+/// Work that pages have under way.
 #[derive(Debug, Default)]
 pub struct Sessions {
     running: Mutex<HashMap<(String, Lane), Running>>,
@@ -39,7 +39,7 @@ pub struct Turn<'a> {
     number: u64,
 }
 
-/// Whether a session may be called so.
+/// Checks that a text is a valid name of a session.
 pub fn is_name(session: &str) -> bool {
     LENGTH.contains(&session.len()) && session.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }

@@ -1,4 +1,4 @@
-//! What is edited: a scenario as it was opened, what a question makes of it, how much work that may be, and what came last.
+//! Subject of an editor: the scenario as it was opened, its change by a question, the limit on work, and the latest answer.
 
 use crate::protocol::{Edit, Refusal};
 use crate::refusal::{about, at, of_edit, of_scenario, plain};
@@ -28,13 +28,13 @@ pub const MOST_CONTACT_POINTS: usize = 60_000;
 /// Changes of one question, at most.
 pub const MOST_EDITS: usize = 1000;
 
-/// How long a question may take to its proof.
+/// Longest time for a question up to its proof.
 pub const LONGEST: Duration = Duration::from_secs(60);
 
-/// How long a map may take.
+/// Longest time for a map.
 pub const LONGEST_MAP: Duration = Duration::from_secs(120);
 
-/// Why a scenario is too much work for a page that waits; `None` where it is not.
+/// Returns the reason that a scenario is too much work for a page that waits; `None` where it is not.
 pub fn too_much(scenario: &Scenario) -> Option<String> {
     let points = scenario.contact_points();
     (points > MOST_CONTACT_POINTS).then(|| {
@@ -46,18 +46,18 @@ pub fn too_much(scenario: &Scenario) -> Option<String> {
     })
 }
 
-/// What is edited.
+/// Scenario that is edited.
 #[derive(Debug, Default)]
 pub struct Subject {
     /// Name of the scenario, or its file as it was given.
     pub name: String,
-    /// Where paths in it begin.
+    /// Folder that relative paths in it start from.
     pub folder: Option<PathBuf>,
     /// Its text as it was opened.
     pub text: String,
-    /// Whether pages on other machines ask.
+    /// True where pages on other machines may ask.
     pub is_open_to_others: bool,
-    /// Whether what came last is remembered.
+    /// True where the latest answer is remembered.
     pub remembers: bool,
     /// Arms that were loaded.
     pub arms: Arms,
@@ -66,7 +66,7 @@ pub struct Subject {
     latest: Mutex<Option<Latest>>,
 }
 
-/// What came of the last question that was answered to its end.
+/// Result of the last question that was answered to its end.
 #[derive(Debug, Clone)]
 pub struct Latest {
     /// The scenario's text.
@@ -77,7 +77,7 @@ pub struct Latest {
     pub plan: Option<Arc<Plan>>,
     /// The proof of it.
     pub certificate: Option<Arc<Certificate>>,
-    /// The first line of what came of it.
+    /// The first line of its result.
     pub headline: String,
 }
 
@@ -92,24 +92,24 @@ impl Subject {
         }
     }
 
-    /// What came last, if it is remembered.
+    /// Returns the latest answer, if it is remembered.
     pub fn latest(&self) -> Option<Latest> {
         self.latest.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Remembers what came of a question, where that is wanted.
+    /// Remembers the result of a question, where that is enabled.
     pub fn remember(&self, news: impl FnOnce() -> Latest) {
         if self.remembers {
             *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(news());
         }
     }
 
-    /// Whether a question may name files that the scenario on disk does not.
+    /// Returns true where a question may name files that the scenario on disk does not.
     pub fn may_name_files(&self) -> bool {
         !self.is_open_to_others
     }
 
-    /// Whether the scenario, as it was opened, names all files that another one names.
+    /// Checks that the scenario, as it was opened, names all files that another one names.
     pub fn names_all_of(&self, scenario: &Scenario) -> bool {
         let opened = Draft::new(&self.text).and_then(|draft| draft.scenario(&self.name, self.folder.as_deref()));
         let opened = opened.ok();
@@ -122,9 +122,9 @@ impl Subject {
 pub struct Changed {
     /// The text.
     pub text: String,
-    /// What it states.
+    /// Values that it states.
     pub stated: BTreeMap<String, Value>,
-    /// What counts; empty where it is no scenario.
+    /// Values in effect; empty where it is no scenario.
     pub values: BTreeMap<String, Value>,
     /// The scenario, or why it is none.
     pub scenario: Result<Scenario, Refusal>,
@@ -201,7 +201,7 @@ pub fn may_name_its_files(subject: &Subject, scenario: &Scenario) -> Result<(), 
 /// Arms that are kept.
 const KEPT: usize = 4;
 
-/// Arms by what decides them.
+/// Arms by the data that decide them.
 #[derive(Debug, Default)]
 pub struct Arms {
     kept: Mutex<Vec<Loaded>>,
@@ -210,7 +210,7 @@ pub struct Arms {
 /// An arm, and an id of its description.
 #[derive(Debug, Clone)]
 pub struct Loaded {
-    /// The id: another one wherever another arm may come of it.
+    /// The id: it differs wherever the arm may differ.
     pub id: String,
     /// The arm.
     pub arm: Arc<RobotModel>,
@@ -238,7 +238,8 @@ impl Arms {
     }
 }
 
-/// What decides an arm: what the scenario names, and when those files were last written; the accelerations are shown with it.
+/// Identifier of an arm: the files and the model that the scenario names, and the times when those files were last written; the
+/// accelerations are shown with it.
 fn id(scenario: &Scenario) -> String {
     let robot = &scenario.robot;
     let written = [&robot.urdf, &robot.srdf].map(|path| path.as_deref().and_then(written));
@@ -252,13 +253,13 @@ fn written(path: &Path) -> Option<(SystemTime, u64)> {
     Some((file.modified().ok()?, file.len()))
 }
 
-/// A job, and what its scenario says beside it.
+/// A job, and the further statements of its scenario.
 pub struct Placed {
     /// The scenario.
     pub scenario: Scenario,
     /// The arm.
     pub loaded: Loaded,
-    /// The plates, and what is to be said about them.
+    /// The plates, and the findings on them.
     pub layout: Layout,
     /// The job.
     pub job: WashJob,

@@ -25,7 +25,7 @@ pub struct Told<'a> {
 }
 
 impl<'a> Told<'a> {
-    /// Lines go to `tell`, which says whether anybody listens. The first step begins now.
+    /// Lines go to `tell`, which returns false once nobody listens. The first step begins now.
     pub fn new(tell: &'a mut dyn FnMut(String) -> bool, gone: &CancelToken) -> Self {
         Self {
             tell,
@@ -53,7 +53,7 @@ impl<'a> Told<'a> {
         self.since = now;
     }
 
-    /// All steps up to now.
+    /// Time of all steps up to now.
     pub fn ms(&self) -> Milliseconds {
         self.took.clone()
     }
@@ -75,7 +75,7 @@ impl<'a> Told<'a> {
     }
 }
 
-/// Why an answer ends before its end.
+/// Reason that an answer ends early.
 pub enum End {
     /// The scenario is none, or states no job.
     Refused(Refusal),

@@ -1,11 +1,12 @@
-//! A program that was handed over and may have been changed since: what changed, and whether it still holds.
+//! Comparison of a program with the one that was handed over: the changes, and the judgement of the program as it stands.
 //!
-//! The program is made again of its plan with the settings that it states, and both texts are compared line by line. Spaces, and how a
-//! number is written, do not count: editors and controllers change them. What a changed line says otherwise of a point is told in numbers.
+//! The program is exported again from its plan with the settings that it states, and both texts are compared line by line. Spaces
+//! and the notation of numbers do not count: editors and controllers change them. For a changed line the differences of a point
+//! are listed in numbers.
 //!
 //! Two texts, line by line.
 //!
-//! The share of the plan's speed that a program's times tell, where it states none.
+//! The share of the plan's speed that follows from a program's times, where it states none.
 //!
 //! The points of a program, by the lines that name them.
 
@@ -28,26 +29,26 @@ use std::collections::HashMap;
 /// Changes that are listed; more would help nobody.
 const MOST_CHANGES: usize = 20;
 
-/// What came of a program that was read back.
+/// Result of reading a program back and judging it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compared {
     /// Its dialect.
     pub dialect: &'static str,
-    /// What it says otherwise than the program that was handed over, in the order of its lines; the first of them.
+    /// Differences from the program that was handed over, in the order of its lines; the first of them.
     pub changes: Vec<Change>,
-    /// How many more there are.
+    /// Number of further differences.
     pub more_changes: usize,
-    /// How far its tip may be from the plan, as the program states it; otherwise what is usual \[m\].
+    /// Tolerance of the tip about the plan that the program states, otherwise the default \[m\].
     pub tolerance_m: f64,
-    /// What is proved of it as it stands.
+    /// Proof of the program as it stands.
     pub judged: Judged,
-    /// That the tool that it states is not the plan's.
+    /// Refusal where the tool that the program states is not the plan's.
     pub tool: Option<Refusal>,
-    /// Whether the program refuses to move where the arm does not stand at the start ([`Reading::checks_start`]).
+    /// True where the program refuses to move if the arm does not stand at the start ([`Reading::checks_start`]).
     pub checks_start: bool,
 }
 
-/// Why a program could not be compared.
+/// Reason that a program could not be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompareError {
@@ -57,7 +58,7 @@ pub enum CompareError {
         /// The file's name.
         name: String,
     },
-    /// It is of another plan.
+    /// The program is of another plan.
     #[error("{name}: the program is of the plan with SHA-256 {found}; the one given has {expected}")]
     OtherPlan {
         /// The file's name.
@@ -67,7 +68,7 @@ pub enum CompareError {
         /// The plan given.
         expected: String,
     },
-    /// It cannot be interpreted.
+    /// The program cannot be interpreted.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// A line that states how the program was made cannot be understood.
@@ -79,7 +80,7 @@ pub enum CompareError {
     /// The program that was handed over cannot be made again.
     #[error("the program that was handed over cannot be made again: {0}")]
     Again(ExportError),
-    /// Its motion cannot be judged.
+    /// The motion of the program cannot be judged.
     #[error(transparent)]
     Prove(#[from] ProveError),
 }
@@ -87,7 +88,7 @@ pub enum CompareError {
 /// Reads a program back, compares it with the one that was handed over of a certified plan, and judges it as it stands.
 ///
 /// # Errors
-/// [`CompareError`] for a text that cannot be interpreted or judged. One that does not hold is no error.
+/// [`CompareError`] for a text that cannot be interpreted or judged. A program that does not hold is no error.
 pub fn compare(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -100,7 +101,7 @@ pub fn compare(
     compare_in(certified, arm, (dialect, files), cancel)
 }
 
-/// [`compare`] for a dialect that is known.
+/// Compares as [`compare`], for a known dialect.
 pub(crate) fn compare_in(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -109,7 +110,8 @@ pub(crate) fn compare_in(
 ) -> Result<Compared, CompareError> {
     refuse_other_plan(certified.plan(), files)?;
     let found = dialect.read(files, arm)?;
-    // Of a program that states no settings the share of the speed is the one that it says otherwise, or that its times tell.
+    // For a program that states no settings, the share of the speed is the one that it states elsewhere, or follows from its
+    // times.
     let told = || speed_share(certified.plan(), &found, dialect.points());
     let otherwise = ExportSettings {
         speed_share: found.speed_share.unwrap_or_else(told),
@@ -180,20 +182,20 @@ fn refuse_other_plan(plan: &Plan, files: &[ProgramFile]) -> Result<(), CompareEr
 }
 
 impl Compared {
-    /// Whether nothing was changed but spaces and how numbers are written.
+    /// Returns true where nothing was changed but spaces and the notation of numbers.
     #[must_use]
     pub fn is_unchanged(&self) -> bool {
         self.changes.is_empty()
     }
 
-    /// Whether what the program does holds, under every assumption, with the tool of the plan.
+    /// Returns true where the motion of the program holds under every assumption, with the tool of the plan.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.tool.is_none() && self.judged.holds()
     }
 }
 
-/// Most characters of a line that are told.
+/// Greatest number of characters of a line that are shown.
 const TOLD: usize = 80;
 
 /// Something that a program says otherwise than the one that was handed over.
@@ -201,18 +203,18 @@ const TOLD: usize = 80;
 pub struct Change {
     /// File and line, as `FILE:LINE`; of a line that is missing the one before it.
     pub place: String,
-    /// What it is about, e.g. `joint 3`.
+    /// Subject of the change, e.g. `joint 3`.
     pub what: String,
-    /// What the line says.
+    /// Value in the line.
     pub found: String,
-    /// What was handed over.
+    /// Value that was handed over.
     pub expected: String,
 }
 
-/// A program: its files, and what they say.
+/// A program: its files and its reading.
 type Said<'a> = (&'a [ProgramFile], &'a Reading);
 
-/// What the lines of one program say otherwise than those of another one.
+/// Lists the differences between the lines of two programs.
 pub(crate) fn changes(found: Said<'_>, expected: Said<'_>) -> Vec<Change> {
     let steps = [found, expected].map(|(_, reading)| by_line(reading));
     let rounding_s = rounding_s(found.1, expected.1);
@@ -243,7 +245,7 @@ struct Texts<'a> {
     rounding_s: f64,
 }
 
-/// A line that says something: its number, from 1, as it stands, and without what does not count.
+/// A line with contents: its number, from 1, its text as it stands, and its text without the parts that do not count.
 struct Line<'a> {
     number: usize,
     text: &'a str,
@@ -275,7 +277,7 @@ impl Texts<'_> {
         }
     }
 
-    /// A line in place of another one: what it says otherwise of its points, or that it is another one.
+    /// Lists the changes of a line that replaces another one: the differences of its points, or the other line.
     fn changed(&self, new: &Line<'_>, old: &Line<'_>, all: &mut Vec<Change>) {
         let [found, expected] = self.steps;
         let found = found.get(&(self.found.name.as_str(), new.number));
@@ -345,18 +347,18 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// A line as it is told: without spaces around it, and not too long.
+/// A line for display: without spaces around it, and not too long.
 fn shown_line(text: &str) -> String {
     shortened(text.trim(), TOLD)
 }
 
-/// Shares are told in steps of one in so many.
+/// Shares are rounded to steps of one over this number.
 const STEPS: f64 = 1e6;
 
-/// Least share that is told.
+/// Least share that is accepted.
 const LEAST: f64 = 1e-3;
 
-/// Steps of the search, each of which squares what it is off by.
+/// Steps of the search, each of which squares the error.
 const ROUNDS: usize = 8;
 
 /// The share of the plan's speed at which a program runs, by its times.
@@ -370,7 +372,7 @@ pub(crate) fn speed_share(plan: &Plan, found: &Reading, points: Points) -> f64 {
     if (LEAST..=1.0).contains(&share) { share } else { 1.0 }
 }
 
-/// Of a program of all the plan's knots: that of most of them, so that a time that was changed does not count.
+/// Share of a program with all the plan's knots: the median over the knots, so that a time that was changed does not count.
 fn of_knots(plan: &Plan, found: &Reading) -> f64 {
     let both = plan.knots.t_s.iter().zip(&found.points).skip(1);
     let mut shares: Vec<_> = both.map(|(plan_s, point)| plan_s / point.t_s).collect();
@@ -382,8 +384,8 @@ fn of_duration(plan: &Plan, found: &Reading) -> f64 {
     plan.duration_s() / found.points.last().map_or(0.0, |point| point.t_s)
 }
 
-/// Of rows at even steps, the last of which is up to a step after the plan's end: that at which they are nearest to the plan, in the sense
-/// of least squares.
+/// Share of a program of rows at even steps, the last of which is up to a step after the plan's end: the share at which the rows
+/// are nearest to the plan, in the sense of least squares.
 fn of_rows(plan: &Plan, found: &Reading) -> f64 {
     let least = of_duration(plan, found);
     let ([.., before, _], Ok(motion)) = (found.points.as_slice(), plan.knots.motion()) else {
@@ -401,17 +403,17 @@ fn of_rows(plan: &Plan, found: &Reading) -> f64 {
         }
         match slope > 0.0 {
             true => (share + off / slope).clamp(least, most),
-            // An arm that does not move tells nothing.
+            // An arm that does not move gives no information.
             false => share,
         }
     })
 }
 
-/// What is rounding of angles and their speeds \[rad, rad/s\], and of lengths \[m\].
+/// Differences that count as rounding: of angles and their speeds \[rad, rad/s\], and of lengths \[m\].
 const ROUNDING: (f64, f64) = (1e-12, 1e-9);
 
-/// What is rounding of a step that was worked out of sums of times \[s\]: of programs that run at the same share of the speed, and at
-/// different ones.
+/// Differences that count as rounding of a step computed from sums of times \[s\]: between programs that run at the same share of
+/// the speed, and at different ones.
 const ROUNDING_S: [f64; 2] = [1e-10, 2e-7];
 
 /// A point, with speeds and the time since the point before in the plan's time.
@@ -424,7 +426,7 @@ pub(crate) struct Step<'a> {
     qd_rad_s: Option<JointVector>,
 }
 
-/// What is rounding of the steps of two programs \[s\].
+/// Difference that counts as rounding between the steps of two programs \[s\].
 pub(crate) fn rounding_s(a: &Reading, b: &Reading) -> f64 {
     ROUNDING_S[usize::from(a.share() != b.share())]
 }
@@ -448,7 +450,7 @@ pub(crate) fn by_line(reading: &Reading) -> HashMap<(&str, usize), Vec<Step<'_>>
 }
 
 impl Step<'_> {
-    /// What is different, as name, found and expected.
+    /// Returns the differences, as name, found and expected.
     pub fn differences(&self, other: &Self, most_s: f64) -> Vec<(String, String, String)> {
         let (most_rad, most_m) = ROUNDING;
         let mut all = Vec::new();

@@ -1,7 +1,7 @@
-//! A table of positions and speeds at fixed steps, for whatever reads tables, and a text beside it that explains it.
+//! A table of positions and speeds at fixed steps, for any program that reads tables, and a text beside it that explains it.
 //!
-//! The table is strict: a header with a unit in each name, rows of numbers, nothing else. `plan_t_s` is the moment of the plan that a row
-//! is, so that the table itself says at which share of the plan's speed it runs.
+//! The table is strict: a header with a unit in each name, rows of numbers, nothing else. `plan_t_s` is the time in the plan of
+//! each row, so that the table itself shows the share of the plan's speed at which it runs.
 
 use crate::dialect::{Dialect, Place, Point, Points, Program, ProgramFile, ReadError};
 use crate::header::wrapped;
@@ -19,10 +19,10 @@ const STEP_S: f64 = 0.004;
 /// Decimals of every number: a nanosecond, a nanoradian.
 const DECIMALS: usize = 9;
 
-/// What a number may be at most \[s, rad, rad/s\]; beyond it the file is in other units, or no motion.
+/// Greatest magnitude of a number \[s, rad, rad/s\]; beyond it the file is in other units, or no motion.
 const GREATEST: f64 = 1e6;
 
-/// How far `plan_t_s` may be from its share of `t_s` \[s\].
+/// Largest deviation of `plan_t_s` from its share of `t_s` \[s\].
 const TIME_S: f64 = 1e-6;
 
 const TIMES: [&str; 2] = ["t_s", "plan_t_s"];
@@ -57,7 +57,7 @@ impl Dialect for Csv {
     }
 
     fn accepts(&self, _job: &JobTerms, _arm: &RobotModel) -> Result<(), Refusal> {
-        // A table speaks of joints alone: any arm has six, and what it holds is not said.
+        // A table states joints alone: any arm has six, and the tool is not stated.
         Ok(())
     }
 
@@ -116,7 +116,7 @@ fn row(point: &Point, share: f64) -> Vec<String> {
     numbers.map(|number| fixed(*number, DECIMALS)).collect()
 }
 
-/// What explains the table.
+/// Text that explains the table.
 fn about(program: &Program<'_>, name: &str) -> String {
     let joints: Vec<String> = program
         .arm
@@ -145,7 +145,7 @@ fn about(program: &Program<'_>, name: &str) -> String {
     wrapped("-", program.header.iter().chain(&own).map(String::as_str))
 }
 
-/// What a table says.
+/// Reads a table.
 fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     let refused = |error: TableError| ReadError::at(&file.name, error.line, error.without_line());
     read(file).map_err(refused)

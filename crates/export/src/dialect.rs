@@ -2,7 +2,7 @@
 //!
 //! All dialects. Another one is a line here, beside its file and its fixture.
 //!
-//! What is handed over, in no dialect.
+//! A program in no dialect, as it is handed over.
 //!
 //! Text files of a program, and lines in them.
 
@@ -23,13 +23,13 @@ pub trait Dialect: Debug + Sync {
     /// Its name on the command line, e.g. `rapid`.
     fn name(&self) -> &'static str;
 
-    /// Whether a file is a program of this dialect, by its name and text.
+    /// Checks that a file is a program of this dialect, by its name and text.
     fn is_in(&self, file: &ProgramFile) -> bool;
 
-    /// Which points of a plan it is given.
+    /// Choice of the plan's points that it is given.
     fn points(&self) -> Points;
 
-    /// What it assumes of the controller, and what nobody has tried on one; a sentence an entry.
+    /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry.
     fn assumptions(&self) -> &'static [&'static str];
 
     /// Refuses a job that it cannot be handed over for: another make of arm, a tool without a mass.
@@ -41,14 +41,14 @@ pub trait Dialect: Debug + Sync {
     /// The program's text. The same program gives the same bytes.
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile>;
 
-    /// What a text does, interpreted; a text that this program did not write, too.
+    /// Interprets a text, including one that platewash did not write.
     ///
     /// # Errors
     /// [`ReadError`], with the line.
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError>;
 }
 
-/// Which points of a plan a program names.
+/// Choice of the plan's points that a program names.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Points {
     /// So many that even motion between them keeps to a tolerance, no closer than `least_s` \[s\] at the full speed.
@@ -65,13 +65,13 @@ pub enum Points {
     Knots,
 }
 
-/// Why a text could not be interpreted.
+/// Reason that a text could not be interpreted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {reason}")]
 pub struct ReadError {
     /// The line.
     pub place: Place,
-    /// What is wrong with it, and what was expected.
+    /// Error in the line, and the text that was expected.
     pub reason: String,
 }
 
@@ -101,10 +101,10 @@ pub fn names() -> String {
     DIALECTS.map(Dialect::name).join(", ")
 }
 
-/// How far the arm may stand from the start of the plan, joint by joint \[°\]: programs check it where they can.
+/// Largest distance of the arm from the start of the plan, joint by joint \[°\]: programs check it where they can.
 pub const START_WITHIN_DEG: f64 = 0.5;
 
-/// A program to be written: points in time, and what must be said with them.
+/// A program to be written: points in time, and the notes that must accompany them.
 #[derive(Debug, Clone)]
 pub struct Program<'a> {
     /// A name that every dialect takes: a letter, then letters, digits and `_`, 20 at most.
@@ -119,7 +119,7 @@ pub struct Program<'a> {
     pub speed_share: f64,
     /// Radius of corners between points that are not stops \[m\].
     pub corner_m: f64,
-    /// What stands at the head of the text, a sentence or statement an entry, without line ends: verdict, hashes, assumptions.
+    /// Entries at the head of the text, one sentence or statement each, without line ends: verdict, hashes, assumptions.
     pub header: Vec<String>,
 }
 
@@ -132,7 +132,7 @@ pub struct Point {
     pub q_rad: JointVector,
     /// Joint speeds in the plan's time \[rad/s\].
     pub qd_rad_s: JointVector,
-    /// Whether the plan rests here.
+    /// True where the plan rests here.
     pub rests: bool,
     /// Index of the plan's segment that ends here or holds the point; 0 for the first one.
     pub segment: usize,
@@ -157,7 +157,7 @@ impl Program<'_> {
 pub struct ProgramFile {
     /// Its name, without a folder.
     pub name: String,
-    /// What is in it; lines end with a line feed.
+    /// Text of the file; lines end with a line feed.
     pub text: String,
 }
 

@@ -14,7 +14,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::ArmId;
 
-/// How far a point that was read back may be from the one that was written \[°\], and its time \[s\].
+/// Largest difference between a point that was read back and the one that was written \[°\], and between their times \[s\].
 const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
 
 /// A program that may be handed over.
@@ -22,13 +22,13 @@ const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
 pub struct Exported {
     /// Its files.
     pub files: Vec<ProgramFile>,
-    /// What is proved of it.
+    /// Proof of the program.
     pub judged: Judged,
-    /// What it says, read back.
+    /// Program as read back.
     pub reading: Reading,
 }
 
-/// Why there is no program.
+/// Reason that there is no program.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
@@ -38,12 +38,12 @@ pub enum ExportError {
     /// The motion cannot be judged, or the work was given up.
     #[error(transparent)]
     Prove(#[from] ProveError),
-    /// The program that was written does not say what it should: a fault of this program.
+    /// The program that was written does not match the intended one: a fault of platewash.
     #[error("the {dialect} program that was written does not read back: {reason}")]
     Unfaithful {
         /// The dialect.
         dialect: &'static str,
-        /// What differs, and where.
+        /// Difference, and its place.
         reason: String,
     },
 }
@@ -51,7 +51,7 @@ pub enum ExportError {
 /// A certified plan of an arm as a program of a dialect.
 ///
 /// # Errors
-/// [`ExportError`]; [`Refusal`] where the plan, its job or what the program does stands against it.
+/// [`ExportError`]; [`Refusal`] where the plan, its job or the motion of the program is refused.
 pub fn export(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -67,7 +67,8 @@ pub fn export(
     Ok(exported)
 }
 
-/// The program as it was handed over, whatever was accepted then: what an edited one is compared with.
+/// Writes the program again as it was handed over, without the checks on the plan that came before: an edited one is compared
+/// with it.
 pub(crate) fn again(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -79,7 +80,7 @@ pub(crate) fn again(
     written(certified, arm, dialect, settings, cancel)
 }
 
-/// What must hold whatever the dialect.
+/// Checks the requirements that hold for every dialect.
 fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSettings) -> Result<(), Refusal> {
     settings.check()?;
     let job = &certified.plan().job;
@@ -121,7 +122,7 @@ fn check_start(stands: &JointVector, start: &JointVector) -> Result<(), Refusal>
     })
 }
 
-/// The program with what is proved of it at its head, which is judged before its header is known.
+/// The program with its proof at its head; it is judged before its header is known.
 fn written(
     certified: &Certified<Plan>,
     arm: &RobotModel,
@@ -161,7 +162,7 @@ fn written(
     Ok(Exported { files, judged, reading })
 }
 
-/// Where what was read back is not what was written.
+/// Returns the first difference between the program written and the one read back.
 fn differs(program: &Program<'_>, reading: &Reading) -> Option<String> {
     let (written, read) = (program.points.len(), reading.points.len());
     if written != read {

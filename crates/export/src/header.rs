@@ -1,5 +1,4 @@
-//! What stands at the head of a program: what it is, from which plan, what is proved of it, and what it rests on. A statement an
-//! entry.
+//! Head of a program: its kind, its plan, its proof, and the assumptions of the proof. One statement per entry.
 //!
 //! Sentences as lines of a comment that every controller can show.
 
@@ -18,7 +17,7 @@ use platewash_workcell::words::{counted, quoted};
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// Significant digits of what is assumed.
+/// Significant digits of assumed values.
 const DIGITS: usize = 9;
 
 /// Plates whose places are listed.
@@ -64,8 +63,8 @@ fn hash(certificate: &Certificate) -> String {
     serde_json_canonicalizer::to_vec(certificate).map_or_else(|_| "none".to_owned(), |text| sha256_hex(&text))
 }
 
-/// How a base stands. What is not turned at all needs nothing; a controller must know how its arm is turned, for its dynamics, and no program
-/// tells it.
+/// Describes the attitude of the base: upright, or a quaternion. The controller must know a turn for its dynamics, and no program
+/// states it.
 fn attitude(mount: &Pose) -> String {
     if mount.rotation == UnitQuaternion::identity() {
         return "upright".to_owned();
@@ -75,7 +74,7 @@ fn attitude(mount: &Pose) -> String {
     format!("turned by the quaternion (w, x, y, z) = ({parts}): the controller must be set up for that mount")
 }
 
-/// Arm, mount, tool, and what stands around them.
+/// Lines on arm, mount, tool, and the bodies around them.
 fn workcell(source: &Source<'_>) -> Vec<String> {
     let job = &source.plan.job;
     let world = &job.workcell;
@@ -172,7 +171,7 @@ fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> V
     ]
 }
 
-/// What is proved of the text itself.
+/// Lines on the proof of the text itself.
 fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
     let corners = judged.cases.iter().any(|case| case.corner_scale.is_some());
     let how = match corners {
@@ -201,7 +200,7 @@ fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
     lines
 }
 
-/// What a plan promises of contact and its program is not judged for, in words; `None` where it promises nothing.
+/// Names the promises of a plan about contact for which its program is not judged; `None` where it promises nothing.
 #[must_use]
 pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
     let contact = promised
@@ -217,7 +216,7 @@ pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
     (!all.is_empty()).then(|| all.join(", "))
 }
 
-/// A measure with what it is held against, both times a factor.
+/// A measure with its limit, both times a factor.
 fn told(check: &Check, beside: &str, factor: f64) -> String {
     let name = match check.requirement {
         Requirement::JointPosition => "distance from the joints' limits".to_owned(),
@@ -246,7 +245,7 @@ fn told(check: &Check, beside: &str, factor: f64) -> String {
     )
 }
 
-/// What corners of one size ask of the controller; nothing where the motion is as smooth as the plan.
+/// Describes the demands of corners of one size on the controller; `None` where the motion is as smooth as the plan.
 fn asked(case: &Case, speed_share: f64) -> Option<String> {
     let scale = case.corner_scale?;
     let share = |v: Option<f64>| v.map(|v| decimals_up(v * speed_share * speed_share, 2));
@@ -285,7 +284,7 @@ pub(crate) fn wrapped<'a>(prefix: &str, sentences: impl IntoIterator<Item = &'a 
     text
 }
 
-/// Text of visible ASCII characters and spaces alone; what has no such spelling is a question mark.
+/// Text of visible ASCII characters and spaces alone; other characters without such a spelling become question marks.
 pub(crate) fn ascii(text: &str) -> String {
     let mut told = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,11 +1,11 @@
-//! What is proved of a program that was read back: of the motion that it leads to under each assumption about corners.
+//! Proof of a program that was read back: of its motion under each assumption about corners.
 //!
-//! How an arm is assumed to move along a program that was read: straight in the joints with rounded corners, or on cubics.
+//! Assumed motion of an arm along a program: straight in the joints with rounded corners, or on cubics.
 //!
 //! At a corner between segments of the speeds v₀ and v₁ the joints are assumed to accelerate evenly, for as long before the point as after
 //! it: a parabola that leaves the straight segments where the corner begins and meets them again where it ends. A corner begins no farther
-//! from the point than its radius, nor than half-way to either neighbour, measured at the tip. How large a controller really makes it is not
-//! known: programs are judged with no corners, and with corners of half, once and twice their size.
+//! from the point than its radius, nor than half-way to either neighbour, measured at the tip. The true size on a controller is
+//! not known: programs are judged with no corners, and with corners of half, once and twice their size.
 
 use crate::reading::{Between, ReadPoint, Reading};
 use crate::refusal::Refusal;
@@ -19,34 +19,34 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::KnotError;
 use serde::Serialize;
 
-/// Share of the arm's joint speeds that a program may use: what a controller needs to keep its time is left.
+/// Share of the arm's joint speeds that a program may use: the rest is left for the controller to keep its time.
 pub const JOINT_SPEED_SHARE: f64 = 0.95;
 
-/// What came of a program.
+/// Judgement of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// Under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
+    /// Judgements under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
     pub cases: Vec<Case>,
 }
 
-/// What came of a program under one assumption.
+/// Judgement of a program under one assumption.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Case {
-    /// Size of its corners relative to what the program says; `None` where it has none.
+    /// Size of its corners relative to the program's text; `None` where it has none.
     pub corner_scale: Option<f64>,
-    /// What is proved.
+    /// Proof of the motion.
     #[serde(skip)]
     pub proof: ProgramProof,
-    /// What the controller is asked for.
+    /// Demands on the controller.
     #[serde(flatten)]
     pub asked: Asked,
 }
 
-/// What a motion asks of the controller, which times it: measured, not judged.
+/// Demands of a motion on the controller, which times it: measured, not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Asked {
-    /// The greatest acceleration of a joint at each corner, as a share of what the plan's job allows: the median of all corners. `None`
-    /// where there are none.
+    /// The greatest acceleration of a joint at each corner, as a share of the limit of the plan's job: the median of all corners.
+    /// `None` where there are none.
     pub acceleration_median: Option<f64>,
     /// The greatest of all; `None` where the motion has neither corners nor curves.
     pub acceleration_most: Option<f64>,
@@ -54,7 +54,7 @@ pub struct Asked {
     pub speed_step_rad_s: f64,
 }
 
-/// Judges what a program that was read does, against the plan that it should be of.
+/// Judges the motion of a program that was read against its plan.
 ///
 /// # Errors
 /// [`ProveError`] for points that are no motion, and when it is given up.
@@ -87,7 +87,7 @@ pub fn judge(
 }
 
 impl Judged {
-    /// Whether it holds under every assumption.
+    /// Returns true where the program holds under every assumption.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.cases.iter().all(|case| case.proof.holds())
@@ -117,7 +117,7 @@ impl Judged {
         worst_of(self.cases.iter().map(|case| &case.proof.checks))
     }
 
-    /// The worst of what is implied, over all assumptions.
+    /// Returns the worst of the implied checks, over all assumptions.
     #[must_use]
     pub fn implied(&self) -> Vec<Check> {
         worst_of(self.cases.iter().map(|case| &case.proof.implied))
@@ -160,7 +160,7 @@ impl Asked {
     }
 }
 
-/// What helps against a requirement that is not kept, as the end of a sentence.
+/// Advice against a requirement that is not kept, as the end of a sentence.
 fn remedy(requirement: Requirement) -> &'static str {
     match requirement {
         Requirement::JointSpeed => "; a smaller share of the speed helps",
@@ -169,7 +169,7 @@ fn remedy(requirement: Requirement) -> &'static str {
     }
 }
 
-/// Of each check the one with the worst bound.
+/// Returns, for each requirement, the check with the worst bound.
 fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
     let mut worst: Vec<Check> = Vec::new();
     for check in cases.flatten() {
@@ -182,7 +182,7 @@ fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
     worst
 }
 
-/// How bad a check is: one that is not kept is worse than one that is, then the nearer to its limit.
+/// Sort key of a check: one that is not kept ranks above one that is kept, then the nearer to its limit.
 fn badness(check: &Check) -> (bool, f64) {
     let beyond = |measure: &Measure| {
         let bound = measure.bound.unwrap_or(f64::INFINITY);
@@ -194,16 +194,16 @@ fn badness(check: &Check) -> (bool, f64) {
     (!check.status.is_kept(), check.measure.as_ref().map_or(0.0, beyond))
 }
 
-/// Sizes of corners, relative to what a program says, with which its motion is judged.
+/// Sizes of corners, relative to the program's text, with which its motion is judged.
 pub const CORNER_SCALES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
 
-/// What is shorter is no line between two corners \[s\].
+/// Shortest line between two corners that counts as a line \[s\].
 const NOTHING_S: f64 = 1e-9;
 
 /// The motion of a program under one assumption.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpreted {
-    /// Size of its corners relative to what the program says; `None` where it has none.
+    /// Size of its corners relative to the program's text; `None` where it has none.
     pub corner_scale: Option<f64>,
     /// The motion in the plan's time.
     pub motion: PiecewiseMotion,
@@ -270,7 +270,7 @@ pub(crate) fn rounded_motions(points: &[Passed], arm: &RobotModel, tip: &Frame) 
     CORNER_SCALES.into_iter().map(motion).collect()
 }
 
-/// Refuses what is no motion.
+/// Refuses points that are no motion.
 fn check(points: &[Passed]) -> Result<(), KnotError> {
     for (knot, point) in points.iter().enumerate() {
         let t_s = point.t_s;
@@ -447,7 +447,7 @@ mod tests {
         }
     }
 
-    /// A share of the speed stretches time; what is judged is in the plan's.
+    /// A share of the speed stretches time; the judged motion is in the time of the plan.
     #[test]
     fn motions_are_in_the_time_of_the_plan() {
         let steps = [(0.2, [0.2; 6], Some(0.005)), (0.2, [0.15; 6], None)];

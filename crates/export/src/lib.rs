@@ -5,22 +5,22 @@
 //!                                                                                                          └─ Refusal
 //! ```
 //!
-//! What is handed over is never trusted: the text itself is interpreted, as the controller is assumed to move, and what comes of it is
-//! judged against the plan and its job (`platewash_certificate::prove_program`). A plan that is not certified cannot get here.
+//! The text is never trusted: it is interpreted as the controller is assumed to move, and the resulting motion is judged against
+//! the plan and its job (`platewash_certificate::prove_program`). A plan that is not certified cannot get here.
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | a language of programs, what it writes and its files; the list of all | `dialect` |
-//! | what a program says, read back; words, numbers and signs of a text | `reading` |
+//! | a language of programs, the programs that it writes and their files; the list of all | `dialect` |
+//! | a program read back; words, numbers and signs of a text | `reading` |
 //! | RAPID, of ABB: written and read | `rapid` |
 //! | URScript, of Universal Robots: written and read | `urscript` |
 //! | a table of positions and speeds, for any other use | `csv` |
 //! | a tool as a controller has it, beside the plan's | `tool_frame` |
 //! | settings, and as lines of a program | `settings` |
-//! | which points of a plan a program names | `points` |
-//! | how an arm is assumed to move along a program, and what is proved of that motion | `judged` |
-//! | what stands at the head of a program, as comments | `header` |
-//! | all of it, one after the other; why a plan is not handed over | `export`, `refusal` |
+//! | the choice of points of a plan that a program names | `points` |
+//! | the assumed motion of an arm along a program, and the proof of that motion | `judged` |
+//! | the head of a program, as comments | `header` |
+//! | all of it, one after the other; the reasons that a plan is not handed over | `export`, `refusal` |
 //! | a program that may have been changed since | `compare` |
 //! | ROS 2 | `ros2` |
 

@@ -1,9 +1,9 @@
-//! Which points of a plan a program names.
+//! Choice of the points of a plan that a program names.
 //!
 //! Between two points a program moves evenly in the joints. Over a step h the tip then leaves the plan by about h²/8 · ‖J q̈‖ (the rest of
 //! the tip's acceleration comes from the arm's own curvature, which both have), so that points are spread with the density
-//! √(‖J q̈‖ / 8 tol). What that leads to is measured on the interpreted motion, corners and all, and points are packed more closely where it
-//! is too far away.
+//! √(‖J q̈‖ / 8 tol). The resulting deviation is measured on the interpreted motion, corners and all, and points are packed more
+//! closely where it is too large.
 
 use crate::dialect::{Point, Points};
 use crate::judged::{Passed, rounded_motions};
@@ -16,7 +16,8 @@ use platewash_workcell::trajectory::{KnotError, SegmentKind, Trajectory};
 /// The longest step between two points \[s\].
 const LONGEST_S: f64 = 0.1;
 
-/// What the choice leaves of the tolerance: to the resolution of the proof a part of it, and to the rounding of angles in a text \[m\].
+/// Parts of the tolerance that the choice of points leaves free: a share for the resolution of the proof, and a length for the
+/// rounding of angles in a text \[m\].
 const LEFT: (f64, f64) = (0.008, 1e-6);
 
 /// Most points of a program that has them at even steps.
@@ -25,7 +26,7 @@ const MOST_STEPS: f64 = 300_000.0;
 /// Rounds of packing.
 const ROUNDS: usize = 24;
 
-/// What times of a program are multiples of \[s\].
+/// Grid of the times of a program \[s\]: every time is a multiple of it.
 const GRID_S: f64 = 1e-6;
 
 /// Moments at which the density is worked out, in each piece of the plan.
@@ -34,7 +35,7 @@ const MOMENTS: usize = 4;
 /// Moments at which a step is compared with the plan.
 const COMPARED: usize = 20;
 
-/// A plan with what points are chosen by.
+/// A plan with the data by which points are chosen.
 pub(crate) struct Source<'a> {
     pub plan: &'a Plan,
     pub motion: Trajectory,
@@ -42,7 +43,7 @@ pub(crate) struct Source<'a> {
     pub tip: Frame,
 }
 
-/// How far the tip may be seen to be from the plan \[m\].
+/// Largest deviation of the tip from the plan that the choice of points may show \[m\].
 fn allowed_m(settings: &ExportSettings) -> f64 {
     let (part, rounding_m) = LEFT;
     settings.tolerance_m * (1.0 - part) - rounding_m
@@ -87,7 +88,7 @@ impl<'a> Source<'a> {
 
     /// Multiples of a step up to the first that is not before the end \[s\].
     fn steps(&self, step_s: f64) -> impl Iterator<Item = f64> {
-        // What rounding leaves of a step is none.
+        // A remainder within rounding is no step.
         let count = (self.motion.duration_s() / step_s - 1e-6).ceil().max(1.0);
         (0..=count as usize).map(move |k| k as f64 * step_s)
     }
@@ -110,7 +111,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// When the plan rests, in ascending order: at its ends, and where a wash begins and ends \[s\].
+    /// Times at which the plan rests, in ascending order: at its ends, and where a wash begins and ends \[s\].
     fn rests(&self) -> Vec<f64> {
         let washes = self
             .plan
@@ -130,7 +131,8 @@ impl<'a> Source<'a> {
         let rests = self.rests();
         let allowed_m = allowed_m(settings);
         let mut density = Density::new(self, allowed_m);
-        // Programs state times in whole microseconds, which the plan is then looked at for. Where it rests it does not move meanwhile.
+        // Programs state times in whole microseconds, so points are chosen at these times of the plan. Where the plan rests it
+        // does not move meanwhile.
         let grid_s = GRID_S * settings.speed_share;
         let rounded = |t_s: f64| match rests.contains(&t_s) {
             true => t_s,
@@ -159,7 +161,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// How far the tip is seen to leave the plan in each step, whatever the size of the corners \[m\].
+    /// Deviation of the tip from the plan in each step, for corners of the given size \[m\].
     fn deviations_m(&self, points: &[Point], corner_m: f64) -> Vec<f64> {
         let passed = |point: &Point| Passed {
             t_s: point.t_s,
@@ -187,7 +189,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// How many points a second are wanted, over time.
+/// Required density of points over time.
 struct Density {
     /// Moments, in ascending order \[s\].
     t_s: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What a program says, read back out of its text.
+//! Motion of a program, read back from its text.
 //!
 //! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
@@ -7,18 +7,18 @@ use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::words::shortened;
 
-/// What a program does, as its text says.
+/// Motion of a program, as read from its text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
     /// Share of the plan's speed that the program itself states; `None` where it states none.
     pub speed_share: Option<f64>,
     /// Points in the order in which they are reached; the first is where the arm must stand.
     pub points: Vec<ReadPoint>,
-    /// How the arm is assumed to move from one point to the next.
+    /// Motion that the arm is assumed to make from one point to the next.
     pub between: Between,
     /// The tool, where the program states one.
     pub tool: Option<ReadTool>,
-    /// Whether the program checks, as it was exported, that the arm stands at the start before it moves.
+    /// True where the program checks, as it was exported, that the arm stands at the start before it moves.
     pub checks_start: bool,
 }
 
@@ -35,7 +35,7 @@ impl Reading {
 pub struct ReadPoint {
     /// The line that names it.
     pub place: Place,
-    /// When it is reached, in the program's time, as the sum of what the lines say \[s\].
+    /// Time at which it is reached, in the program's time, as the sum of the times in the lines \[s\].
     pub t_s: f64,
     /// Joint positions \[rad\].
     pub q_rad: JointVector,
@@ -45,14 +45,14 @@ pub struct ReadPoint {
     pub corner_m: Option<f64>,
 }
 
-/// How an arm moves between points.
+/// Motion of an arm between points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Between {
     /// Evenly and straight in the joints, rounded at the points by parabolas whose size is only assumed.
     RoundedLines,
     /// Evenly and straight in the joints, through every point.
     Lines,
-    /// On the cubic that has the stated positions and speeds at both ends.
+    /// Along the cubic that has the stated positions and speeds at both ends.
     Cubics,
 }
 
@@ -88,19 +88,19 @@ pub(crate) enum Token {
     Word(String),
     /// A decimal number without a sign.
     Number(f64),
-    /// What stands between quotation marks; `""` in it is a quotation mark.
+    /// Text between quotation marks; `""` in it is a quotation mark.
     Text(String),
     /// Anything else.
     Sign(&'static str),
 }
 
 impl Token {
-    /// Whether it is that sign.
+    /// Checks that it is that sign.
     pub(crate) fn is(&self, sign: &str) -> bool {
         matches!(self, Self::Sign(found) if *found == sign)
     }
 
-    /// Whether it is the same token where the case of words does not count.
+    /// Checks that it is the same token, with the case of words ignored.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Word(a), Self::Word(b)) => a.eq_ignore_ascii_case(b),
@@ -123,7 +123,7 @@ impl std::fmt::Display for Token {
 /// Appends the tokens of a line; `comment` begins a comment up to its end.
 ///
 /// # Errors
-/// What cannot be read, and where in the line.
+/// Message that names the part that cannot be read, and its place in the line.
 pub(crate) fn line(text: &str, comment: char, mut add: impl FnMut(Token)) -> Result<(), String> {
     if text.len() > LONGEST {
         return Err(format!(
@@ -202,7 +202,7 @@ fn quoted(text: &str) -> Result<(Token, usize), String> {
     Err("a text without its closing quotation mark".to_owned())
 }
 
-/// How many bytes at the beginning of a text are a decimal number without a sign.
+/// Counts the bytes at the beginning of a text that are a decimal number without a sign.
 pub(crate) fn number_length(text: &str) -> usize {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let whole = digits(0);

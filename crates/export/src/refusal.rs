@@ -2,7 +2,7 @@
 
 use platewash_certificate::Requirement;
 
-/// Why a plan is not handed over. [`Refusal::code`] is stable.
+/// Reason that a plan is not handed over. [`Refusal::code`] is stable.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
@@ -17,7 +17,7 @@ pub enum Refusal {
     Arm {
         /// The dialect.
         dialect: &'static str,
-        /// Which arms it is for.
+        /// Arms that it is for.
         expected: &'static str,
         /// The plan's arm.
         found: String,
@@ -25,13 +25,13 @@ pub enum Refusal {
     /// The tool has no mass, or one that the controller or the arm does not take.
     #[error("{reason}")]
     Load {
-        /// What is wrong with it, and what to do.
+        /// Error in it, and advice.
         reason: String,
     },
     /// The tool's frame is not the plan's.
     #[error("{reason}")]
     Frame {
-        /// What differs, and by how much.
+        /// Difference, and its size.
         reason: String,
     },
     /// The arm does not stand where the plan begins.
@@ -42,11 +42,11 @@ pub enum Refusal {
     Start {
         /// Index of the joint.
         joint: usize,
-        /// Where it stands \[°\].
+        /// Position of the joint \[°\].
         found_deg: f64,
-        /// Where the plan starts \[°\].
+        /// Position at the start of the plan \[°\].
         expected_deg: f64,
-        /// How far it may be away \[°\].
+        /// Largest difference allowed \[°\].
         most_deg: f64,
     },
     /// A setting that makes no sense.
@@ -54,9 +54,9 @@ pub enum Refusal {
     Setting {
         /// Its name.
         name: &'static str,
-        /// What it must be.
+        /// Range or kind of value required.
         expected: String,
-        /// What it is.
+        /// Value found.
         found: String,
     },
     /// The arm is not the one that the plan is certified for.
@@ -74,23 +74,23 @@ pub enum Refusal {
         1e3 * .deviation_m, 1e3 * .least_s, 1e3 * .tolerance_m
     )]
     TooClose {
-        /// When \[s\].
+        /// Time in the plan \[s\].
         t_s: f64,
-        /// How far the tip would be from the plan \[m\].
+        /// Deviation of the tip from the plan \[m\].
         deviation_m: f64,
-        /// How far it may be \[m\].
+        /// Deviation allowed \[m\].
         tolerance_m: f64,
         /// The shortest time between two points \[s\].
         least_s: f64,
     },
-    /// What the program does does not keep to the plan or to its job.
+    /// The motion of the program does not keep to the plan or to its job.
     #[error("{} is not kept{assuming}: {words}", .requirement.words())]
     NotKept {
-        /// What is not kept.
+        /// Requirement that is not kept.
         requirement: Requirement,
-        /// Under which assumption, in words that follow a noun; empty where there is but one.
+        /// The assumption, in words that follow a noun; empty where there is only one.
         assuming: String,
-        /// What was found, and where.
+        /// Value found, and its place.
         words: String,
     },
 }

@@ -7,16 +7,16 @@ use platewash_kinematics::{JointVector, Pose};
 /// The shortest tolerance that rounding leaves room for \[m\].
 const LEAST_TOLERANCE_M: f64 = 2e-5;
 
-/// The largest tolerance: what is farther off is no longer the plan \[m\].
+/// Largest tolerance \[m\]: a motion farther off is no longer the plan.
 const GREATEST_TOLERANCE_M: f64 = 2e-3;
 
 /// The largest corner \[m\].
 const GREATEST_CORNER_M: f64 = 0.1;
 
-/// How a plan is handed over.
+/// Settings of an export.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportSettings {
-    /// How far the tip may be from the plan \[m\].
+    /// Largest deviation of the tip from the plan \[m\].
     pub tolerance_m: f64,
     /// Share of the plan's speed at which the program runs, above 0 and at most 1.
     pub speed_share: f64,
@@ -24,7 +24,7 @@ pub struct ExportSettings {
     pub corner_m: f64,
     /// Requirements whose waiving is accepted.
     pub accepted: Vec<Requirement>,
-    /// Where the arm stands now, if that is to be compared with the start of the plan \[rad\].
+    /// Configuration in which the arm stands now, if it is to be compared with the start of the plan \[rad\].
     pub stands_rad: Option<JointVector>,
     /// `T_flange_tip` as the controller has it, if that is to be compared with the plan's.
     pub tip: Option<Pose>,
@@ -86,7 +86,7 @@ impl ExportSettings {
         lines
     }
 
-    /// The settings that a text states in such lines, whatever stands before them; those that it does not state are as they are in
+    /// Reads the settings of a text from such lines, with any text before them; settings that it does not state are taken from
     /// `otherwise`. `None` where a line cannot be read.
     pub(crate) fn stated(text: &str, otherwise: Self) -> Option<Self> {
         let mut settings = otherwise;
@@ -109,5 +109,5 @@ impl ExportSettings {
     }
 }
 
-/// What such a line begins with.
+/// Prefix of such a line.
 const SETTING: &str = "platewash setting:";

@@ -5,10 +5,10 @@ use crate::refusal::Refusal;
 use platewash_kinematics::Pose;
 use platewash_workcell::tool::Tool;
 
-/// How far a tip may be from the plan's: \[m\], \[rad\].
+/// Largest difference of a tip from the plan's: \[m\], \[rad\].
 const TIP_WITHIN: (f64, f64) = (5e-4, 0.01);
 
-/// How far a mass may be from the plan's, as a part of it, and a centre of mass \[m\].
+/// Largest difference of a mass from the plan's, as a part of it, and of a centre of mass \[m\].
 const LOAD_WITHIN: (f64, f64) = (1e-3, 1e-4);
 
 /// Refuses a tip, `T_flange_tip`, that is not the plan's.
@@ -35,7 +35,7 @@ pub(crate) fn check(found: &Pose, expected: &Pose) -> Result<(), Refusal> {
 }
 
 impl ReadTool {
-    /// That it is not the tool of a plan.
+    /// Returns the refusal if it is not the tool of a plan.
     pub(crate) fn refusal(&self, plan: &Tool) -> Option<Refusal> {
         let tip = self.tip.as_ref().and_then(|tip| check(tip, &plan.tip).err());
         tip.or_else(|| self.load(plan))

@@ -14,7 +14,7 @@ use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
 use platewash_workcell::verdict::Infeasibility;
 
-/// Why the paper's program could not be carried out; one variant a stage. A run that does not wash is no error.
+/// Reason that the paper's program could not be carried out; one variant per stage. A run that does not wash is no error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PaperError {
@@ -56,7 +56,7 @@ pub enum PaperError {
     Cancelled(#[from] Cancelled),
 }
 
-// The messages above hold those of their causes, which are therefore not told again as sources.
+// The messages above contain those of their causes. The causes are therefore not repeated as sources.
 impl From<LayoutError> for PaperError {
     fn from(error: LayoutError) -> Self {
         Self::Layout(error)
@@ -85,7 +85,7 @@ impl From<TrackingError> for PaperError {
 }
 
 impl PaperError {
-    /// Whether the plates are known to have no room, or none was found for them; `None` for bad input.
+    /// Returns the verdict on plates without room: proved infeasible, or no room found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {

@@ -1,4 +1,4 @@
-//! What the paper's program is to do: arm, workcell, plates, settings.
+//! Job of the paper's program: arm, workcell, plates, settings.
 
 use crate::error::PaperError;
 use crate::part::PaperPart;
@@ -29,13 +29,13 @@ pub struct PaperJob {
     pub seed: u64,
     /// Joint positions at the start \[rad\].
     pub start_rad: JointVector,
-    /// What the report judges: coverage and clearance. The rest is stated in the plan alone.
+    /// Requirements that the report judges: coverage and clearance. The rest is stated in the plan alone.
     pub requirements: Requirements,
     /// Limits beyond those of the arm's description; the report judges joint accelerations. The rest is stated in the plan alone.
     pub limits: Limits,
     /// Settings of the program.
     pub settings: PaperSettings,
-    /// How the arm follows: the law must be one without a plant.
+    /// Settings of the simulation: the law must be one without a plant.
     pub simulation: SimulationSettings,
 }
 

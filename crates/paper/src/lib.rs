@@ -2,14 +2,14 @@
 //! solved and followed by a control law. For reproduction and teaching: it mostly does not wash.
 //!
 //! [`run`] carries out a [`PaperJob`]; [`PaperRun::report`] judges it, [`PaperRun::plan`] makes a plan file of it, and
-//! [`reproduce`] measures what the program does over many layouts.
+//! [`reproduce`] measures the results of the program over many layouts.
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | what is asked besides arm, plates and law | [`settings`] |
-//! | order of the plates, spiral, cubics, what the tip shall do | [`order`], [`spiral`], [`cubic`], [`tool_path`] |
-//! | inverse kinematics along it and what the arm makes of it | [`tracking`] |
-//! | how a run went | [`report`] |
+//! | settings besides arm, plates and law | [`settings`] |
+//! | order of the plates, spiral, cubics, path of the tip | [`order`], [`spiral`], [`cubic`], [`tool_path`] |
+//! | inverse kinematics along it and the motion of the arm | [`tracking`] |
+//! | report of a run | [`report`] |
 //! | the paper's tables, measured | [`reproduce`](mod@reproduce) |
 //!
 //! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].

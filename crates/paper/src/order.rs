@@ -3,7 +3,7 @@
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
 
-/// In which order plates are washed.
+/// Order in which plates are washed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PaperOrder {

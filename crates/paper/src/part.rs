@@ -11,7 +11,7 @@ use platewash_workcell::surface::Surface;
 /// A part of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperPart {
-    /// Its text.
+    /// The text of the paper.
     Text,
     /// The program in its appendix.
     Appendix,
@@ -30,7 +30,7 @@ impl PaperPart {
         }
     }
 
-    /// Where it lets centres of plates be.
+    /// Region for the centres of plates.
     #[must_use]
     pub fn region(self) -> Region {
         match self {
@@ -39,7 +39,7 @@ impl PaperPart {
         }
     }
 
-    /// How far it keeps plates from each other and from the base axis. The distance is below two radii: plates may overlap.
+    /// Least distances of plates from each other and from the base axis. The distance is below two radii: plates may overlap.
     #[must_use]
     pub fn spacing(self) -> Spacing {
         Spacing {
@@ -59,7 +59,7 @@ impl PaperPart {
         }
     }
 
-    /// How many plates it lays.
+    /// Number of plates.
     #[must_use]
     pub fn plate_count(self) -> usize {
         4
@@ -74,7 +74,7 @@ impl PaperPart {
         }
     }
 
-    /// Its plates for a seed, about an arm.
+    /// Draws its plates for a seed, about an arm.
     ///
     /// # Errors
     /// [`LayoutError::NoRoom`] where every layout begun came to a dead end.

@@ -14,9 +14,9 @@ use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 /// A job planned and followed, before it is judged.
 #[derive(Debug, Clone)]
 pub struct PaperRun {
-    /// What was asked.
+    /// The job that was run.
     pub job: PaperJob,
-    /// What the tip shall do.
+    /// Path that the tip is to follow.
     pub tool_path: ToolPath,
     /// One step per waypoint of the tool path.
     pub steps: Vec<Step>,

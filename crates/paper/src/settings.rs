@@ -1,4 +1,4 @@
-//! What decides a run of the paper's program besides arm, plates and control law.
+//! Settings of a run of the paper's program besides arm, plates and control law.
 
 use crate::cubic::Interpolation;
 use crate::order::PaperOrder;
@@ -21,7 +21,7 @@ pub struct PaperSettings {
     pub arc: Arc,
     /// The inverse kinematics.
     pub ik: PaperIk,
-    /// In which order plates are washed.
+    /// Order in which plates are washed.
     pub order: PaperOrder,
 }
 
@@ -41,7 +41,7 @@ pub struct TransitCurve {
 pub struct PaperIk {
     /// The solver.
     pub method: IkMethod,
-    /// From where each waypoint is solved.
+    /// Configuration from which each waypoint is solved.
     pub seed: IkSeed,
     /// Largest accepted position error \[m\].
     pub position_tolerance_m: f64,
@@ -59,7 +59,7 @@ pub enum IkMethod {
     Analytic,
 }
 
-/// From where each waypoint is solved.
+/// Configuration from which each waypoint is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IkSeed {
@@ -75,14 +75,14 @@ pub enum IkSeed {
 pub struct SettingError {
     /// Its place in [`PaperSettings`], e.g. `spiral.points`.
     pub name: &'static str,
-    /// What it must be.
+    /// Range or kind of value required.
     pub expected: &'static str,
-    /// What it is.
+    /// Value found.
     pub found: f64,
 }
 
 impl PaperSettings {
-    /// Those of the program in the paper's appendix.
+    /// Settings of the program in the paper's appendix.
     #[must_use]
     pub fn appendix() -> Self {
         Self {
@@ -113,7 +113,7 @@ impl PaperSettings {
         }
     }
 
-    /// Those of the paper's text, which differs in the region of the plates alone.
+    /// Settings of the paper's text, which differs in the region of the plates alone.
     #[must_use]
     pub fn text() -> Self {
         Self::appendix()

@@ -18,7 +18,7 @@ pub struct PaperSpiral {
     pub turns: f64,
     /// Outer radius \[m\].
     pub radius_m: f64,
-    /// Whether a full circle at the outer radius follows, at the spiral's angular spacing or finer.
+    /// True where a full circle at the outer radius follows, at the spiral's angular spacing or finer.
     pub closing_ring: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What the tip shall do: segments of waypoints, as positions of the tip frame.
+//! Path of the tip: segments of waypoints, as positions of the tip frame.
 //!
 //! The tip frame stands at the centre of the sponge's far face with z leaving the tool; without a tool body it is
 //! the mounting frame (`tool0`). It points straight down everywhere.
@@ -14,7 +14,7 @@ use platewash_workcell::trajectory::SegmentKind;
 /// A stretch of the tool path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
-    /// What it is for.
+    /// Kind of the segment.
     pub kind: SegmentKind,
     /// The plate washed, or the plate it leads to.
     pub plate: usize,
@@ -59,7 +59,7 @@ impl ToolPath {
         self.segments.iter().map(|s| s.waypoints.len()).sum()
     }
 
-    /// Whether there is no waypoint at all.
+    /// Returns true where there is no waypoint at all.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

@@ -1,4 +1,4 @@
-//! Inverse kinematics along the tool path and what the arm makes of it, one step a waypoint.
+//! Inverse kinematics along the tool path and the motion of the arm, one step per waypoint.
 //!
 //! The two belong together in the paper's program: each waypoint is solved from the configuration that the arm
 //! **really** has, which lags behind, and an unsolved waypoint's best configuration is commanded all the same.
@@ -25,25 +25,25 @@ pub enum IkOutcome {
     },
     /// Not solved: the best configuration found is commanded.
     Failed {
-        /// Why.
+        /// Cause reported by the inverse kinematics.
         cause: IkCause,
     },
 }
 
-/// One waypoint: what was asked, commanded and done.
+/// One waypoint: target, command and executed motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     /// Index of the segment.
     pub segment: usize,
-    /// Where the tip shall be \[m\].
+    /// Commanded position of the tip \[m\].
     pub target: Vector3<f64>,
     /// Configuration commanded \[rad\].
     pub commanded: JointVector,
     /// Configuration after the step \[rad\].
     pub executed: JointVector,
-    /// Where the tip is after the step \[m\].
+    /// Executed position of the tip after the step \[m\].
     pub executed_tip: Vector3<f64>,
-    /// What the inverse kinematics answered.
+    /// Outcome of the inverse kinematics.
     pub outcome: IkOutcome,
     /// Distance of the commanded tip from the target \[m\].
     pub ik_position_error_m: f64,
@@ -54,7 +54,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// Whether the inverse kinematics solved this waypoint.
+    /// Returns true where the inverse kinematics solved this waypoint.
     #[must_use]
     pub fn reached(&self) -> bool {
         matches!(self.outcome, IkOutcome::Solved { .. })
@@ -80,7 +80,7 @@ pub(crate) fn tracking_errors<'a>(steps: impl Iterator<Item = &'a Step>) -> (f64
 /// Joint positions beyond this are divergence, not motion \[rad\].
 const LARGEST_POSITION_RAD: f64 = 1e6;
 
-/// Why a path could not be followed.
+/// Reason that a path could not be followed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrackingError {
@@ -89,7 +89,7 @@ pub enum TrackingError {
     Ik {
         /// Index of the waypoint, over all segments.
         waypoint: usize,
-        /// Why.
+        /// Error of the inverse kinematics.
         error: IkError,
     },
     /// The control law drives a joint out of all bounds.
@@ -102,7 +102,7 @@ pub enum TrackingError {
         waypoint: usize,
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// Where it is \[rad\].
+        /// Position of the joint \[rad\].
         position_rad: f64,
     },
     /// The control law drives torques, for which there is no plant here.
@@ -113,7 +113,7 @@ pub enum TrackingError {
         /// Index of the waypoint, over all segments.
         waypoint: usize,
     },
-    /// The work was given up, as it was told to be.
+    /// The work was cancelled on request.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

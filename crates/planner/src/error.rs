@@ -16,7 +16,7 @@ use platewash_workcell::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, printable};
 
-/// Why a job could not be planned.
+/// Reason that a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -32,7 +32,7 @@ pub enum PlanError {
         least: f64,
         /// Greatest value.
         most: f64,
-        /// What was given.
+        /// Value given.
         found: f64,
     },
     /// There is no such plate.
@@ -40,13 +40,13 @@ pub enum PlanError {
     Plate {
         /// Index of the plate.
         plate: usize,
-        /// How many there are.
+        /// Number of plates of the job.
         count: usize,
     },
     /// An order that is none.
     #[error("an order of {count} plates must name each of them once")]
     Order {
-        /// How many there are.
+        /// Number of plates of the job.
         count: usize,
     },
     /// The terms are no job.
@@ -61,15 +61,15 @@ pub enum PlanError {
     /// An end configuration lies outside the joint limits.
     #[error("at the {end} of the motion: {violation}")]
     Home {
-        /// Which end.
+        /// The end at fault.
         end: End,
-        /// Which joint, and by how much.
+        /// The joint, its limit and its position.
         violation: LimitViolation,
     },
-    /// At an end configuration the arm is too near something.
+    /// The arm is too near a body at an end configuration.
     #[error("at the {end} of the motion the arm is not clear: {too_near}")]
     HomeNotClear {
-        /// Which end.
+        /// The end at fault.
         end: End,
         /// The bodies.
         too_near: Box<TooNear>,
@@ -97,15 +97,15 @@ pub enum PlanError {
     /// A plate cannot be washed whole, or no way to was found.
     #[error("{0}")]
     Unwashable(Box<UnwashablePlate>),
-    /// Of no layout drawn was a way found to wash it whole.
+    /// No layout drawn has a known way to wash every plate whole.
     #[error("no plan was found for any of {layouts} random layouts; for the last one: {last}")]
     NoneWashable {
         /// Layouts drawn.
         layouts: usize,
-        /// What stands in the way in the last one, in words.
+        /// Obstruction in the last layout, in words.
         last: String,
     },
-    /// From the configurations found on a plate, the arm does not follow the line over it.
+    /// The arm cannot follow the line over a plate from the configurations found there.
     #[error(
         "no way was found for the arm to follow the line over plate {plate} up to the lift of {}: {error}",
         millimetres(*.lift_m)
@@ -115,15 +115,15 @@ pub enum PlanError {
         plate: usize,
         /// Height of the line \[m\].
         lift_m: f64,
-        /// Why.
+        /// Error of the inverse kinematics along the line.
         error: Box<IkPathError>,
     },
-    /// The arm can follow a wash path, but with none that was tried the sponge does what is promised.
+    /// The arm can follow a wash path, but no path that was tried keeps the promises of the job.
     #[error("no way was found to wash plate {plate} as required: {shortfall}")]
     Promise {
         /// The plate.
         plate: usize,
-        /// What is not kept.
+        /// Promise that is not kept, with the value found and the value required.
         shortfall: Shortfall,
     },
     /// The tool would tilt too far between the points that were solved.
@@ -139,7 +139,7 @@ pub enum PlanError {
         kind: SegmentKind,
         /// The largest tilt seen \[rad\].
         tilt_rad: f64,
-        /// What is allowed \[rad\].
+        /// Largest angle allowed \[rad\].
         most_rad: f64,
     },
     /// The line over a plate is no path.
@@ -179,13 +179,13 @@ impl PlanError {
         })
     }
 
-    /// Whether the input was fine but no plan came of it.
+    /// Returns true where the input is valid but no plan was found.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         self.infeasibility().is_some()
     }
 
-    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    /// Returns the verdict on a job without a plan: proved infeasible, or no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         let found = |proved| Some(Infeasibility::proved_if(proved));
@@ -204,7 +204,7 @@ impl PlanError {
     }
 }
 
-// The messages above hold those of their causes, which are therefore not told again as sources.
+// The messages above contain those of their causes. The causes are therefore not repeated as sources.
 impl From<LayoutError> for PlanError {
     fn from(error: LayoutError) -> Self {
         Self::Layout(error)
@@ -226,7 +226,7 @@ impl From<TransitError> for PlanError {
     }
 }
 
-/// Which pair is in the way most often, where one is.
+/// Names the pair that is in the way most often; empty where there is none.
 fn most_often(in_the_way: Option<&([String; 2], usize)>) -> String {
     in_the_way.map_or_else(String::new, |([a, b], count)| {
         let [a, b] = [a, b].map(|name| printable(name));

@@ -1,6 +1,7 @@
-//! What is reported of a job that cannot be done, or that no way was found to do: why, and what of each plate concerned.
+//! Report of a job that cannot be done, or that no way was found to do: the reason, and the findings on each plate concerned.
 //!
-//! A plate for which no way was found to wash it whole: which part of it, why, whether that is known, and where it could be washed.
+//! Findings on a plate for which no way was found to wash it whole: the part at fault, the cause, the firmness of the conclusion,
+//! and another place at which it could be washed.
 
 use crate::error::PlanError;
 use crate::redundancy::washable::Cause;
@@ -23,7 +24,7 @@ pub struct InfeasibleReport {
     pub verdict: Verdict,
     /// The first line.
     pub headline: String,
-    /// Why, in full.
+    /// Reason in full, in words.
     pub reason: String,
     /// The plates concerned; none where it is no plate that stands in the way.
     pub plates: Vec<InfeasiblePlate>,
@@ -38,13 +39,14 @@ pub struct InfeasiblePlate {
     pub centre_m: Option<[f64; 2]>,
     /// Share of its wash path for which configurations were found.
     pub washable_share: Option<f64>,
-    /// Whether the rest is known to be beyond the arm, and by what; `None` where the plate itself can be washed.
+    /// Conclusion about the part that cannot be washed: proved beyond the arm, and by which argument, or only not found; `None`
+    /// where the plate itself can be washed.
     pub conclusion: Option<Conclusion>,
-    /// What keeps the rest from being washed.
+    /// Obstructions that keep the rest from being washed, by part.
     pub causes: Vec<InfeasiblePart>,
     /// The nearest centre found at which it can be washed \[m\].
     pub nearest_m: Option<[f64; 2]>,
-    /// How that was looked for; `None` where the plate itself can be washed.
+    /// Extent of the search for another place; `None` where the plate itself can be washed.
     pub place_search: Option<PlaceSearch>,
 }
 
@@ -55,29 +57,29 @@ pub struct InfeasiblePart {
     pub share: f64,
     /// Least and greatest distance of the part from axis 1 \[m\].
     pub from_axis_m: [f64; 2],
-    /// What hinders at the most of the tilts.
+    /// Hindrance at most of the tilts.
     #[serde(flatten)]
     pub first: InfeasibleHindrance,
-    /// What hinders at the other ones.
+    /// Hindrances at the other tilts.
     pub others: Vec<InfeasibleHindrance>,
-    /// The same in words.
+    /// The cause in words.
     pub cause: String,
 }
 
-/// What hinders on a part of a wash path, at its worst.
+/// Hindrance on a part of a wash path, at its worst point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InfeasibleHindrance {
     /// The kind of hindrance.
     pub kind: Filter,
-    /// By how much the worst point is missed \[m\]; `None` for joints.
+    /// Shortfall of the worst point \[m\]; `None` for joints.
     pub shortfall_m: Option<f64>,
-    /// By how much the worst joint is off \[rad\]; `None` for lengths.
+    /// Shortfall of the worst joint \[rad\]; `None` for lengths.
     pub shortfall_rad: Option<f64>,
 }
 
 impl InfeasibleReport {
-    /// What is to be said of a job, by the name of its scenario and its seed, that ended with `error`; `None` where the error is
-    /// one of the input.
+    /// Report of a job that ended with `error`, with the name of its scenario and its seed; `None` where the error is one of the
+    /// input.
     #[must_use]
     pub fn new(scenario: &str, seed: u64, error: &PlanError) -> Option<Self> {
         let verdict = match error.infeasibility()? {
@@ -95,7 +97,7 @@ impl InfeasibleReport {
         Some(report.explained(error.to_string()))
     }
 
-    /// The same with further plates that stand in the way.
+    /// The same report with further plates that stand in the way.
     #[must_use]
     pub fn besides(mut self, others: &[UnwashablePlate]) -> Self {
         for other in others {
@@ -109,7 +111,7 @@ impl InfeasibleReport {
         self.explained(reason)
     }
 
-    /// The same with the reason in other words.
+    /// The same report with the reason in other words.
     #[must_use]
     pub fn explained(self, reason: String) -> Self {
         let word = match self.verdict {
@@ -228,50 +230,50 @@ impl From<&Hindrance> for InfeasibleHindrance {
     }
 }
 
-/// What is known of a plate that cannot be washed whole, or for which no way to was found.
+/// Findings on a plate that cannot be washed whole, or for which no way to wash it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnwashablePlate {
     /// The plate.
     pub plate: usize,
     /// Its centre \[m\].
     pub centre_m: [f64; 2],
-    /// Where the search for its configurations ended.
+    /// Error with which the search for its configurations ended.
     pub error: RedundancyError,
-    /// Whether it is known that it cannot be.
+    /// Conclusion: proved unwashable, or only not found to be washable.
     pub conclusion: Conclusion,
     /// Share of the wash path for which configurations were found, point by point.
     pub share: Option<f64>,
-    /// What keeps the rest from being washed, the most frequent first.
+    /// Causes that keep the rest from being washed, the most frequent first.
     pub causes: Vec<Cause>,
-    /// Contact points, world frame \[m\], looked at one by one: those for which configurations were found on the best branch of
-    /// the arm. Without a `share` none were looked at, here and in `dead_m`.
+    /// Contact points with a configuration on the best branch of the arm, checked one by one, world frame \[m\]. Without a
+    /// `share` none were checked, here and in `dead_m`.
     pub free_m: Vec<[f64; 3]>,
-    /// Those for which none were.
+    /// Contact points without a configuration \[m\].
     pub dead_m: Vec<[f64; 3]>,
-    /// The nearest centre found at which it can be washed whole, and the arm gets there and away \[m\]; on a grid of a
-    /// millimetre, so that what is printed is what was tried.
+    /// Nearest centre found at which it can be washed whole, and which the arm reaches and leaves \[m\]. It is on a grid of a
+    /// millimetre, so that the printed place is the place that was tried.
     pub nearest_m: Option<[f64; 2]>,
-    /// How that was looked for.
+    /// Extent of the search for another place.
     pub place_search: PlaceSearch,
 }
 
-/// How another place for a plate was looked for.
+/// Extent of the search for another place of a plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaceSearch {
-    /// On rings up to this distance from where it lies \[m\].
+    /// Search on rings up to this distance from its own place \[m\].
     Within(f64),
-    /// Not at all: the job does not ask for it.
+    /// No search: the job does not ask for it.
     Off,
-    /// Not yet: the job asks for it, but whoever asked for an answer did not wait for it.
+    /// No search yet: the job asks for it, but the caller did not wait for it.
     Later,
 }
 
-/// Why a plate cannot be washed, without another place for it.
+/// Display of the reason that a plate cannot be washed, without another place for it.
 struct Why<'a>(&'a UnwashablePlate);
 
 impl UnwashablePlate {
-    /// Why it cannot be washed, or that no way to was found, in words; without another place for it.
+    /// Returns the reason in words that it cannot be washed, or that no way was found; without another place for it.
     #[must_use]
     pub fn why(&self) -> impl fmt::Display + '_ {
         Why(self)

@@ -9,12 +9,12 @@
 
 use platewash_kinematics::JointVector;
 
-/// How the curve ends.
+/// End conditions of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {
-    /// With these derivatives dq/du at the first and the last sample \[rad per unit of u\].
+    /// Given derivatives dq/du at the first and the last sample \[rad per unit of u\].
     Clamped([JointVector; 2]),
-    /// As the samples next to the ends say: the first two pieces are one cubic, and so are the last two. Three samples
+    /// Ends that follow from the samples next to them: the first two pieces are one cubic, and so are the last two. Three samples
     /// give a parabola, two a straight line.
     NotAKnot,
 }

@@ -9,15 +9,15 @@ pub const EXACT_UP_TO: usize = 12;
 /// Times \[s\] from home to each plate, between plates (row: from), and from each plate home.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TravelTimes {
-    /// From home to each plate.
+    /// Travel time from home to each plate.
     pub out: Vec<f64>,
-    /// From the plate of the row to the plate of the column.
+    /// Travel time from the plate of the row to the plate of the column.
     pub between: Vec<Vec<f64>>,
-    /// From each plate home.
+    /// Travel time from each plate to home.
     pub back: Vec<f64>,
 }
 
-/// Whether an order is known to be the best.
+/// Proof level of an order: the best of all, or only a local optimum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Optimality {

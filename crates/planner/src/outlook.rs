@@ -1,4 +1,4 @@
-//! What to expect of a plate, before anything is planned.
+//! Expectation for a plate before anything is planned.
 
 use crate::redundancy::Chance;
 use serde::Serialize;

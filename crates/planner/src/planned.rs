@@ -1,6 +1,6 @@
-//! What planning makes: the plan, and what is to be said of it.
+//! Result of planning: the plan, and a summary of it.
 //!
-//! How long a wash takes beside the least time for its face, and which limits hold it back.
+//! Time of a wash against the least time for its face, and the limits that hold it back.
 //!
 //! A disc of radius s whose centre moves by L covers at most 2 s L + π s². A wash at the speed v or below that covers the area A
 //! therefore takes at least (A − π s²)/(2 s v).
@@ -27,31 +27,31 @@ pub struct Planned {
     pub plan: Plan,
     /// One entry a plate, in the order of washing.
     pub visits: Vec<VisitSummary>,
-    /// From home, between the plates, and home.
+    /// Transits from home, between the plates, and to home.
     pub transits: Vec<TransitSummary>,
-    /// What the order gains.
+    /// Travel time saved by the order.
     pub tour: TourSummary,
     pub(crate) largest_jerk: JointVector,
 }
 
-/// How a plate is washed.
+/// Washing of one plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct VisitSummary {
     /// The plate.
     pub plate: usize,
-    /// Where the tilt of the tool comes from.
+    /// Source of the tool's tilt.
     pub tilt: TiltChoice,
-    /// How far the tool leans across the arm's plane besides: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\]. Left out
-    /// where it is 0.
+    /// Lean of the tool across the arm's plane: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\]. Left out where it
+    /// is 0.
     #[serde(skip_serializing_if = "is_zero")]
     pub aside_rad: f64,
-    /// How far the tool may lean from the normal of the face \[rad\].
+    /// Largest lean of the tool from the normal of the face \[rad\].
     pub cone_rad: f64,
     /// The curve of the tip.
     pub curve: WashCurve,
     /// Time on the plate \[s\].
     pub wash_s: f64,
-    /// How near that is to the least time of the area, and what binds it.
+    /// Least time of the area, and the shares of that time at each limit.
     pub pace: Pace,
 }
 
@@ -59,7 +59,7 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-/// How a transit goes.
+/// Kind and duration of one transit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TransitSummary {
     /// Its kind.
@@ -68,14 +68,14 @@ pub struct TransitSummary {
     pub duration_s: f64,
 }
 
-/// What the order gains.
+/// Estimated travel time of the order, compared with a simple one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TourSummary {
     /// Travel time estimated for the order taken \[s\]: each joint at its limits from place to place.
     pub travel_s: f64,
-    /// The same for always the plate reached soonest \[s\].
+    /// The same estimate for an order that always takes the plate reached soonest \[s\].
     pub nearest_next_s: f64,
-    /// Whether the order is known to be the best under that estimate.
+    /// Proof level of the order under that estimate.
     pub optimality: Option<Optimality>,
 }
 

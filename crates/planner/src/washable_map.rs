@@ -1,4 +1,4 @@
-//! Where a plate could be washed, square by square: the squares, and what is told of them.
+//! Map of the places at which a plate could be washed: the squares, and the answers for them.
 
 use crate::error::PlanError;
 use platewash_workcell::job::WashJob;
@@ -11,10 +11,10 @@ const LEVELS: [i32; 3] = [4, 2, 1];
 /// Finest squares across the radius of an area, at most; of all levels together there are then fewer than 20 000.
 const MOST_ACROSS: f64 = 60.0;
 
-/// The same where the area is chosen here.
+/// The same number where the area is chosen here.
 const CHOSEN_ACROSS: f64 = 45.0;
 
-/// The same at least: the first squares are four times as large, and some must lie in the area.
+/// Least number of them: the first squares are four times as large, and some must lie in the area.
 const LEAST_ACROSS: f64 = 4.0;
 
 /// Radius of an area, at least and at most \[m\].
@@ -23,13 +23,13 @@ const RADII_M: [f64; 2] = [0.05, 1e3];
 /// Distance of an area from the base, at most \[m\].
 const FARTHEST_M: f64 = 1e3;
 
-/// Squares told of at once, at most: few, so that the first are soon there.
+/// Greatest number of squares in one patch: few, so that the first ones arrive soon.
 pub const IN_A_PATCH: usize = 32;
 
 /// Places of the edges chosen here in a metre.
 const PER_METRE: f64 = 1000.0;
 
-/// The disc of the floor that is looked at: centres of the plate.
+/// The disc of the floor that is mapped: centres of the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MapArea {
     /// Its centre \[m\].
@@ -40,7 +40,7 @@ pub struct MapArea {
     pub step_m: f64,
 }
 
-/// Some squares of one size, looked at.
+/// Some checked squares of one size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MapPatch {
     /// Their edge \[m\].
@@ -49,7 +49,7 @@ pub struct MapPatch {
     pub washable_m: Vec<[f64; 2]>,
     /// Centres of the others \[m\].
     pub unwashable_m: Vec<[f64; 2]>,
-    /// Squares of this size told of so far.
+    /// Squares of this size checked so far.
     pub done: usize,
     /// Squares of this size in all.
     pub of: usize,
@@ -75,7 +75,7 @@ impl MapArea {
         Ok(Self::about([from.x, from.y], reach_m))
     }
 
-    /// All that a reach about a point covers: squares so fine that all levels take seconds, with edges in whole millimetres.
+    /// Area of a reach about a point: squares so fine that all levels take seconds, with edges in whole millimetres.
     fn about(centre_m: [f64; 2], reach_m: f64) -> Self {
         let [least, most] = RADII_M;
         // NaN is the least here.
@@ -99,11 +99,11 @@ impl MapArea {
     }
 }
 
-/// The levels of a map, coarse to fine, with what was found so far.
+/// The levels of a map, coarse to fine, with the answers so far.
 #[derive(Debug)]
 pub(crate) struct Levels<'a> {
     area: &'a MapArea,
-    /// Whether the plate could be washed, square by square of each level.
+    /// Answers square by square of each level: true where the plate could be washed.
     found: Vec<BTreeMap<Square, bool>>,
 }
 
@@ -150,7 +150,7 @@ impl<'a> Levels<'a> {
         rows.flat_map(square).filter(inside).collect()
     }
 
-    /// Whether one of the eight squares around it has the other answer. Outside of the area nothing can be washed.
+    /// Checks that one of the eight squares around has the other answer. Outside of the area nothing can be washed.
     fn is_border(&self, level: usize, (column, row): Square) -> bool {
         let here = self.answer(level, (column, row));
         let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
@@ -187,7 +187,7 @@ mod tests {
         step_m: 1.0,
     };
 
-    /// Where every square is at the border.
+    /// Every square is at the border.
     #[test]
     fn there_are_never_more_than_twenty_thousand_squares() {
         let mut levels = Levels::new(&AREA);
@@ -204,7 +204,8 @@ mod tests {
         assert!((14_000..20_000).contains(&all), "{all}");
     }
 
-    /// Of a half plane only what lies beside its edge is quartered, on both of its sides; and the rim, as nothing is washed outside.
+    /// On a half plane, only the squares beside its edge, on both sides, are quartered, and those at the rim: nothing is washed
+    /// outside.
     #[test]
     fn squares_are_quartered_along_the_border_alone() {
         let mut levels = Levels::new(&AREA);

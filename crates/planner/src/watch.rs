@@ -1,17 +1,17 @@
-//! Whoever waits for planning.
+//! Watch: the caller that waits for planning.
 //!
-//! What planning is busy with, for whoever waits for it.
+//! Activities of planning, for a caller that waits.
 
 use platewash_workcell::cancel::CancelToken;
 use std::fmt;
 
-/// Who hears what planning is busy with; it is called often, and must not take long.
+/// Callback that receives the current activity of planning; it is called often, and must not take long.
 pub type Listener<'a> = &'a (dyn Fn(&Activity) + Sync);
 
-/// Whoever waits for planning: hears of it, and may give it up.
+/// Connection of planning to its caller, who receives its activities and may cancel it.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Hears what planning is busy with.
+    /// Callback that receives the current activity.
     pub tell: Listener<'a>,
     /// Tells it to give up.
     pub cancel: &'a CancelToken,
@@ -33,7 +33,7 @@ impl fmt::Debug for Watch<'_> {
     }
 }
 
-/// What planning is busy with.
+/// Current activity of planning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Activity {
@@ -41,7 +41,7 @@ pub enum Activity {
     Layout {
         /// The layout, from 1.
         drawn: usize,
-        /// How many are drawn at most.
+        /// Greatest number of layouts drawn.
         most: usize,
     },
     /// Looking for configurations that wash a plate, and timing its wash.
@@ -60,7 +60,7 @@ pub enum Activity {
         /// Transits in all.
         of: usize,
     },
-    /// Looking for what keeps a plate from being washed, on every branch of the arm.
+    /// Searching for the obstruction that keeps a plate from being washed, on every branch of the arm.
     Cause {
         /// The plate.
         plate: usize,
@@ -73,7 +73,7 @@ pub enum Activity {
         ring: u32,
         /// Rings in all.
         of: u32,
-        /// Its distance from where the plate lies \[m\].
+        /// Distance from the plate's own place \[m\].
         away_m: f64,
     },
     /// Planning the job with a plate at another place.

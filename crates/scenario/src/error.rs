@@ -8,7 +8,7 @@ use platewash_workcell::clearance::SolidError;
 use platewash_workcell::words::printable;
 use std::fmt;
 
-/// What is wrong with a scenario.
+/// Fault of a scenario.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs)] // the fields are named after what the message prints
@@ -48,7 +48,7 @@ pub struct ScenarioError {
     pub source_name: String,
     /// Line in the file, from 1, where one is at fault.
     pub line: Option<usize>,
-    /// What is wrong.
+    /// The fault.
     pub problem: Problem,
 }
 
@@ -61,7 +61,7 @@ impl ScenarioError {
         }
     }
 
-    /// What is said of a text that is no TOML.
+    /// Error for a text that is no TOML.
     pub(crate) fn syntax(source_name: &str, text: &str, error: &toml::de::Error) -> Self {
         let span = error.span();
         let line = span.as_ref().map(|span| line_at(text, span.start));
@@ -71,7 +71,7 @@ impl ScenarioError {
         Self::new(source_name, line, Problem::Syntax { detail })
     }
 
-    /// The key that it is about: a path of the table of keys or a section, where a file is at fault, or whatever a file states in
+    /// The key at fault: a path of the table of keys or a section, where a file is at fault, or the name that a file states in
     /// place of one; of keys that contradict each other, the first.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
@@ -86,7 +86,7 @@ impl ScenarioError {
 }
 
 impl Problem {
-    /// As [`ScenarioError::key`].
+    /// The key at fault, as [`ScenarioError::key`].
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         match self {
@@ -110,7 +110,7 @@ fn line_text(line: Option<usize>) -> String {
 /// Longest line of a text that a message repeats, in characters.
 const LONGEST: usize = 60;
 
-/// What is wrong with a line that is no TOML, and the line.
+/// Describes the fault of a line that is no TOML, and quotes the line.
 fn syntax_words(message: &str, at_fault: &str, written: &str) -> String {
     let value = written.split_once('=').map(|(_, value)| value.trim());
     let plain = value.filter(|value| !value.contains(['[', '"']));
@@ -142,16 +142,16 @@ fn guess(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean '{name}'?)"))
 }
 
-/// Why a body that a section states could not be made.
+/// Reason that the body of a section could not be made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyError {
-    /// Of which list it is.
+    /// List that it belongs to.
     pub section: BodySection,
-    /// Which of the sections, from 0.
+    /// Index of the section, from 0.
     pub index: usize,
     /// Its name.
     pub name: String,
-    /// Why.
+    /// The fault.
     pub why: BodyFault,
 }
 
@@ -182,31 +182,31 @@ impl BodySection {
     }
 }
 
-/// What is wrong with a body.
+/// Fault of a body.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum BodyFault {
-    /// Its mesh cannot be read: why, with the file.
+    /// Its mesh cannot be read; the error names the file and the reason.
     Mesh(MeshError),
     /// Its mesh is no body.
     Solid {
         /// The file.
         file: String,
-        /// Why.
+        /// The fault of the mesh.
         why: SolidError,
     },
     /// It reaches farther from its origin than any body of a tool.
     Large {
         /// The file.
         file: String,
-        /// How far \[m\].
+        /// Reach from the origin \[m\].
         reach_m: f64,
-        /// How far at most \[m\].
+        /// Greatest reach allowed \[m\].
         most_m: f64,
     },
     /// Another body has its name.
     NameTaken {
-        /// Who.
+        /// The other owner of the name.
         of: &'static str,
     },
 }

@@ -1,6 +1,7 @@
-//! Why a scenario could not be carried out, in the scenario's own keys.
+//! Failures of a scenario, in the scenario's own keys.
 //!
-//! Whoever plans, proves or simulates knows no keys: the errors name things of the domain. Here each gets the keys that decide it.
+//! Planner, prover and simulator know no keys: their errors name things of the domain. Here each error gets the keys that decide
+//! it.
 
 use crate::error::{BodyError, ScenarioError};
 use crate::resolve::arm::ArmError;
@@ -20,7 +21,7 @@ use platewash_workcell::tool_chain::ToolError;
 use platewash_workcell::verdict::Infeasibility;
 use std::fmt;
 
-/// Why a scenario could not be carried out. Its words name the keys that decide it.
+/// Reason that a scenario could not be carried out. Its words name the keys that decide it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
@@ -54,7 +55,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Whether the job cannot be done, or no way to do it was found; `None` for bad input.
+    /// Returns the verdict on a job without a plan: proved infeasible, or no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
         match self {
@@ -65,7 +66,7 @@ impl Failure {
         }
     }
 
-    /// Whether the work was given up, as it was told to be.
+    /// Returns true where the work was cancelled on request.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         matches!(

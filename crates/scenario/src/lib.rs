@@ -1,11 +1,12 @@
-//! The scenario file: everything that decides a job, in TOML with the unit in every key's name; the jobs that it states; and the
-//! keys in the messages of whoever could not carry them out.
+//! The scenario file: everything that decides a job, in TOML with the unit in every key's name; the jobs that it states; and
+//! messages with its keys for the failures of these jobs.
 //!
 //! [`keys`] is the one table of keys, units, ranges and meanings: it checks files and makes
 //! `docs/scenario.md`. The defaults are those of the types here.
 //!
-//! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and `job_on` for
-//! whoever wants the steps one by one. [`Draft`] changes a scenario's text key by key. Errors of other crates become a [`Failure`] by `?`; its words name the keys.
+//! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and
+//! `job_on` for callers that need the steps one by one. [`Draft`] changes a scenario's text key by key. Errors of other crates
+//! become a [`Failure`] by `?`; its words name the keys.
 
 mod draft;
 mod error;

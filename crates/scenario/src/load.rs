@@ -26,7 +26,7 @@ impl Scenario {
     /// relative to its folder.
     ///
     /// # Errors
-    /// [`ScenarioError`] with the file, line, key, what was expected and what was found.
+    /// [`ScenarioError`] with the file, the line, the key, the value expected and the value found.
     pub fn load(name_or_file: &str) -> Result<Self, ScenarioError> {
         let source = source(name_or_file)?;
         Self::parse_in(&source.text, &source.name, source.folder.as_deref())
@@ -144,7 +144,7 @@ impl Scenario {
     }
 }
 
-/// What a stiffness may be past the bounds of a range in another unit, as a part of them.
+/// Largest excess of a stiffness over the bounds of a range in another unit, as a part of them: rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Scenario {
@@ -227,7 +227,7 @@ pub(crate) const MAX_BYTES: u64 = 1 << 20;
 /// A scenario's text, and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioSource {
-    /// What it was asked for by: a shipped name, or the file as it was given.
+    /// Name that it was asked for by: a shipped name, or the file as it was given.
     pub name: String,
     /// Its TOML text, as it stands there; not checked.
     pub text: String,
@@ -362,12 +362,12 @@ pub const SHIPPED: &[ShippedScenario] = &[
     },
 ];
 
-/// A path with U+FFFD in place of what is not UTF-8.
+/// A path with U+FFFD in place of bytes that are not UTF-8.
 pub(crate) fn lossy<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
     path.as_ref().map(|p| p.to_string_lossy()).serialize(serializer)
 }
 
-/// The same for several paths.
+/// Several paths, each with U+FFFD in place of bytes that are not UTF-8.
 pub(crate) fn lossy_all<S: Serializer>(paths: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(paths.iter().map(|p| p.to_string_lossy()))
 }

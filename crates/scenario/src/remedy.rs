@@ -2,8 +2,8 @@
 //!
 //! The cause points to keys; each is tried by itself, up and down as the cause has it, by planning the changed job whole and proving the plan.
 //! A change is so many steps of the key's own grid: 1, 2, 4, 8, 16 and so on, until the plan is proved, then halved down to the least with which
-//! it is: at most [`MOST_TRIALS`] jobs a key and direction, in as many threads as there are. The search ends after a time that the caller
-//! states: what was not tried until then is named.
+//! it is: at most [`MOST_TRIALS`] jobs per key and direction, in as many threads as there are. The search ends after a time that
+//! the caller states: keys that were not tried until then are named.
 
 use crate::failure::home_key;
 use crate::scenario::Scenario;
@@ -40,7 +40,7 @@ pub struct Remedy {
     pub value: Option<Value>,
     /// The value that it has.
     pub found: Option<Value>,
-    /// Whether the plan is proved; otherwise the job is planned, no more.
+    /// True where the plan is proved; otherwise the job is only planned.
     pub is_proved: bool,
 }
 
@@ -54,7 +54,7 @@ impl fmt::Display for Remedy {
     }
 }
 
-/// What was tried for a job that cannot be done.
+/// Changes that were tried for a job that cannot be done.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Remedies {
     /// The keys that would do, each alone: those with which the plan is proved first, in the order in which the cause points to them.
@@ -66,7 +66,7 @@ pub struct Remedies {
 }
 
 impl fmt::Display for Remedies {
-    /// Nothing where nothing was tried.
+    /// Writes nothing where nothing was tried.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const FEW: usize = 3;
         let few = |is_proved: bool| {
@@ -111,12 +111,12 @@ struct Grid {
     key: &'static str,
     /// A step up (above 0) or down, in the key's unit.
     steps: &'static [f64],
-    /// Its value, where it decides anything.
+    /// Its value, where it has an effect.
     get: fn(&Scenario) -> Option<f64>,
     set: fn(&mut Scenario, f64),
 }
 
-/// What comes of a changed job.
+/// Result of a changed job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Trial {
     Refused,
@@ -188,7 +188,7 @@ static MOUNT: Grid = Grid {
     set: |scenario, value| scenario.robot.mount_m[2] = value,
 };
 
-/// Whether plates are drawn.
+/// Checks that plates are drawn at random.
 fn is_sampled(scenario: &Scenario) -> bool {
     scenario.plate.is_empty() && scenario.layout.positions_m.is_none()
 }
@@ -262,7 +262,7 @@ impl Scenario {
         Ok(remedies)
     }
 
-    /// Whether a key is one that decides anything as the scenario is.
+    /// Returns true where a key has an effect in this scenario.
     fn decides(&self, tried: Tried) -> bool {
         match tried {
             Tried::Number(grid) => (grid.get)(self).is_some(),
@@ -309,14 +309,14 @@ impl Scenario {
         })
     }
 
-    /// What it states of a key.
+    /// Returns the stated value of a key.
     fn stated(&self, key: &str) -> Option<Value> {
         let (section, name) = key.split_once('.')?;
         let all = serde_json::to_value(self).ok()?;
         all.get(section)?.get(name).cloned()
     }
 
-    /// What comes of it.
+    /// Plans and proves the changed scenario.
     fn trial(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Trial {
         if self.validate().is_err() {
             return Trial::Refused;

@@ -18,7 +18,7 @@ use platewash_workcell::job::MAX_SEED;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// A job in full: what a scenario file states, with defaults filled in. Ranges are checked by
+/// A job in full: all values of a scenario file, with defaults filled in. Ranges are checked by
 /// [`Scenario::parse`] and [`Scenario::validate`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -27,11 +27,11 @@ pub struct Scenario {
     pub name: String,
     /// Seed of every random stream.
     pub seed: u64,
-    /// What counts as done.
+    /// Program, order of the plates and coverage of the job.
     pub job: JobSection,
     /// The arm.
     pub robot: RobotSection,
-    /// What it holds.
+    /// Tool that the arm holds.
     pub tool: ToolSection,
     /// Further bodies of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -40,10 +40,10 @@ pub struct Scenario {
     pub floor: FloorSection,
     /// A table.
     pub table: TableSection,
-    /// What else stands around.
+    /// Further obstacles.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<ObstacleSection>,
-    /// Where the plates lie.
+    /// Positions of the plates.
     pub layout: LayoutSection,
     /// Plates one by one, or kinds of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -56,11 +56,11 @@ pub struct Scenario {
     pub transition: TransitionSection,
     /// Limits beyond those of the arm's description.
     pub limits: LimitsSection,
-    /// How the arm follows.
+    /// Control of the arm in the simulation.
     pub control: ControlSection,
     /// The arm as a physical system.
     pub plant: PlantSection,
-    /// No part of what is stated: meshes that were cut before, for scenarios that name the same.
+    /// Cache of meshes that were cut before, for scenarios that name the same; it is no part of the file.
     #[serde(skip)]
     pub solids: Solids,
     /// No part of it either: where the files that it names come from.
@@ -135,7 +135,7 @@ mod tests {
     }
 }
 
-/// Refuses a seed above [`MAX_SEED`], by the name of whatever states it.
+/// Refuses a seed above [`MAX_SEED`], by the name of the key that states it.
 ///
 /// # Errors
 /// [`Problem::Value`].

@@ -1,4 +1,5 @@
-//! What suits the arm and the tool of a scenario: a home, where plates like its own are washed, and pairs of links that need no check.
+//! Suggestions for the arm and the tool of a scenario: a home, a region in which plates like its own are washed, and pairs of
+//! links that need no check.
 
 use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
@@ -13,21 +14,22 @@ use platewash_workcell::job::JobError;
 use platewash_workcell::plate::Plate;
 use std::sync::Arc;
 
-/// What suits an arm with its tool.
+/// Home, plate and region that suit an arm with its tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suggestion {
     /// A home for a plate in front of the arm.
     pub home: SuggestedHome,
-    /// That plate, in the world.
+    /// The plate in front of the arm, world frame.
     pub plate: Plate,
-    /// Where plates like it can be washed from there, each alone.
+    /// Region in which plates like it can be washed from that home, each alone.
     pub region: SuggestedRegion,
     /// Pairs of links that need no check.
     pub pairs: TouchingPairs,
 }
 
 impl Scenario {
-    /// What suits the arm with the scenario's tool, plates like its own, and what it requires; its own home and places are of no account.
+    /// Suggests a home, a plate and a region that suit the arm with the scenario's tool, its kind of plates and its requirements;
+    /// its own home and places have no effect.
     ///
     /// # Errors
     /// [`Failure`]: no home, or a scenario that is refused.
@@ -51,7 +53,7 @@ impl Scenario {
             None => place_in_front(arm, &self.tool_on(arm)?, &alone.robot.mount()),
         };
         let layout = &mut alone.layout;
-        // One that stands at an angle stays where it is said to be.
+        // A plate that stands at an angle stays at its stated place.
         alone.plate.truncate(1);
         for obstacle in &mut alone.obstacle {
             let holds = obstacle.held(1).contains(&0);

@@ -11,10 +11,10 @@ use std::fmt;
 /// An arm that reaches farther than this is described in millimetres \[m\]: six axes reach some five metres.
 const LONGEST_REACH_M: f64 = 20.0;
 
-/// Significant digits of what is suggested.
+/// Significant digits of suggested values.
 const DIGITS: usize = 4;
 
-/// What a user should know of a scenario or an arm that is accepted.
+/// Notice to the user about a scenario or an arm that is accepted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -24,9 +24,9 @@ pub enum Note {
     HomeInRadians {
         /// The key.
         key: &'static str,
-        /// What it states \[deg\].
+        /// Values stated \[deg\].
         found_deg: [f64; AXES],
-        /// It in degrees, if radians were meant \[deg\].
+        /// The values in degrees, if radians were intended \[deg\].
         meant_deg: [f64; AXES],
     },
     /// A certified job without a home: one is looked for.
@@ -35,7 +35,7 @@ pub enum Note {
     ArmInMillimetres {
         /// Name of the arm.
         robot: String,
-        /// How far it reaches at most, as described \[m\].
+        /// Greatest reach, as described \[m\].
         reach_m: f64,
     },
     /// Links that move and have no collision shapes: no clearance of theirs is checked.
@@ -55,7 +55,7 @@ pub enum Note {
 }
 
 impl Scenario {
-    /// What the scenario states and probably means in another unit; the arm's description is for [`Note::of_arm`].
+    /// Notes on values of the scenario that are probably meant in another unit; the arm's description is for [`Note::of_arm`].
     #[must_use]
     pub fn notes(&self) -> Vec<Note> {
         let robot = &self.robot;
@@ -78,7 +78,7 @@ impl Note {
         })
     }
 
-    /// What an arm's description states and probably means in another unit, and the links that it gives no collision shapes.
+    /// Notes on values of an arm's description that are probably meant in another unit, and on links without collision shapes.
     #[must_use]
     pub fn of_arm(robot: &RobotModel) -> Vec<Self> {
         let (_, reach_m) = robot.reach_bound(&robot.last_link_frame());

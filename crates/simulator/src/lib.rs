@@ -1,4 +1,4 @@
-//! The arm as a physical system: rigid-body dynamics, a plant, control laws, and what a planned wash becomes under them.
+//! The arm as a physical system: rigid-body dynamics, a plant, control laws, and the execution of a planned wash under them.
 //!
 //! Conventions (units, frames, joint order) are those of [`platewash_kinematics`]. Torques are in N·m, positive along the
 //! joint's axis, and act on the link behind the joint.

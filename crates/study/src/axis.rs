@@ -20,12 +20,12 @@ pub(crate) enum Values {
     Seeds {
         /// The first.
         first: u64,
-        /// How many.
+        /// Number of seeds.
         count: u64,
     },
 }
 
-/// What an axis's values have in common, by which tables have their columns.
+/// Common kind of an axis's values, which decides the columns of tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AxisKind {
@@ -44,7 +44,7 @@ pub enum AxisKind {
 }
 
 impl AxisKind {
-    /// Of values, of which there is one at least.
+    /// Kind of values, of which there is at least one.
     pub(crate) fn of_all<'a>(values: impl IntoIterator<Item = &'a Value>) -> Self {
         let kinds = values.into_iter().map(Self::of);
         kinds.reduce(Self::with).unwrap_or(Self::Json)
@@ -63,7 +63,7 @@ impl AxisKind {
         }
     }
 
-    /// Whether a value is of this kind.
+    /// Checks that a value is of this kind.
     pub(crate) fn fits(self, value: &Value) -> bool {
         Self::of(value).with(self) == self
     }
@@ -78,7 +78,7 @@ impl AxisKind {
 }
 
 impl Axis {
-    /// What its values have in common.
+    /// Common kind of its values.
     #[must_use]
     pub fn kind(&self) -> AxisKind {
         match &self.values {
@@ -87,7 +87,7 @@ impl Axis {
         }
     }
 
-    /// How many values there are.
+    /// Number of values.
     #[must_use]
     pub fn count(&self) -> u64 {
         match &self.values {

@@ -4,7 +4,7 @@ use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::words::printable;
 use std::path::{Path, PathBuf};
 
-/// Why a study was refused, or could not go on.
+/// Reason that a study was refused, or could not go on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
@@ -15,7 +15,7 @@ pub enum StudyError {
         file: String,
         /// Its line at fault, from 1.
         line: Option<usize>,
-        /// What is wrong, with the key.
+        /// Error, with the key.
         problem: String,
     },
     /// The folder keeps another study.
@@ -26,11 +26,11 @@ pub enum StudyError {
     Other {
         /// The folder.
         folder: PathBuf,
-        /// What differs.
+        /// Setting that differs.
         what: &'static str,
-        /// What the folder has.
+        /// Value in the folder.
         kept: String,
-        /// What was given.
+        /// Value given.
         given: String,
     },
     /// The folder keeps something that is no study of this program.
@@ -40,7 +40,7 @@ pub enum StudyError {
         file: PathBuf,
         /// Its line at fault, from 1.
         line: Option<usize>,
-        /// What is wrong with it.
+        /// Error in it.
         problem: String,
     },
     /// Somebody else works on the study.
@@ -54,15 +54,15 @@ pub enum StudyError {
     Disk {
         /// The file.
         file: PathBuf,
-        /// What was tried.
+        /// Action that was tried.
         doing: &'static str,
-        /// Why not.
+        /// Error of the system.
         cause: std::io::Error,
     },
-    /// What was sent is neither a row of this study nor a study.
+    /// The text that was sent is neither a row of this study nor a study.
     #[error("what was sent is not of this study: {problem}")]
     Sent {
-        /// Why not.
+        /// Error in it.
         problem: String,
     },
     /// There is no such row.
@@ -70,7 +70,7 @@ pub enum StudyError {
     NoRow {
         /// The row that was asked for.
         index: u64,
-        /// How many there are.
+        /// Number of rows.
         rows: u64,
     },
     /// A row states no scenario.
@@ -78,10 +78,10 @@ pub enum StudyError {
     Row {
         /// The row.
         index: u64,
-        /// Why not.
+        /// Error in it.
         problem: String,
     },
-    /// It was told to give up; the rows that were done are kept.
+    /// The study was cancelled on request; the rows that were done are kept.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

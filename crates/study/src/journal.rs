@@ -20,16 +20,16 @@ const PLANS: &str = "plans";
 pub struct Journal {
     folder: PathBuf,
     manifest: Manifest,
-    /// Which rows are done.
+    /// Flag of each row: true for those that are done.
     has: Vec<bool>,
     done: u64,
-    /// Where rows and timings are appended; nothing of a study that is finished is touched.
+    /// Files to which rows and timings are appended; `None` for a finished study, which is not touched.
     files: Option<[Lines<File>; 2]>,
 }
 
 impl Journal {
-    /// Opens the folder of a study, made where there is none. Rows that it has are done; a last one that is torn goes. Of a study that is
-    /// finished nothing is touched.
+    /// Opens the folder of a study, and makes it where there is none. Its rows count as done; an incomplete last row is removed.
+    /// A finished study is not touched.
     ///
     /// # Errors
     /// [`StudyError`]: the folder keeps another study, files of another origin, or rows that are none of this one; another process works on it;
@@ -107,25 +107,25 @@ impl Journal {
         })
     }
 
-    /// How many rows are done.
+    /// Number of rows that are done.
     #[must_use]
     pub fn done(&self) -> u64 {
         self.done
     }
 
-    /// How many rows the study has.
+    /// Number of rows of the study.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.manifest.rows
     }
 
-    /// The rows that are missing, in order; what is appended later stays among them.
+    /// Returns the rows that are missing, in order; rows that are appended later stay in the list.
     pub fn missing(&self) -> impl Iterator<Item = u64> + Send + use<> {
         let missing = (0..).zip(self.has.clone()).filter(|(_, has)| !has);
         missing.map(|(index, _)| index)
     }
 
-    /// Appends a row, whole, and keeps its plan where there is one; a row that is there already is left out. How long it took, where that is
+    /// Appends a row, whole, and keeps its plan where there is one; a row that is there already is left out. Its duration, where
     /// known, goes to a file of its own.
     ///
     /// # Errors
@@ -153,8 +153,8 @@ impl Journal {
         }
     }
 
-    /// Waits until the disk has all rows, and ends the study where they are all there, which its manifest says from then on, with their
-    /// hash. Whether they are.
+    /// Waits until the disk has all rows. If all rows of the study are there, it marks the study as finished in the manifest,
+    /// with their hash. Returns true in that case.
     ///
     /// # Errors
     /// [`StudyError::Disk`].
@@ -166,7 +166,7 @@ impl Journal {
         if self.done < self.manifest.rows {
             return Ok(false);
         }
-        // What stands there is what counts.
+        // The rows on disk count, not those in memory.
         let (places, sha256) = hashed(&self.folder, &self.manifest)?;
         let (count, written) = (places.len() as u64, self.manifest.rows);
         if count < written {
@@ -182,7 +182,7 @@ impl Journal {
     }
 }
 
-/// What stands in a study's folder beside its manifest from the beginning.
+/// Files of a study's folder that are written at the beginning, beside its manifest.
 fn texts(study: &Study) -> [(&'static str, String); 2] {
     [(STUDY, study.text.clone()), (PARTS, study.parts().to_json())]
 }
@@ -204,7 +204,7 @@ fn kept_manifest(folder: &Path, study: &Study) -> Result<Option<Manifest>, Study
             }),
         };
     }
-    // Whoever was ended before the manifest was there has left these.
+    // An earlier process may have ended before it wrote the manifest, and left these files.
     let own = texts(study)
         .into_iter()
         .chain([(ROWS, String::new()), (TIMINGS, String::new())]);

@@ -1,4 +1,4 @@
-//! What a folder keeps, read: its manifest, its rows in the order in which they were done or in that of their indices.
+//! Reader of a folder: its manifest, its rows in the order in which they were done or by index.
 
 use crate::error::StudyError;
 use crate::lines;
@@ -57,7 +57,7 @@ pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(u64,
     Ok(())
 }
 
-/// How many rows a folder has, and how many its study has; of one that is finished they are not looked at.
+/// Returns the number of rows in a folder, and the number of rows of its study; the rows of a finished study are not read.
 ///
 /// # Errors
 /// [`StudyError`]: no study, or rows that are none.
@@ -70,7 +70,8 @@ pub fn counted(folder: &Path) -> Result<(u64, u64), StudyError> {
     Ok((done, manifest.rows))
 }
 
-/// Writes the rows of a folder as JSON Lines in the order of their indices: the same bytes, however they came to be. How many there are.
+/// Writes the rows of a folder as JSON Lines in the order of their indices: the same bytes, for any order in which they were
+/// done. Returns their number.
 ///
 /// # Errors
 /// As [`check`], and nothing is written then; or a disk that fails: `to` is called `name` then.
@@ -112,7 +113,7 @@ fn places(folder: &Path, manifest: &Manifest) -> Result<Places, StudyError> {
     Ok(places)
 }
 
-/// The rows of a folder, each looked at. Those of a finished study are refused where it was finished with others.
+/// Checks the rows of a folder, one by one. The rows of a finished study are refused if it was finished with others.
 ///
 /// # Errors
 /// [`StudyError`]: these rows, or one that is none; no study; or a file that cannot be read.

@@ -7,7 +7,7 @@ use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Time between two calls that wait until the disk has what was written.
+/// Time between two calls that wait until the disk has the written lines.
 const SYNC: Duration = Duration::from_secs(5);
 
 /// The words of a file that the disk does not take.
@@ -21,7 +21,7 @@ pub(crate) fn write_whole(file: &Path, text: &[u8]) -> Result<(), StudyError> {
     atomic_file::write(file, text).map_err(StudyError::disk(file, UNWRITTEN))
 }
 
-/// What a file of lines is written to; a file, and in tests one that fails.
+/// Destination of a file of lines: a file, and in tests one that fails.
 pub(crate) trait Sink: Write + Send {
     /// Cuts it to its first bytes, and goes on there.
     fn cut(&mut self, length: u64) -> io::Result<()>;
@@ -31,7 +31,7 @@ pub(crate) trait Sink: Write + Send {
 
 impl Sink for File {
     fn cut(&mut self, length: u64) -> io::Result<()> {
-        // What is as long as it should be is not touched.
+        // A file of the right length is not touched.
         if self.metadata()?.len() != length {
             self.set_len(length)?;
         }
@@ -78,7 +78,7 @@ pub(crate) fn read(
 }
 
 impl<S: Sink> Lines<S> {
-    /// Goes on behind so many bytes of whole lines; what is beyond them goes.
+    /// Continues behind so many bytes of whole lines; the bytes beyond them are removed.
     pub fn after(path: &Path, mut sink: S, whole: u64) -> Result<Self, StudyError> {
         sink.cut(whole).map_err(StudyError::disk(path, UNWRITTEN))?;
         Ok(Self {
@@ -89,8 +89,8 @@ impl<S: Sink> Lines<S> {
         })
     }
 
-    /// Appends a line, which is handed to the system before this returns. Where that fails, what was written of it is taken away again,
-    /// as far as that can be done.
+    /// Appends a line, and hands it to the system before this returns. Where that fails, the part that was written is removed
+    /// again, as far as possible.
     pub fn append(&mut self, line: &str) -> Result<(), StudyError> {
         let line = format!("{line}\n");
         if let Err(error) = self.sink.write_all(line.as_bytes()).and_then(|()| self.sink.flush()) {

@@ -1,4 +1,4 @@
-//! What a folder keeps a study of: enough to tell it from every other.
+//! Manifest of the study in a folder: enough to tell it from every other.
 
 use crate::axis::AxisKind;
 use crate::error::StudyError;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What `format` says.
+/// Value of `format`.
 pub(crate) const FORMAT: &str = "platewash-study-manifest/1";
 
 /// A study that is kept: `manifest.json`.
@@ -26,7 +26,7 @@ pub struct Manifest {
     pub version: String,
     /// The version of its rows.
     pub row_schema: u32,
-    /// How many rows it has when it is finished.
+    /// Number of rows when it is finished.
     pub rows: u64,
     /// SHA-256 of the study file.
     pub study_sha256: String,
@@ -36,7 +36,7 @@ pub struct Manifest {
     pub axes: Vec<ManifestAxis>,
     /// The files that its rows name: descriptions of arms, meshes.
     pub files: Vec<ManifestFile>,
-    /// The study file as it was given, for commands that reproduce a row; it is no part of what tells studies apart.
+    /// The study file as it was given, for commands that reproduce a row; it does not count when studies are compared.
     pub file: String,
     /// SHA-256 of all rows, as they are exported: there as soon as the study is finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -47,7 +47,7 @@ pub struct Manifest {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ManifestScenario {
-    /// As the study names it.
+    /// Its name in the study.
     pub name: String,
     /// SHA-256 of its text.
     pub sha256: String,
@@ -59,7 +59,7 @@ pub struct ManifestScenario {
 pub struct ManifestFile {
     /// Its path, from the study file's folder where it lies below it.
     pub path: String,
-    /// SHA-256 of what it held.
+    /// SHA-256 of its contents.
     pub sha256: String,
 }
 
@@ -69,9 +69,9 @@ pub struct ManifestFile {
 pub struct ManifestAxis {
     /// The scenario's key.
     pub key: String,
-    /// How many values it takes.
+    /// Number of values.
     pub count: u64,
-    /// What they have in common.
+    /// Common kind of its values.
     pub kind: AxisKind,
 }
 
@@ -123,7 +123,8 @@ impl Manifest {
         write_whole(&path, format!("{text}\n").as_bytes())
     }
 
-    /// What tells this study from another one, with what each of them has: of lists, what the other has not.
+    /// Returns the first fact in which two studies differ, with the value of each: of lists, the entries that the other one
+    /// lacks.
     pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
         let mut pairs = self.facts().into_iter().zip(other.facts());
         let ((what, mine), (_, its)) = pairs.find(|((_, mine), (_, its))| mine != its)?;
@@ -138,7 +139,7 @@ impl Manifest {
         Some((what, without(&mine, &its), without(&its, &mine)))
     }
 
-    /// All that tells studies apart, with what it is called.
+    /// All facts in which studies can differ, with their names.
     fn facts(&self) -> [(&'static str, Vec<String>); 7] {
         let axis = |axis: &ManifestAxis| format!("{} ({} values, {:?})", axis.key, axis.count, axis.kind);
         let scenario = |scenario: &ManifestScenario| format!("{} {}", scenario.name, scenario.sha256);

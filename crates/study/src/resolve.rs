@@ -1,4 +1,4 @@
-//! From a row's values to what came of them: planned and proved, by the row alone.
+//! Resolver: from a row's values to its result, planned and proved, from the row alone.
 
 use crate::error::StudyError;
 use crate::row::{Made, Outcome, Row};
@@ -37,7 +37,7 @@ pub fn judged(
     Ok((planned, certificate))
 }
 
-/// Makes rows of a study. What many rows share is kept: arms, and the scenario of rows that differ in their seed alone.
+/// Makes rows of a study. It keeps data that many rows share: arms, and the scenario of rows that differ in their seed alone.
 pub struct Resolver {
     study: Arc<Study>,
     /// Meshes that were cut, for all scenarios.
@@ -48,14 +48,14 @@ pub struct Resolver {
     judge: Judge,
 }
 
-/// From a scenario with its arm to a plan and its certificate.
+/// Function from a scenario with its arm to a plan and its certificate.
 type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(Planned, Certificate), Failure>;
 
 /// A scenario with the values that it was made of, but for the seed.
 type Read = ((usize, BTreeMap<String, Value>), Arc<Scenario>);
 
 impl Resolver {
-    /// Of a study; nothing is read yet.
+    /// Resolver of a study; nothing is read yet.
     #[must_use]
     pub fn new(study: Arc<Study>) -> Self {
         Self {
@@ -67,7 +67,7 @@ impl Resolver {
         }
     }
 
-    /// What comes of a row: the same for every order and thread. A panic is an outcome of its own. `None` where the token cancels.
+    /// Computes a row: the same for every order and thread. A panic is an outcome of its own. `None` where the token cancels.
     ///
     /// # Errors
     /// [`StudyError::NoRow`].
@@ -115,7 +115,7 @@ impl Resolver {
         let what = (address.base, values);
         let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = last().clone().filter(|(of, _)| *of == what);
-        // Nothing is made while others wait: whoever comes at the same time makes it, too.
+        // No lock is held while a scenario is made: threads that come at the same time make it, too.
         let mut scenario = match kept {
             Some((_, scenario)) => Scenario::clone(&scenario),
             None => {

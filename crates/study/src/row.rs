@@ -1,4 +1,4 @@
-//! A row: what came of one scenario of a study. `docs/studies.md` says what each field means; they change with [`ROW_SCHEMA`] alone.
+//! A row: the result of one scenario of a study. `docs/studies.md` describes each field; they change with [`ROW_SCHEMA`] alone.
 
 use platewash_certificate::{Certificate, Requirement, Verdict};
 use platewash_kinematics::ik::IkPathError;
@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 /// The version of rows. Fields are added, taken away or given another meaning only with another number.
 pub const ROW_SCHEMA: u32 = 2;
 
-/// What came of one scenario of a study. It depends on the study and the program's version alone: how long it took is kept elsewhere.
+/// Result of one scenario of a study. It depends on the study and the program's version alone: the time that it took is kept
+/// elsewhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
@@ -26,11 +27,11 @@ pub struct Row {
     pub scenario: String,
     /// The values of the axes.
     pub axes: BTreeMap<String, Value>,
-    /// How it ended.
+    /// Outcome of the row.
     pub outcome: Outcome,
-    /// Why it is not proved; where it is proved but for what its scenario waives, that.
+    /// Reason that it is not proved; where it is proved except for the requirements that its scenario waives, a note on these.
     pub reason: Option<String>,
-    /// Where that is.
+    /// Place of the cause.
     pub place: Place,
     /// Duration of the motion \[s\].
     pub duration_s: Option<f64>,
@@ -47,7 +48,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// A row of which nothing is known yet.
+    /// A row without a result yet.
     pub(crate) fn new(index: u64, key: String, scenario: String, axes: BTreeMap<String, Value>) -> Self {
         Self {
             schema: ROW_SCHEMA,
@@ -74,7 +75,7 @@ impl Row {
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// With what came of a plan.
+    /// The row with the results of a plan.
     pub(crate) fn planned(self, planned: &Planned, certificate: &Certificate) -> Self {
         let clearance = certificate.check(Requirement::Clearance);
         Self {
@@ -91,7 +92,7 @@ impl Row {
         }
     }
 
-    /// With why there is no plan.
+    /// The row with the reason that there is no plan.
     pub(crate) fn failed(self, error: &Failure) -> Self {
         Self {
             place: Place::of_failure(error),
@@ -99,7 +100,7 @@ impl Row {
         }
     }
 
-    /// With an outcome and its reason.
+    /// The row with an outcome and its reason.
     pub(crate) fn ended(self, outcome: Outcome, reason: String) -> Self {
         Self {
             outcome,
@@ -109,7 +110,7 @@ impl Row {
     }
 }
 
-/// How a row ended. The words are those of `sweep`, and one more.
+/// Outcome of a row. The words are those of `sweep`, and one more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -128,7 +129,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// All of them.
+    /// All outcomes.
     pub const ALL: [Self; 6] = [
         Self::Proved,
         Self::NotProved,
@@ -151,7 +152,7 @@ impl Outcome {
         }
     }
 
-    /// Of a layout that was planned and judged.
+    /// Outcome of a layout that was planned and judged.
     #[must_use]
     pub fn judged(verdict: Verdict) -> Self {
         match verdict {
@@ -162,7 +163,7 @@ impl Outcome {
 }
 
 impl From<&Failure> for Outcome {
-    /// Of a layout that came to no plan, or to none that could be judged.
+    /// Outcome of a layout without a plan, or with a plan that could not be judged.
     fn from(error: &Failure) -> Self {
         match error.infeasibility() {
             Some(Infeasibility::Proved) => Self::Infeasible,
@@ -172,7 +173,7 @@ impl From<&Failure> for Outcome {
     }
 }
 
-/// The place of a reason; what does not apply is `None`.
+/// The place of a reason; fields that do not apply are `None`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
@@ -192,7 +193,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Of the first requirement that is not kept.
+    /// Place of the first requirement that is not kept.
     pub(crate) fn of_certificate(certificate: &Certificate) -> Self {
         let place = certificate.broken().next().map(|check| Self {
             requirement: Some(check.requirement),
@@ -205,7 +206,7 @@ impl Place {
         place.unwrap_or_default()
     }
 
-    /// Of what stood in the way of a plan.
+    /// Place of the obstruction of a plan.
     pub(crate) fn of_failure(error: &Failure) -> Self {
         let Failure::Plan(error) = error else {
             return Self::default();
@@ -235,7 +236,7 @@ fn waypoint(error: &IkPathError) -> Option<usize> {
     }
 }
 
-/// Which plans a study keeps beside its rows: the key `plans` of a study file.
+/// Choice of the plans that a study keeps beside its rows: the key `plans` of a study file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Keep {
@@ -249,7 +250,7 @@ pub enum Keep {
 }
 
 impl Keep {
-    /// Whether the plan of a row is kept; a row without one has none to keep.
+    /// Checks that the plan of a row is kept; a row without a plan has none to keep.
     #[must_use]
     pub fn wants(self, row: &Row) -> bool {
         row.plan.is_some()
@@ -264,7 +265,7 @@ impl Keep {
 /// A row, and the plan where the study keeps it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
-    /// What came of the scenario.
+    /// Result of the scenario.
     pub row: Row,
     /// The plan's file, as `run` writes `plan.json`; there exactly where [`Keep::wants`](crate::Keep::wants) it.
     pub plan: Option<Vec<u8>>,

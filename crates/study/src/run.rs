@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// Rows that may wait to be kept.
 const WAITING: usize = 64;
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Rows that are kept, those of earlier calls among them.
@@ -20,12 +20,13 @@ pub struct Progress {
     pub rows: u64,
     /// Rows a second in this call.
     pub per_s: f64,
-    /// What is left at this rate \[s\].
+    /// Time left at this rate \[s\].
     pub left_s: f64,
 }
 
-/// Works on the rows that the journal does not have, on rayon's threads, and keeps each as soon as it is done; `told` hears of each.
-/// `make` is [`Resolver::row`](crate::Resolver::row), or whatever else makes a row: `None` where it was told to give up.
+/// Works on the rows that the journal does not have, on rayon's threads, keeps each as soon as it is done, and reports each to
+/// `told`. `make` is [`Resolver::row`](crate::Resolver::row), or another function that makes a row: it returns `None` when it is
+/// cancelled.
 ///
 /// # Errors
 /// [`StudyError`]: a row could not be made or kept, or the token cancelled. The rows that were kept by then stay.
@@ -44,7 +45,7 @@ pub fn run(
             let began = Instant::now();
             cancel.check()?;
             let row = make(index, cancel)?.ok_or(Cancelled)?;
-            // Where nobody keeps rows any more, that is told below.
+            // The receiver is gone once rows are no longer kept: the code below reports that.
             sender.send((row, began.elapsed())).map_err(|_| Cancelled.into())
         });
         match keeping.join() {

@@ -1,4 +1,4 @@
-//! What a study file states, checked; what is wrong is told with its line and key.
+//! Statements of a study file, checked; errors name their line and key.
 
 use crate::axis::{Axis, Values, canonical, spaced};
 use crate::error::StudyError;
@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 use toml::Spanned;
 
-/// What `format` must be.
+/// Required value of `format`.
 const FORMAT: &str = "platewash-study/1";
 /// Most values that an axis lists; seeds are counted, not listed.
 const MOST_LISTED: usize = 10_000;
@@ -52,7 +52,7 @@ pub(crate) enum ScenarioStatement {
     Text(TextStatement),
 }
 
-/// A scenario's text, and what the study calls it.
+/// A scenario's text, and its name in the study.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TextStatement {
@@ -61,7 +61,7 @@ pub(crate) struct TextStatement {
 }
 
 impl OneOrMore {
-    /// All of them.
+    /// All scenarios of it.
     fn all(&self) -> &[ScenarioStatement] {
         match self {
             Self::One(one) => std::slice::from_ref(one),
@@ -71,7 +71,7 @@ impl OneOrMore {
 }
 
 impl ScenarioStatement {
-    /// What the study calls it.
+    /// Name of the scenario in the study.
     fn name(&self) -> &str {
         match self {
             Self::Named(name) => name,
@@ -97,7 +97,7 @@ pub(crate) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// What the text states.
+    /// Parses the text.
     pub fn statement(&self) -> Result<Statement, StudyError> {
         let stated: Statement = toml::from_str(self.text).map_err(|error| {
             let key = error.span().and_then(|span| self.key_at(span.start));
@@ -333,8 +333,9 @@ fn evenly(stated: &[toml::Value]) -> Option<Vec<Value>> {
     is_range.then(|| spaced(from, to, count))
 }
 
-/// Whether every base has the key, and the key takes the value. That the texts have a place for the key is tried out with its first two values,
-/// of which one may be there already; the others are looked at by themselves, as a text is read again with every change.
+/// Checks that every base has the key, and that the key takes the value. The first two values are tried in the texts, to see that
+/// these have a place for the key: one of the two may be there already. The others are checked by themselves, as every change
+/// makes the text be read again.
 fn check_value(bases: &[Base], key: &str, value: &Value, place: usize) -> Result<(), String> {
     if key == "job.program" && value != "certified" {
         return Err(format!("{key}: a study plans certified jobs; found {value}"));

@@ -51,7 +51,7 @@ pub struct Study {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Base {
-    /// As the study names it: a shipped name, a file relative to the study's, or the name beside a text.
+    /// Its name in the study: a shipped name, a file relative to the study's, or the name beside a text.
     pub name: String,
     /// Its text.
     pub text: String,
@@ -70,7 +70,7 @@ pub struct RowAddress {
     pub key: String,
 }
 
-/// A study as data, for whoever has none of its files.
+/// A study as data, for a reader without its files.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudyParts {
@@ -88,9 +88,9 @@ pub struct StudyParts {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartsFile {
-    /// By what name it was read.
+    /// Name under which it was read.
     pub path: PathBuf,
-    /// What it holds.
+    /// Contents of the file.
     pub base64: String,
 }
 
@@ -201,7 +201,7 @@ impl Study {
         Ok(study)
     }
 
-    /// All of it, for whoever has no files.
+    /// All of it, for a reader without its files.
     #[must_use]
     pub fn parts(&self) -> StudyParts {
         let file = |(path, bytes): (&PathBuf, &Arc<[u8]>)| PartsFile {
@@ -216,11 +216,11 @@ impl Study {
         }
     }
 
-    /// Reads all files that rows name: each combination of values of keys that are paths is looked at once, with the first values of all
-    /// others.
+    /// Reads all files that rows name. Each combination of values of keys that are paths is checked once, with the first values
+    /// of all others.
     ///
     /// # Errors
-    /// The first file that is there and cannot be read, or is named and is not there, and why; more combinations than anybody means.
+    /// The first file that is there and cannot be read, or is named and is not there, and the reason; or too many combinations.
     fn named_files(&self, from: &Source<'_>) -> Result<HeldFiles, StudyError> {
         let mut few = self.clone();
         for axis in few.axes.iter_mut().filter(|axis| !Draft::names_files(&axis.key)) {
@@ -252,14 +252,14 @@ impl Study {
         })
     }
 
-    /// How many rows its scenarios, axes and listed rows make; `None` beyond all numbers.
+    /// Number of rows that its scenarios, axes and listed rows make; `None` where it overflows.
     pub(crate) fn counted(&self) -> Option<u64> {
         let counts = [self.bases.len() as u64, self.listed.len().max(1) as u64];
         let counts = counts.into_iter().chain(self.axes.iter().map(Axis::count));
         counts.into_iter().try_fold(1, u64::checked_mul)
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.rows

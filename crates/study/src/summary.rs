@@ -1,4 +1,4 @@
-//! What the rows of a study come to: outcomes by axis, durations, the rows to look at.
+//! Summary of the rows of a study: outcomes by axis, durations, the rows to look at.
 
 use crate::error::StudyError;
 use crate::kept::{check_unchanged, read_manifest, rows};
@@ -14,7 +14,7 @@ const MOST_VALUES: u64 = 50;
 /// Rows of each kind that are shown.
 const SHOWN: usize = 5;
 
-/// How many rows ended how, by the code of the outcome.
+/// Number of rows by outcome, keyed by the code of the outcome.
 pub type Counts = BTreeMap<&'static str, u64>;
 
 /// A value of an axis, as JSON. Numbers are in order of size, before everything else.
@@ -35,14 +35,14 @@ impl PartialOrd for AxisValue {
     }
 }
 
-/// What the rows of a study come to.
+/// Summary of the rows of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// The study.
     pub manifest: Manifest,
     /// Rows that are done.
     pub done: u64,
-    /// How they ended.
+    /// Counts by outcome.
     pub outcomes: Counts,
     /// The same by axis (`scenario` among them) and value, as JSON; axes of more than 50 values are left out.
     pub by_axis: BTreeMap<String, BTreeMap<AxisValue, Counts>>,

@@ -1,4 +1,4 @@
-//! The page's bundle: what all pages have in common, its script, its style and a template that a document goes into.
+//! The page's bundle: the common parts of all pages, namely script, style and a template that a document goes into.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ pub struct Bundle {
     pub style: Cow<'static, str>,
     /// Its program, without a `</script` in it.
     pub script: Cow<'static, str>,
-    /// The licences of what others wrote of it, as text.
+    /// The licences of its third-party parts, as text.
     pub notices: Cow<'static, str>,
 }
 

@@ -1,21 +1,22 @@
 //! A page: a document in the bundle that all pages share, as one file of HTML that needs no other.
 //!
-//! Whatever a document says is text. Each stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
-//! block, and the name of what is shown stands in the title with its markup written out. Placeholders are looked for in the template alone.
+//! Every document is text. It stands in a data block in which every `<` is written `\u003c`, so that nothing in it ends the
+//! block. The name of the subject stands in the title with its markup escaped. Placeholders are searched for in the template
+//! alone.
 
 use crate::bundle::Bundle;
 use crate::view::View;
 use platewash_workcell::words::printable;
 use serde::Serialize;
 
-/// What stands around a placeholder's name.
+/// Text before a placeholder's name.
 const OPEN: &str = "<!--platewash:";
 const CLOSE: &str = "-->";
 
 /// Longest name in a title, in characters.
 const LONGEST_TITLE: usize = 120;
 
-/// Why there is no page.
+/// Reason that there is no page.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
@@ -25,7 +26,7 @@ pub enum PageError {
     /// A template with an unknown placeholder, or without one that it needs.
     #[error("the page's template {what} the placeholder \"{name}\": it was made for another version")]
     Template {
-        /// What it does with it.
+        /// Verb for the fault: it lacks or has the placeholder.
         what: &'static str,
         /// The placeholder.
         name: String,
@@ -35,7 +36,7 @@ pub enum PageError {
     Ends {
         /// The part.
         part: &'static str,
-        /// What ends it.
+        /// Text that ends it.
         end: &'static str,
     },
 }
@@ -94,14 +95,14 @@ fn template(what: &'static str, name: &str) -> PageError {
     PageError::Template { what, name }
 }
 
-/// What stands before the first placeholder, its name, and what stands behind it.
+/// Returns the text before the first placeholder, its name, and the text behind it.
 fn next_placeholder(text: &str) -> Option<(&str, &str, &str)> {
     let (before, inside) = text.split_once(OPEN)?;
     let (name, after) = inside.split_once(CLOSE)?;
     Some((before, name, after))
 }
 
-/// Refuses a part in which the element that holds it would end, in whatever case.
+/// Refuses a part that contains the end of its own element, in any case of letters.
 fn refuse_end(part: &'static str, text: &str, end: &'static str) -> Result<(), PageError> {
     let ends = |window: &[u8]| window.eq_ignore_ascii_case(end.as_bytes());
     let mut places = text.match_indices("</").map(|(at, _)| at);
@@ -111,7 +112,7 @@ fn refuse_end(part: &'static str, text: &str, end: &'static str) -> Result<(), P
     }
 }
 
-/// The title: what is shown, and by whom.
+/// The title: the name of the subject, and of the program.
 fn title(view: &View) -> String {
     let name = printable(&view.heading.scenario);
     let before = view.heading.dry_run.as_ref().map_or("", |_| "Dry run: ");
@@ -191,7 +192,7 @@ mod tests {
         view
     }
 
-    /// What a browser reads from the data block, which ends at the first `</script`.
+    /// Returns the data block as a browser reads it: it ends at the first `</script`.
     fn read_back(page: &str) -> serde_json::Value {
         read_back_from(page, DATA)
     }

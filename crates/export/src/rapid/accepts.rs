@@ -1,4 +1,4 @@
-//! Which jobs can be handed to an ABB controller: the make of the arm, and what it may carry.
+//! Jobs that can be handed to an ABB controller: the make of the arm, and the load that it may carry.
 
 use crate::rapid::parse::LEAST_KG;
 use crate::refusal::Refusal;
@@ -11,7 +11,7 @@ use platewash_workcell::tool::ToolMass;
 
 /// Rated payload of the IRB 120 \[kg\] (product specification 3HAC035960).
 const PAYLOAD_KG: f64 = 3.0;
-/// From the centre of its joint 5 to the flange \[m\].
+/// Distance from the centre of its joint 5 to the flange \[m\].
 const JOINT_5_TO_FLANGE_M: f64 = 0.072;
 /// Largest inertia of a load about its joint 5 \[kg·m²\].
 const JOINT_5_KG_M2: f64 = 0.175;

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | a job that can be handed over in it | `accepts` |
 //! | a program's text | `write` |
-//! | modules into data and procedures; what a program does | `parse`, `read` |
+//! | modules into data and procedures; the motion of a program | `parse`, `read` |
 //! | joint targets, zones and tools; zones and speeds by name; names that are taken | `values`, `zone`, `names` |
 //!
 //! Names that RAPID or its controllers have given: a program must not name anything by them.
@@ -25,7 +25,7 @@ use platewash_workcell::job::JobTerms;
 /// Shortest time between two points \[s\].
 const LEAST_S: f64 = 0.01;
 
-/// What names of files end with, in small letters.
+/// Endings of file names, in small letters.
 const ENDINGS: [&str; 5] = [".mod", ".modx", ".prg", ".sys", ".sysx"];
 
 /// RAPID, the language of ABB's controllers.
@@ -70,7 +70,7 @@ impl Dialect for Rapid {
     }
 }
 
-/// Whether the first word outside of comments and the file's header is `MODULE`.
+/// Checks that the first word outside of comments and the file's header is `MODULE`.
 fn begins_a_module(text: &str) -> bool {
     let outside = |line: &&str| {
         let line = line.trim_start();
@@ -96,7 +96,7 @@ const CONTROLLER: &str = "num byte errnum bool string pos orient pose confdata r
                           speedrefresh pathacclim worldacclim motionsup softact softdeact gripload pdispon pdispoff pdispset eoffson \
                           eoffsoff eoffsset actunit deactunit isignaldi isignaldo itimer ienable idisable";
 
-/// Whether a name is a keyword or the controller's own, in any case of letters.
+/// Checks that a name is a keyword or the controller's own, in any case of letters.
 pub(crate) fn is_taken(name: &str) -> bool {
     let (capitals, small) = (name.to_ascii_uppercase(), name.to_ascii_lowercase());
     KEYWORDS.split_ascii_whitespace().any(|word| word == capitals)
@@ -140,7 +140,7 @@ pub(crate) fn zone_mm(name: &str) -> Option<f32> {
     ZONES.iter().find(|(zone, _)| *zone == name).map(|(_, mm)| *mm)
 }
 
-/// Whether a name, in small letters, is that of a speed.
+/// Checks that a name, in small letters, is the name of a speed.
 pub(crate) fn is_speed(name: &str) -> bool {
     let number = name.strip_prefix('v').and_then(|number| number.parse().ok());
     name == "vmax" || number.is_some_and(|number| SPEEDS.contains(&number) && name == format!("v{number}"))

@@ -1,6 +1,6 @@
 //! Modules as data and procedures.
 //!
-//! What a motion is made of: joint targets, zones and tools.
+//! Values of a motion: joint targets, zones and tools.
 
 use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::rapid::is_taken;
@@ -49,9 +49,9 @@ pub(crate) struct Procedure {
     pub(crate) place: Place,
     /// Its name, as it stands.
     pub(crate) name: String,
-    /// What stands between the brackets behind its name.
+    /// Tokens between the brackets behind its name.
     pub(crate) parameters: Vec<Placed>,
-    /// What stands before `ENDPROC`.
+    /// Tokens before `ENDPROC`.
     pub(crate) body: Vec<Placed>,
 }
 
@@ -66,7 +66,7 @@ pub(crate) struct Modules {
 /// Reads all modules.
 ///
 /// # Errors
-/// [`ReadError`] with the line of what is not read.
+/// [`ReadError`] with the line that is not read.
 pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
     let mut modules = Modules::default();
     for file in files {
@@ -246,7 +246,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Whether the next token is that word, which is taken then.
+    /// Takes the next token if it is that word; returns true if so.
     pub(crate) fn takes(&mut self, word: &str) -> bool {
         let is_it = matches!(self.peek(), Some(Token::Word(found)) if found.eq_ignore_ascii_case(word));
         self.at += usize::from(is_it);
@@ -325,16 +325,16 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// What stands for an axis that is not used \[°\].
+/// Value that stands for an axis that is not used \[°\].
 pub(crate) const UNUSED: f32 = 9e9;
 
 /// Least mass that a controller takes \[kg\].
 pub(crate) const LEAST_KG: f64 = 0.001;
 
-/// How far the length of a quaternion of four singles may be from 1.
+/// Largest deviation from 1 of the length of a quaternion of four singles.
 const UNIT: f64 = 1e-4;
 
-/// How large a zone may be for turning, as a multiple of its radius at the tip: corners are judged up to twice their size.
+/// Largest zone for turning, as a multiple of its radius at the tip: corners are judged up to twice their size.
 const MOST_TURNING: f32 = 2.0;
 
 impl Value {
@@ -408,7 +408,7 @@ pub(crate) fn corner(value: &Value) -> Result<Option<f64>, String> {
     }
 }
 
-/// Whether a value is speed data: four numbers.
+/// Checks that a value is speed data: four numbers.
 pub(crate) fn is_speed(value: &Value) -> bool {
     value.numbers::<4>().is_some()
 }

@@ -1,8 +1,9 @@
-//! What a program does: its procedures from `main` on, and each motion as a point in time.
+//! Motion of a program: its procedures from `main` on, and each motion as a point in time.
 //!
-//! Read are the programs that [`super::write`] makes, and what people add to them: motions with `MoveAbsJ`, waits, speeds, zones, messages,
-//! outputs and comments. The checks before the first motion are read as they are written, token by token. Everything else is refused with
-//! its line: loops, conditions, jumps, assignments, functions, and motions that the controller times or plans by itself.
+//! It reads the programs that [`super::write`] makes, and usual additions by hand: motions with `MoveAbsJ`, waits, speeds, zones,
+//! messages, outputs and comments. The checks before the first motion are read as they are written, token by token. Everything
+//! else is refused with its line: loops, conditions, jumps, assignments, functions, and motions that the controller times or
+//! plans by itself.
 //!
 //! Numbers are IEEE singles, as on the controller.
 
@@ -41,7 +42,7 @@ enum Statement {
     Move(Box<Motion>),
     /// \[s\]
     Wait(Time),
-    /// Of a procedure, in small letters.
+    /// Call of a procedure, by its name in small letters.
     Call(String),
     Exit,
     /// A message, an output, or a setting that changes no motion.
@@ -52,7 +53,7 @@ enum Statement {
 #[derive(Debug)]
 struct Motion {
     q_rad: JointVector,
-    /// Where the target is declared.
+    /// Place at which the target is declared.
     declared: Option<Place>,
     time: Option<Time>,
     corner_m: Option<f64>,
@@ -63,14 +64,14 @@ struct Motion {
 #[derive(Debug, Clone, Copy)]
 struct Time {
     written_s: f32,
-    /// Whether it is divided by the share of the run.
+    /// True where it is divided by the share of the run.
     is_divided: bool,
 }
 
-/// What a program does.
+/// Interprets a program.
 ///
 /// # Errors
-/// [`ReadError`] with the line of what is not read.
+/// [`ReadError`] with the line that is not read.
 pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
     let modules = modules(files)?;
     check_blocks(&modules)?;
@@ -100,7 +101,7 @@ fn is_block(key: &str) -> bool {
     [CHECK_SHARE, CHECK_START, CHECK_JOINT].contains(&key)
 }
 
-/// That the checks stand as they are written.
+/// Checks that the procedures with the checks before the motion are as they were exported.
 fn check_blocks(found: &Modules) -> Result<(), ReadError> {
     let written = modules(&[ProgramFile {
         name: "checks".to_owned(),
@@ -340,7 +341,7 @@ fn time(cursor: &mut Cursor<'_>) -> Result<Time, ReadError> {
     Ok(Time { written_s, is_divided })
 }
 
-/// Why a statement is refused.
+/// Explains why a statement is refused.
 fn why_not(name: &str, next: Option<&Token>) -> String {
     const FLOW: &str = "IF FOR WHILE TEST GOTO RETURN RAISE RETRY TRYNEXT CONNECT";
     const HANDLERS: &str = "ERROR UNDO BACKWARD";
@@ -374,7 +375,7 @@ struct Run<'a> {
     tool: Option<ReadTool>,
     /// The share of the run, once it was checked.
     running: Option<f32>,
-    /// Where the arm was found to stand, once it was checked \[rad\].
+    /// Configuration in which the arm was found to stand, once it was checked \[rad\].
     start_rad: Option<JointVector>,
     is_over: bool,
     steps: usize,
@@ -499,7 +500,7 @@ impl<'a> Run<'a> {
         }
         self.tool = Some(motion.tool);
         let (t_s, place) = match (self.points.last(), motion.time) {
-            // From wherever the arm stands: how long that takes is not counted.
+            // The start of this motion is unknown: its duration is not counted.
             (None, _) if motion.corner_m.is_some() => {
                 return Err(
                     "the first motion leads to the start and must stop there: expected `fine`, found a zone".to_owned(),
@@ -549,7 +550,7 @@ impl<'a> Run<'a> {
         });
     }
 
-    /// What the program did.
+    /// Returns the motion of the program that was run.
     fn reading(self, main: Place) -> Result<Reading, ReadError> {
         let refused = |place: Place, reason: &str| {
             Err(ReadError {

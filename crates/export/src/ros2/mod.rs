@@ -5,13 +5,13 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | what a message says; times in it | `message`, `timing` |
+//! | contents of a message; times in it | `message`, `timing` |
 //! | YAML and JSON; numbers in them | `language`, `number` |
 //! | messages as YAML and JSON | `write` |
 //! | YAML as a tree with lines; that as a reading | `node`, `read` |
 //! | the script that sends a goal | `player`, `play.py` |
 //!
-//! What a message says.
+//! Contents of a message.
 
 mod node;
 mod number;
@@ -103,7 +103,7 @@ impl Dialect for Ros2 {
     }
 }
 
-/// What the head of a message says beside that of every program.
+/// Notes at the head of a message, besides those of every program.
 fn said(program: &Program<'_>) -> Vec<String> {
     let lead_in_s = write::LEAD_IN_S;
     vec![
@@ -122,7 +122,7 @@ fn said(program: &Program<'_>) -> Vec<String> {
     ]
 }
 
-/// What the head of a goal says of its tolerances.
+/// Notes at the head of a goal on its tolerances.
 fn said_of_goal(message: &Message) -> Vec<String> {
     let each = |all: [f64; AXES]| all.map(number::float).join(", ");
     vec![
@@ -137,7 +137,7 @@ fn said_of_goal(message: &Message) -> Vec<String> {
     ]
 }
 
-/// How late a joint may be before the controller aborts \[s\].
+/// Delay of a joint beyond which the controller aborts \[s\].
 const LATE_S: f64 = 0.05;
 
 /// Least tolerance of the path \[rad\].
@@ -146,7 +146,7 @@ const LEAST_PATH_RAD: f64 = 0.02;
 /// Tolerance of the goal \[rad\].
 pub(crate) const GOAL_RAD: f64 = 0.01;
 
-/// How much later than planned the goal may be reached \[ns\].
+/// Delay beyond the planned end at which the goal may still be reached \[ns\].
 pub(crate) const GOAL_TIME_NS: i64 = write::NS_PER_S;
 
 /// Tolerances are whole multiples of one radian by this.
@@ -171,7 +171,7 @@ pub(crate) struct Message {
 }
 
 impl Message {
-    /// That of a program.
+    /// Message of a program.
     pub(crate) fn of(program: &Program<'_>) -> Self {
         let share = program.speed_share;
         let times = write::nanoseconds(program.points.iter().map(|point| point.t_s / share));

@@ -1,4 +1,4 @@
-//! YAML as a tree with lines, strictly and within bounds: what a message needs, and nothing else of the language.
+//! YAML as a tree with lines, strictly and within bounds: the part of the language that a message needs, and nothing else.
 
 use crate::ros2::read::Language;
 use platewash_workcell::words::{quoted, shortened};
@@ -25,12 +25,12 @@ pub(crate) struct Node<'a> {
     pub(crate) kind: Kind<'a>,
 }
 
-/// What a value is.
+/// Kind of a value.
 #[derive(Debug)]
 pub(crate) enum Kind<'a> {
-    /// Without quotes: a number, or a word.
+    /// Value without quotes: a number, or a word.
     Plain(Cow<'a, str>),
-    /// The same in a text that is JSON, too: its numbers are those of JSON.
+    /// Value without quotes in a text that is also JSON: its numbers are those of JSON.
     OfJson(Cow<'a, str>),
     /// A text in quotes.
     Quoted(Cow<'a, str>),
@@ -47,7 +47,7 @@ pub(crate) struct Entry<'a> {
     pub(crate) value: Node<'a>,
 }
 
-/// A line, and what is wrong with it.
+/// A line, and its error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) line: usize,
@@ -62,7 +62,7 @@ impl Fault {
 }
 
 impl Kind<'_> {
-    /// In words, for messages.
+    /// Message of the fault, in words.
     pub(crate) fn told(&self) -> String {
         match self {
             Self::Plain(text) | Self::OfJson(text) => told(text),
@@ -86,7 +86,7 @@ pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
         let reason = format!("expected {MAX_BYTES} bytes at most; found {}", text.len());
         return Err(Fault::new(1, reason));
     }
-    // YAML 1.1, which ROS 2 reads, ends lines and comments there; YAML 1.2, and what reads them here, does not.
+    // YAML 1.1, which ROS 2 reads, ends lines and comments there; YAML 1.2, which is read here, does not.
     let ends_a_line = |c: char| matches!(c, '\u{85}' | '\u{2028}' | '\u{2029}');
     if let Some((line, _)) = (1..).zip(text.lines()).find(|(_, line)| line.contains(ends_a_line)) {
         return Err(Fault::new(

@@ -1,4 +1,4 @@
-//! Numbers in messages: what is written reads back exactly, and as a float by readers of YAML 1.1, YAML 1.2 and JSON.
+//! Numbers in messages: a written number reads back exactly, and as a float by readers of YAML 1.1, YAML 1.2 and JSON.
 
 /// A finite number as a float's text: always with a point, an exponent always with its sign, never a negative zero.
 ///
@@ -14,7 +14,7 @@ pub(crate) fn float(value: f64) -> String {
     format!("{mantissa}{point}e{sign}{exponent}")
 }
 
-/// A text in double quotes, as JSON and YAML read it: of the first 65536 characters what is not ASCII is written out.
+/// A text in double quotes, as JSON and YAML read it: characters beyond ASCII are escaped, as far as four digits can state them.
 pub(crate) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
@@ -30,7 +30,7 @@ pub(crate) fn quoted(text: &str) -> String {
     out
 }
 
-/// What a text says as a number.
+/// Number in a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Said {
     /// A finite number that every reader takes for a float.

@@ -14,15 +14,15 @@ use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between}
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::words::quoted;
 
-/// What the controller takes for a last speed of zero \[rad/s\].
+/// Greatest last speed that the controller takes for zero \[rad/s\].
 const AT_REST_RAD_S: f64 = f32::EPSILON as f64;
 
-/// Who asks for a rule.
+/// Component that a rule belongs to.
 const CONTROLLER: &str = "joint_trajectory_controller";
 const TYPE: &str = "the message's type";
 const PROOF: &str = "the proof";
 
-/// That a rule is broken.
+/// Fault of a broken rule.
 fn broken<T>(line: usize, (rule, by): (&str, &str), found: impl AsRef<str>) -> Result<T, Fault> {
     Err(Fault::new(line, format!("{} (rule {rule} of {by})", found.as_ref())))
 }
@@ -32,7 +32,7 @@ pub(crate) fn refused(file: &ProgramFile, Fault { line, reason }: Fault) -> Read
     ReadError::at(&file.name, line.max(1), reason)
 }
 
-/// What the files say, all the same.
+/// Reads the files, which must all state the same motion.
 pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
     let mut first: Option<(&ProgramFile, Reading)> = None;
     for file in files {
@@ -51,7 +51,7 @@ pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Readin
     Ok(Reading { speed_share, ..reading })
 }
 
-/// What one file says.
+/// Reads one file.
 fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     let Some(language) = Language::of(&file.name) else {
         let reason = "expected a file .yaml, .yml or .json, or play.py; found another name";
@@ -173,7 +173,7 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
     Ok(all)
 }
 
-/// For each joint of the arm its place in the message.
+/// Place in the message of each joint of the arm.
 fn order(node: &Node<'_>, known: &[&str]) -> Result<[usize; AXES], Fault> {
     let mut names: Vec<String> = Vec::new();
     for name in list(node)? {
@@ -285,7 +285,7 @@ fn duration(node: &Node<'_>) -> Result<i64, Fault> {
     Ok(whole("sec", i64::from(i32::MAX))? * NS_PER_S + whole("nanosec", NS_PER_S - 1)?)
 }
 
-/// Whether two files say the same.
+/// Checks that two files state the same motion.
 fn same(other: &str, expected: &Reading, found: &Reading) -> Result<(), Fault> {
     let same = |a: &ReadPoint, b: &ReadPoint| a.t_s == b.t_s && a.q_rad == b.q_rad && a.qd_rad_s == b.qd_rad_s;
     for (k, (a, b)) in expected.points.iter().zip(&found.points).enumerate() {
@@ -422,7 +422,7 @@ impl<'n, 'a> Fields<'n, 'a> {
     }
 }
 
-/// How keys and lists are written.
+/// Notation of keys and lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Language {
     /// YAML 1.1 and 1.2, with a head of comments.
@@ -432,7 +432,7 @@ pub(crate) enum Language {
 }
 
 impl Language {
-    /// That of a file, by its name.
+    /// Language of a file, by its name.
     pub(crate) fn of(name: &str) -> Option<Self> {
         match name.rsplit_once('.')?.1 {
             "yaml" | "yml" => Some(Self::Yaml),

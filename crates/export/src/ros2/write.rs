@@ -12,7 +12,7 @@ use crate::ros2::{GOAL_RAD, GOAL_TIME_NS, Message, MessagePoint};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::words::printable;
 
-/// Before the share of the speed in the head of a YAML file.
+/// Text before the share of the speed in the head of a YAML file.
 pub(crate) const SPEED_SHARE: &str = "# speed_share: ";
 
 /// A `trajectory_msgs/JointTrajectory`.
@@ -90,7 +90,7 @@ fn key(name: &str, language: Language) -> String {
     }
 }
 
-/// `key: value`, where the value begins with what stands between.
+/// Writes `key: value`, where the value begins with the text between.
 fn field(name: &str, value: &str, language: Language, indent: &str) -> String {
     let more = if language == Language::Json { "  " } else { "" };
     format!("{more}{indent}{}{value}", key(name, language))
@@ -141,7 +141,7 @@ pub(crate) const NAME: &str = "play.py";
 /// Its text.
 pub(crate) const TEXT: &str = include_str!("play.py");
 
-/// Whether a file is the script, by its name.
+/// Checks that a file is the script, by its name.
 pub(crate) fn is_it(file: &ProgramFile) -> bool {
     file.name == NAME
 }
@@ -161,11 +161,11 @@ pub(crate) fn check(file: &ProgramFile) -> Result<(), Fault> {
 /// Nanoseconds of a second.
 pub(crate) const NS_PER_S: i64 = 1_000_000_000;
 
-/// When the first point is reached, where the plan begins \[s\]. A controller moves there from wherever the arm is: a first point at
-/// 0 s would be a step.
+/// Time at which the first point is reached, where the plan begins \[s\]. A controller moves there from the arm's current
+/// position: a first point at 0 s would be a step.
 pub const LEAD_IN_S: f64 = 0.5;
 
-/// The same \[ns\].
+/// The same time \[ns\].
 pub(crate) const LEAD_IN_NS: i64 = NS_PER_S / 2;
 
 /// Times of a program \[s\] as times of its messages \[ns\]: rounded, and a nanosecond later where that would not be after the one before.
@@ -201,7 +201,7 @@ mod tests {
             nanoseconds([0.0, 1e-10, 2e-10].into_iter()),
             [500_000_000, 500_000_001, 500_000_002]
         );
-        // Huge times saturate; reading refuses what comes of it.
+        // Huge times saturate; reading refuses the result.
         assert_eq!(
             nanoseconds([f64::INFINITY, f64::INFINITY].into_iter()),
             [i64::MAX, i64::MAX]

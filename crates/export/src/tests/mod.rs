@@ -297,7 +297,7 @@ fn nothing_is_handed_over_when_it_is_given_up() {
     );
 }
 
-/// What is found in a text that is changed.
+/// Compares a program whose text is changed.
 fn compared(change: impl Fn(&str) -> String) -> Result<Compared, CompareError> {
     let settings = ExportSettings {
         speed_share: 0.8,
@@ -321,7 +321,7 @@ fn text() -> String {
     export(&settings).unwrap().files[0].text.clone()
 }
 
-/// What the changes are about.
+/// Subjects of the changes.
 fn about(compared: &Compared) -> Vec<&str> {
     compared.changes.iter().map(|change| change.what.as_str()).collect()
 }
@@ -385,7 +385,7 @@ fn lines_that_are_missing_or_added_are_found_where_they_are() {
     assert!(found.holds());
 }
 
-/// What is no motion is named all the same: the head, too.
+/// Changes outside the motion are listed too, such as those of the head.
 #[test]
 fn a_head_that_was_changed_is_named() {
     let found = compared(|text| text.replace("not a safety function", "a safety function")).unwrap();
@@ -404,7 +404,7 @@ fn a_program_of_another_plan_is_refused_by_its_hash() {
     );
 }
 
-/// A tolerance that somebody widened in the head is the one that is told.
+/// A tolerance that was widened in the head is the one that the program is judged by.
 #[test]
 fn a_setting_that_was_changed_is_what_is_judged_by() {
     let found = compared(|text| text.replace("tolerance_m = 0.0002", "tolerance_m = 0.001")).unwrap();
@@ -415,7 +415,7 @@ fn a_setting_that_was_changed_is_what_is_judged_by() {
     assert!(matches!(refused, Err(CompareError::Setting { .. })), "{refused:?}");
 }
 
-/// A program is not judged for what its plan promises of contact, and says so; where nothing is promised there is nothing to say.
+/// The text of a program names the promises about contact for which it is not judged; without promises it says nothing.
 #[test]
 fn what_is_not_judged_of_contact_is_told() {
     let job = &kitchen().plan().job;

@@ -1,4 +1,4 @@
-//! What the controller is assumed to do at each instruction.
+//! Assumed action of the controller at each instruction.
 //!
 //! The arm goes evenly in the joints to where a `servoj` sends it, and is there when its time is over. `movej` has a path in time of its
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
@@ -18,7 +18,7 @@ const LOOKAHEAD_S: [f64; 2] = [0.03, 0.2];
 /// Gains that a controller takes.
 const GAIN: [f64; 2] = [100.0, 2000.0];
 
-/// How far a `movej` may go where no motion is meant \[rad\].
+/// Largest motion of a `movej` where no motion is meant \[rad\].
 const NOWHERE_RAD: f64 = 1e-6;
 
 /// Joint positions beyond which no arm of the maker goes \[rad\]: two turns.
@@ -69,7 +69,7 @@ impl Value {
         }
     }
 
-    /// As many numbers as `COUNT`.
+    /// Reads a list of `COUNT` numbers.
     pub(crate) fn list<const COUNT: usize>(&self) -> Result<[f64; COUNT], String> {
         let found = match self {
             Self::List(list) => match list.as_slice().try_into() {
@@ -82,15 +82,15 @@ impl Value {
     }
 }
 
-/// What the arm has done so far.
+/// Stage of the program so far.
 #[derive(Debug, Default)]
 enum Stage {
-    /// Nothing: where it stands is not known.
+    /// No motion yet: the position of the arm is not known.
     #[default]
     Before,
-    /// It stands at its start, or moves.
+    /// The arm stands at its start, or moves.
     Moving,
-    /// It has been stopped for good.
+    /// The arm has been stopped for good.
     Stopped,
 }
 
@@ -121,7 +121,7 @@ impl Controller {
         &self.points
     }
 
-    /// Whether it moves beyond its start.
+    /// Returns true once it moves beyond its start.
     fn moves(&self) -> bool {
         self.points.len() > 1
     }
@@ -158,7 +158,7 @@ impl Controller {
         Ok(())
     }
 
-    /// What the tool is must not change while it moves.
+    /// Checks that the arm does not move yet: the tool must not change in the midst of the motion.
     fn check_standing(&self, what: &str) -> Result<(), String> {
         match self.moves() {
             true => Err(format!("{what} is set in the midst of the motion; expected before it")),
@@ -231,7 +231,7 @@ impl Controller {
         Ok(())
     }
 
-    /// What the program did.
+    /// Returns the motion of the program that was run.
     pub(crate) fn reading(mut self, speed_share: f64) -> Result<Reading, String> {
         // Where it stays for a step, and at both ends, it rests.
         let stays: Vec<bool> = self

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | a program's text | `write` |
 //! | a program that is read | `read` |
-//! | what the controller is assumed to do | `controller` |
+//! | the assumed actions of the controller | `controller` |
 
 mod controller;
 mod read;
@@ -23,7 +23,7 @@ use platewash_workcell::job::JobTerms;
 /// Time between two points \[s\]: a control cycle of the CB3 series, four of the e-Series.
 const STEP_S: f64 = 0.008;
 
-/// What a program's file name ends in.
+/// Ending of a program's file name.
 const ENDING: &str = ".script";
 
 /// URScript.
@@ -105,7 +105,7 @@ impl Dialect for UrScript {
     }
 }
 
-/// Whether an arm's description is one of the maker's by its name: `ur`, and behind it nothing, a digit or a separator.
+/// Checks, by its name, that an arm's description is one of the maker's: `ur`, and behind it nothing, a digit or a separator.
 fn is_of_the_maker(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     name.strip_prefix("ur")

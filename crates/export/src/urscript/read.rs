@@ -1,8 +1,8 @@
-//! What a program does: its lines from the first on, each of which is carried out by a [`Controller`].
+//! Motion of a program: its lines from the first on, each of which a [`Controller`] carries out.
 //!
-//! Read are the programs that [`super::write`] makes, and what people add to them: motions with `servoj`, messages, outputs and comments.
-//! The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions, threads, functions
-//! with parameters, and computed values.
+//! It reads the programs that [`super::write`] makes, and usual additions by hand: motions with `servoj`, messages, outputs and
+//! comments. The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions,
+//! threads, functions with parameters, and computed values.
 
 use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
 use crate::reading::{self, Reading, Token};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Most lines that are read, and statements that are carried out.
 const MOST_LINES: usize = 1_000_000;
 
-/// How far the limit of the check may be above [`START_WITHIN_DEG`], for its digits.
+/// Largest excess of the limit of the check over [`START_WITHIN_DEG`], for its digits.
 const NEARLY: f64 = 1e-6;
 
 /// The share of the plan's speed that a program states.
@@ -22,7 +22,7 @@ const SHARE: &str = "speed_share";
 /// Joint positions that the arm measures.
 const MEASURED: &str = "get_actual_joint_positions";
 
-/// Words that begin what `end` closes.
+/// Words that begin a block, which `end` closes.
 const BLOCKS: [&str; 6] = ["def", "if", "while", "for", "thread", "sec"];
 
 /// A line that says something.
@@ -32,10 +32,10 @@ struct Line {
     tokens: Vec<Token>,
 }
 
-/// What a program does.
+/// Interprets a program.
 ///
 /// # Errors
-/// [`ReadError`] with the line of what is not read.
+/// [`ReadError`] with the line that is not read.
 pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     let lines = lines(file)?;
     let at = |line: usize, reason: String| ReadError::at(&file.name, line, reason);
@@ -117,9 +117,9 @@ struct Run<'a> {
     controller: Controller,
     functions: BTreeMap<&'a str, &'a [Line]>,
     globals: BTreeMap<&'a str, Value>,
-    /// The variable that holds what the arm measures.
+    /// The variable that holds the measured joints of the arm.
     measured: Option<&'a str>,
-    /// Where the check expects the arm \[rad\], and the joints that it checks.
+    /// Configuration in which the check expects the arm \[rad\], and the joints that it checks.
     start: Option<JointVector>,
     checked: [bool; AXES],
     /// Functions that run.
@@ -260,7 +260,7 @@ impl<'a> Run<'a> {
         }
         self.start = Some(start);
         self.checked[j] |= (0.0..=START_WITHIN_DEG.to_radians() * (1.0 + NEARLY)).contains(limit);
-        // What is told there must be readable, too.
+        // The message in it must be readable, too.
         let message = behind.first().map_or(&[][..], |line| &line.tokens[..]);
         self.arguments(&message[1..], Controller::parameters("popup").unwrap_or_default())
             .map(|_| ())
@@ -435,7 +435,7 @@ fn numbers(tokens: &[Token]) -> Result<(Vec<f64>, &[Token]), String> {
     }
 }
 
-/// Why a word is refused.
+/// Explains why a word is refused.
 fn why_not(name: &str) -> String {
     let why = match name {
         "while" | "for" | "break" | "continue" | "elif" | "else" | "return" => {

@@ -1,6 +1,6 @@
 //! A program's text.
 //!
-//! The first line is the program's `def`, and the header stands inside: what reaches the controller by a socket is taken from the first
+//! The first line is the program's `def`, and the header stands inside: a controller takes text from a socket from the first
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
 use crate::dialect::{Point, Program, START_WITHIN_DEG};
@@ -16,13 +16,13 @@ const DECIMALS: usize = 9;
 /// Nanoseconds of a second: times are rounded as sums, so that rounding does not add up.
 const PER_S: f64 = 1e9;
 
-/// How the program gets to its start, and to its end once more: acceleration \[rad/s²\] and speed \[rad/s\].
+/// Acceleration \[rad/s²\] and speed \[rad/s\] with which the program moves to its start, and once more to its end.
 const SLOWLY: &str = "a=0.1, v=0.05";
 
-/// How the program slows down behind the last point, where the plan rests \[rad/s²\].
+/// Statement that stops the program behind the last point, where the plan rests \[rad/s²\].
 const STOP: &str = "stopj(2.0)";
 
-/// What follows of lag and smoothing: the shortest look-ahead, and the gain of the maker's own driver.
+/// Settings of the servo with their trade-offs: the shortest look-ahead, and the gain of the maker's own driver.
 const SERVO: &str =
     "  # How closely the arm follows: look-ahead 0.03 to 0.2 s, gain 100 to 2000. A longer look-ahead and a lower gain
   # are smoother and later, and cut corners.
@@ -69,7 +69,7 @@ fn head(program: &Program<'_>) -> String {
     text + &format!("  global speed_share = {share}\n")
 }
 
-/// The tool: its tip and what it weighs.
+/// Lines for the tool: its tip and its weight.
 fn tool(program: &Program<'_>) -> String {
     let tool = program.tool();
     let tip = Rigid::from(&tool.tip);

@@ -1,4 +1,4 @@
-//! What is worth knowing of a run and no figure shows.
+//! Findings of a run that no figure shows.
 
 use super::PlateReport;
 use crate::cubic::Interpolation;
@@ -20,11 +20,11 @@ pub enum PaperFinding {
     },
     /// The first waypoint is commanded from where the arm stands, without an approach.
     NoApproach {
-        /// Where the program believes to be (base frame, m).
+        /// Tip position that the program believes in (base frame, m).
         believed_m: [f64; 3],
-        /// Where the tip is (base frame, m).
+        /// True tip position (base frame, m).
         tip_m: [f64; 3],
-        /// How far the first waypoint is from the tip \[m\].
+        /// Distance of the first waypoint from the tip \[m\].
         distance_m: f64,
     },
     /// Cubics at rest at every waypoint: acceleration jumps there.
@@ -38,7 +38,7 @@ pub enum PaperFinding {
         waypoints: usize,
         /// Washing waypoints in all.
         of: usize,
-        /// Whether there is a tool body at all.
+        /// True where there is a tool body at all.
         tool: bool,
     },
     /// Links without collision geometry, which nothing checks.

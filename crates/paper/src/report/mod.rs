@@ -21,7 +21,7 @@ use platewash_workcell::words::part_of;
 use serde::Serialize;
 use waypoints::{plates, transits};
 
-/// How a run went. Lengths in metres, angles in radians, times in seconds.
+/// Report of a run. Lengths in metres, angles in radians, times in seconds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PaperReport {
     /// Name of the scenario.
@@ -30,7 +30,7 @@ pub struct PaperReport {
     pub seed: u64,
     /// Name of the arm.
     pub robot: String,
-    /// How it ended.
+    /// Verdict on the run.
     pub verdict: Verdict,
     /// The first line: whether it washed.
     pub headline: String,
@@ -49,7 +49,7 @@ pub struct PaperReport {
     pub planned: MotionReport,
     /// The executed motion against the limits.
     pub executed: MotionReport,
-    /// What else is to be said.
+    /// Further findings.
     pub findings: Vec<PaperFinding>,
     /// The pairs of bodies that were checked for clearance, by name.
     pub clearance_pairs: Vec<[String; 2]>,
@@ -58,7 +58,7 @@ pub struct PaperReport {
 }
 
 impl PaperRun {
-    /// Judges the run: what was reached, how near it came, what it covered.
+    /// Judges the run: waypoints reached, distances kept, plates covered.
     ///
     /// # Errors
     /// [`PaperError::Clearance`] or [`PaperError::Coverage`].
@@ -101,7 +101,7 @@ impl PaperRun {
 }
 
 impl PaperReport {
-    /// How many plates count as washed.
+    /// Number of plates that count as washed.
     #[must_use]
     pub fn plates_washed(&self) -> usize {
         sum(&self.plates, |plate| plate.washed.into())
@@ -121,7 +121,7 @@ fn sum(plates: &[PlateReport], of: fn(&PlateReport) -> usize) -> usize {
     plates.iter().map(of).sum()
 }
 
-/// How the run ended, and the first line of its report: whether it washes, and the main reasons if not.
+/// Returns the verdict on the run, and the first line of its report: does it wash, and the main reasons if not.
 fn judged(
     plates: &[PlateReport],
     transits: &WaypointReport,

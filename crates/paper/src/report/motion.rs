@@ -1,4 +1,4 @@
-//! A motion against the limits, and how near the arm comes to itself and to what stands around it.
+//! A motion against the limits, and the distances of the arm from itself and from the bodies around it.
 
 use crate::run::PaperRun;
 use crate::tracking::Step;
@@ -9,7 +9,7 @@ use platewash_workcell::trajectory::{SegmentExtremes, SegmentKind, Trajectory};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What a violation breaks.
+/// Limit that a violation breaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ViolationKind {
@@ -26,9 +26,9 @@ pub enum ViolationKind {
 /// A stretch of time during which a limit is broken.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Violation {
-    /// What is broken.
+    /// Kind of the limit that is broken.
     pub kind: ViolationKind,
-    /// Who: `joint_1` …, or the two bodies.
+    /// Joint or bodies at fault: `joint_1` …, or the two bodies.
     pub who: String,
     /// Start \[s\].
     pub t_start_s: f64,
@@ -43,9 +43,9 @@ pub struct Violation {
 /// The nearest approach of two bodies, and when.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ClosestApproach {
-    /// When \[s\].
+    /// Time in the run \[s\].
     pub t_s: f64,
-    /// What and where.
+    /// The pair, its distance and its place.
     #[serde(flatten)]
     pub pair: PairClearance,
 }
@@ -148,7 +148,7 @@ fn merged(violations: impl Iterator<Item = Violation>, gap_s: f64) -> Vec<Violat
     all
 }
 
-/// How near the arm comes at one step.
+/// Distances of the arm at one step.
 pub(super) struct Nearness {
     /// The nearest pair.
     pub nearest: Option<ClosestApproach>,
@@ -156,7 +156,7 @@ pub(super) struct Nearness {
     pub too_near: Vec<ClosestApproach>,
 }
 
-/// How near the arm comes at every step, commanded and executed.
+/// Distances of the arm at every step, commanded and executed.
 pub(super) fn nearnesses(
     run: &PaperRun,
     clearance: &ClearanceModel,
@@ -177,7 +177,7 @@ fn nearness(clearance: &ClearanceModel, q: &JointVector, working: &[usize], run:
         pair,
     };
     let nearest = clearance.smallest(q, working);
-    // Nearly all configurations keep their distance; only the others are looked at pair by pair.
+    // Nearly all configurations keep their distance; only the others are checked pair by pair.
     let too_near = match &nearest {
         Some(pair) if !is_clear(pair.distance_m, required_m) => clearance.too_near(q, working, required_m),
         _ => Vec::new(),

@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 /// Violations listed one by one for a motion before the rest is only counted.
 const LISTED_VIOLATIONS: usize = 12;
 
-/// Significant digits of what the scenario states.
+/// Significant digits of stated values.
 const SHOWN_DIGITS: usize = 6;
 
 impl Display for PaperReport {
@@ -194,7 +194,7 @@ fn violations(f: &mut Formatter<'_>, what: &str, all: &[Violation]) -> fmt::Resu
 }
 
 impl Violation {
-    /// How bad it is, for ranking: contacts first, then the share of the limit.
+    /// Rank of the violation by severity: contacts first, then by the share of the limit.
     fn severity(&self) -> f64 {
         match self.kind {
             ViolationKind::Clearance => 1e9 - self.worst,

@@ -1,4 +1,4 @@
-//! What came of the waypoints on each plate, and of those between plates.
+//! Results on the waypoints of each plate, and on those between plates.
 
 use super::motion::{ClosestApproach, Nearness, nearest};
 use crate::run::PaperRun;
@@ -15,15 +15,15 @@ const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
 /// The tip counts as touching the plate up to this height above it \[m\].
 const CONTACT_HEIGHT_M: f64 = 1e-3;
 
-/// What happened on one plate.
+/// Results on one plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlateReport {
     /// Index of the plate.
     pub plate: usize,
     /// Its centre \[m\].
     pub centre_m: [f64; 2],
-    /// Whether it counts as washed: every waypoint solved, the sponge on the plate at each, nothing else too near, and
-    /// enough surely covered (the lower bound).
+    /// True where it counts as washed: every waypoint solved, the sponge on the plate at each, nothing else too near, and enough
+    /// surely covered (the lower bound).
     pub washed: bool,
     /// Waypoints asked.
     pub waypoints: usize,
@@ -42,8 +42,8 @@ pub struct PlateReport {
     /// Waypoints at which the executed sponge is on the plate: there is a tool body, and its tip is no higher than 1 mm above the
     /// surface and no deeper than the sponge.
     pub in_contact: usize,
-    /// Covered share of the plate had the tip followed the waypoints, seen from above: as if the sponge touched wherever the
-    /// tip passes.
+    /// Covered share of the plate if the tip had followed the waypoints, seen from above, with the sponge touching along the
+    /// whole path of the tip.
     pub ideal_coverage: Coverage,
     /// Covered share of the plate as executed, seen from above.
     pub executed_coverage: Coverage,
@@ -53,7 +53,7 @@ pub struct PlateReport {
     pub tracking_max_m: f64,
 }
 
-/// What came of some waypoints.
+/// Results on some waypoints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WaypointReport {
     /// Waypoints asked.
@@ -77,13 +77,13 @@ pub struct WaypointReport {
 pub struct Unreached {
     /// Index of the waypoint on the plate, from 0; of one between plates, over all transits.
     pub waypoint: usize,
-    /// Where it is \[m\].
+    /// Position of the waypoint \[m\].
     pub target_m: [f64; 3],
-    /// Why.
+    /// Cause reported by the inverse kinematics.
     pub cause: IkCause,
-    /// How far the best configuration stays away \[m\].
+    /// Distance of the tip of the best configuration from the waypoint \[m\].
     pub position_error_m: f64,
-    /// How far it is turned \[rad\].
+    /// Angle by which it is turned from the target \[rad\].
     pub orientation_error_rad: f64,
 }
 
@@ -176,7 +176,7 @@ fn plate(run: &PaperRun, steps: &[Near<'_>], index: usize) -> Result<PlateReport
     })
 }
 
-/// Whether the executed sponge is on the plate at a step.
+/// Checks that the executed sponge is on the plate at a step.
 fn touches(run: &PaperRun, plate: &Plate, step: &Step) -> bool {
     let tool = &run.job.workcell.tool;
     let height = step.executed_tip.z - plate.centre().z;

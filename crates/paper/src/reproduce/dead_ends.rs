@@ -1,4 +1,4 @@
-//! How often sequential sampling comes to a dead end: there the paper's program hangs.
+//! Rate at which sequential sampling comes to a dead end: there the paper's program hangs.
 
 use super::statistics::binomial_percent;
 use super::{ReproduceSettings, Row};

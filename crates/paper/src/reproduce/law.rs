@@ -1,4 +1,4 @@
-//! The paper's control law as what it is: a filter, with a gain and a phase.
+//! The paper's control law as a filter, with a gain and a phase.
 
 use super::Row;
 use super::statistics::Estimate;

@@ -27,10 +27,10 @@ const EXECUTED_CELL: CoverageSettings = CoverageSettings { cell_m: 5e-4 };
 /// Configuration from which the exact check of a segment starts: in front of the base, elbow up, flange down (degrees).
 const READY_DEG: [f64; 6] = [0.0, 10.0, 10.0, 0.0, 70.0, 0.0];
 
-/// What was measured of one layout.
+/// Measurements of one layout.
 #[derive(Debug, Default)]
 pub(super) struct Sample {
-    /// How many of how many, by the key of their share.
+    /// Counts as \[part, whole\], by the key of their share.
     pub counts: BTreeMap<&'static str, [usize; 2]>,
     /// Tip errors on the `first_spiral`, on `later_spirals` and on `transitions`, and the largest `radius` of the executed tip about
     /// the plate's centre, second plate on \[m\].
@@ -86,7 +86,7 @@ fn check_exactly(run: &PaperRun, clearance: &ClearanceModel, sample: &mut Sample
     Ok(())
 }
 
-/// How many waypoints of a segment are reached, and how many of these without contact.
+/// Counts the waypoints of a segment that are reached, and among them those without contact.
 fn reached(solver: &IkSolver<'_>, segment: &Segment, clearance: &ClearanceModel) -> [usize; 2] {
     let [mut reached, mut clear] = [0, 0];
     let mut seed = JointVector::from(READY_DEG).map(f64::to_radians);

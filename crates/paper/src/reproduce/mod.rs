@@ -1,4 +1,4 @@
-//! Re-measures what the paper's program does, over many layouts.
+//! Measures the results of the paper's program again, over many layouts.
 //!
 //! Every quantity is measured by running the program's own parts (layout law, spiral, transit, inverse kinematics
 //! seeded with the executed configuration, control law), not copied from anywhere. The paper's column says what its text
@@ -29,7 +29,7 @@ use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What to measure, and how often.
+/// Settings of the reproduction: the quantities to measure, and the sample sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ReproduceSettings {
     /// Layouts simulated in each of the paper's two regions.
@@ -65,11 +65,11 @@ pub struct Row {
     pub key: String,
     /// Group heading.
     pub group: &'static str,
-    /// What it is, in words.
+    /// Name of the quantity, in words.
     pub quantity: String,
     /// Unit: `%`, `mm`, `deg` or empty for a ratio.
     pub unit: &'static str,
-    /// What the paper's text takes for granted, in the same unit, where it says anything.
+    /// Value that the paper's text takes for granted, in the same unit; `None` where it states none.
     pub paper: Option<f64>,
     /// Measured value, in the same unit.
     pub measured: f64,
@@ -80,7 +80,7 @@ pub struct Row {
 /// Everything measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reproduction {
-    /// What was asked.
+    /// Settings of the reproduction.
     pub settings: ReproduceSettings,
     /// The quantities, in reading order.
     pub rows: Vec<Row>,

@@ -8,7 +8,7 @@ use crate::tool_path::ToolPath;
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings};
 use platewash_workcell::plate::Plate;
 
-/// Shares in each region: key, words, what the paper takes for granted \[%\].
+/// Shares in each region: key, words, the value that the paper takes for granted \[%\].
 const SHARES: [(&str, &str, f64); 9] = [
     ("plates_overlap", "layouts whose plates overlap", 0.0),
     ("base_overlap", "layouts with a plate over the robot's base", 0.0),
@@ -41,7 +41,8 @@ const TIP_ERRORS: [(&str, &str, Option<f64>); 4] = [
     ("tracking_rms.transitions", "transitions, rms", None),
 ];
 
-/// Percentiles of the outermost radius: key, words, what the paper takes for granted \[mm\], the share of the values below.
+/// Percentiles of the outermost radius: key, words, the value that the paper takes for granted \[mm\], the share of the values
+/// below.
 const RADII: [(&str, &str, Option<f64>, f64); 3] = [
     (
         "executed_radius.median",
@@ -79,7 +80,7 @@ fn percent(samples: &[Sample], key: &str) -> Estimate {
     }
 }
 
-/// How well the control law tracks, over both regions.
+/// Rows on the tracking errors of the control law, over both regions.
 pub(super) fn tracking(samples: &[Sample]) -> Vec<Row> {
     const GROUP: &str = "Tracking under the paper's control law (both regions)";
     let millimetres = |lengths: &str, share: Option<f64>| {

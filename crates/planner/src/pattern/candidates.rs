@@ -1,6 +1,6 @@
-//! The curves among which is chosen.
+//! Candidate curves.
 //!
-//! How long a curve takes at the limits of washing, and what it brings about on the bare face.
+//! Estimates for a curve: its time at the limits of washing, and its effect on the bare face.
 
 use crate::pattern::promise::{Margin, Promise};
 use crate::scene::AxisRule;
@@ -23,25 +23,25 @@ const INSETS: [f64; 6] = [0.95, 0.92, 0.85, 0.77, 0.7, 0.5];
 /// λ₀ and w₀ of blends \[rad\]: shorter ones are shorter ways, and on the IRB 120 longer times, as joints reach their accelerations.
 const BLEND: [f64; 2] = [2.0, 1.7];
 
-/// ℓ of the innermost ring, in what it has where rings lie evenly: farther out it lies nearer to the next ones.
+/// ℓ of the innermost ring, relative to that of evenly spaced rings: farther out it lies nearer to the next ones.
 const INNER: [f64; 3] = [1.0, 1.08, 1.17];
 
 /// Rings that are tried at most, where their number is not stated.
 const MOST_TRIED: usize = 40;
 
-/// Those of denser curves, for doses that others do not give.
+/// Pitches of denser curves, for doses that the usual ones do not give.
 const DENSE_PITCHES: [f64; 3] = [0.65, 0.5, 0.35];
 
-/// How densely a curve covers a face.
+/// Density with which a curve covers a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Density {
-    /// As a usual job needs it.
+    /// Density for a usual job.
     Usual,
     /// Denser than that.
     Dense,
 }
 
-/// All curves of a density that the settings leave open; of the usual one at least one.
+/// Lists all curves of a density that the settings leave open; at least one of the usual density.
 pub(crate) fn candidates(
     settings: &PlannerSettings,
     surface: &Surface,
@@ -148,7 +148,7 @@ fn with_inner(count: usize, inner_m: f64, radius_m: f64) -> WashCurve {
     }
 }
 
-/// How far a chord of the curve that is looked at may leave it \[m\].
+/// Largest deviation of a chord from the curve that is checked \[m\].
 const CHORD_M: f64 = 5e-5;
 
 /// The longest stride between moments \[m\].
@@ -161,7 +161,7 @@ const LEAN: f64 = 0.8;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Estimate {
     pub curve: WashCurve,
-    /// From rest to rest, the arm apart \[s\].
+    /// Least time from rest to rest, without the limits of the arm \[s\].
     pub least_s: f64,
     speed_m_s: f64,
 }
@@ -184,7 +184,7 @@ impl Estimate {
         }
     }
 
-    /// Whether on the bare face, with the tool by its rule, it brings about what is promised.
+    /// Checks that the curve keeps the promise on the bare face, with the tool set by its rule.
     pub fn keeps(&self, promise: &Promise, surface: &Surface, (rule, cone_rad): (&AxisRule, f64)) -> bool {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));

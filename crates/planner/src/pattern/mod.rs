@@ -1,9 +1,9 @@
-//! The curve of the tip on a plate: pitch, pattern and tilt chosen together, for a short wash that keeps what is promised.
+//! The curve of the tip on a plate: pitch, pattern and tilt chosen together, for a short wash that keeps the promises of the job.
 //!
-//! What the job states is kept; what it leaves out is chosen. Candidates (`candidates.rs`) are tried the shortest first (`candidates.rs`):
-//! the first that on the bare face, with the tool by its rule and at the speed limit, brings enough of it into contact (`promise.rs`) is
-//! taken. Where none does, denser and slower ones are tried. Whether it does so with the arm's own tilts is asked again on each plate; where it does not, or the arm finds no way along it,
-//! the next ones are tried.
+//! A curve that the job states is kept; parameters that it leaves out are chosen. Candidates (`candidates.rs`) are tried in order
+//! of length: the first one is taken that brings enough of the bare face into contact (`promise.rs`), with the tool by its rule
+//! and at the speed limit. Where there is none, denser and slower ones are tried. Each plate is checked again with the arm's own
+//! tilts. Where the curve fails there, or the arm finds no way along it, the next ones are tried.
 
 mod candidates;
 mod promise;
@@ -21,19 +21,20 @@ use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 
-/// What the tilt of the tool may take of the sponge's contact on a flat face, besides what is promised \[m\]: for the tip's own error.
+/// Contact height on a flat face that the tilt of the tool may use up, besides the promised part \[m\]: a reserve for the error
+/// of the tip.
 const HEIGHT_RESERVE_M: f64 = 2e-4;
 
 /// The share of the cone that leaves the whole sponge in contact which is tried first: tilted less, the sponge presses more evenly.
 const NARROW: f64 = 0.5;
 
-/// The same for places that are not reached so.
+/// Share of the cone for places that are not reached with the narrow one.
 const WIDE: f64 = 0.85;
 
 /// Patterns that are offered within a cone at most.
 const MOST_OFFERED: usize = 2;
 
-/// The least share of the wash speed that is tried, where at full speed no curve brings about what is promised.
+/// Least share of the wash speed that is tried where no curve keeps the promise at full speed.
 const SLOWEST: f64 = 0.1;
 
 /// Denser and slower curves among which is chosen.
@@ -48,7 +49,7 @@ pub struct Pattern {
     pub cone_rad: f64,
     /// The share of the speed limit of washing at which it is followed at most.
     pub speed_share: f64,
-    /// What it takes at the limits of washing, from rest to rest, the arm apart \[s\].
+    /// Least time at the limits of washing, from rest to rest, without the limits of the arm \[s\].
     pub least_s: f64,
 }
 
@@ -74,19 +75,19 @@ pub struct Patterns {
     limits: [f64; 2],
     /// The shortest first; at least one.
     candidates: Vec<Estimate>,
-    /// Whether anything is promised about contact.
+    /// True where the job promises something about contact.
     has_contact: bool,
     /// Curves that cover the face more densely.
     dense: Vec<WashCurve>,
     /// The cones to plan with, the best first; at least one.
     cones: Vec<f64>,
     first: Vec<Pattern>,
-    /// Ends the search for patterns; what was found by then is offered.
+    /// Token that ends the search for patterns; the patterns found by then are offered.
     cancel: CancelToken,
 }
 
 impl Patterns {
-    /// What a job offers on a surface.
+    /// Returns the patterns that a job offers on a surface.
     #[must_use]
     pub fn new(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface, cancel: &CancelToken) -> Self {
         let promise = Promise::of(terms, surface);
@@ -113,7 +114,7 @@ impl Patterns {
         patterns
     }
 
-    /// The same with one curve and one cone alone: those of another plan.
+    /// The same offer with one curve and one cone alone: those of another plan.
     #[must_use]
     pub fn along(&self, path: &WashPath) -> Self {
         let mut patterns = Self {
@@ -126,24 +127,24 @@ impl Patterns {
         patterns
     }
 
-    /// Those that are tried first, the best first; at least one.
+    /// Patterns that are tried first, the best first; at least one.
     #[must_use]
     pub fn first(&self) -> &[Pattern] {
         &self.first
     }
 
-    /// Those of wider cones, for places that the first ones do not reach.
+    /// Patterns of wider cones, for places that the first ones do not reach.
     pub fn wider(&self) -> impl Iterator<Item = Pattern> {
         self.cones[1..].iter().flat_map(|cone| self.within(*cone))
     }
 
-    /// Denser and slower ones, for plates on which the arm presses less of the face than the bare face lets expect.
+    /// Denser and slower patterns, for plates on which the arm presses less of the face than the estimate on the bare face.
     pub fn denser(&self) -> impl Iterator<Item = Pattern> {
         let cones = self.cones.iter().filter(|_| self.is_chosen());
         cones.flat_map(|cone| self.slower(*cone, &Margin::WEAK_ARM))
     }
 
-    /// The first one with the widest cone: what no tilt of it reaches, none does.
+    /// The first pattern with the widest cone: a place that no tilt in it reaches is out of reach for all.
     #[must_use]
     pub fn widest(&self) -> Pattern {
         let cone_rad = self.cones.iter().copied().fold(0.0, f64::max);
@@ -153,14 +154,15 @@ impl Patterns {
         }
     }
 
-    /// Whether the curve is chosen, not stated.
+    /// Returns true where the curve is chosen, not stated.
     #[must_use]
     pub fn is_chosen(&self) -> bool {
         self.candidates.len() > 1
     }
 
-    /// The shortest candidates that keep what is promised within a cone: at full speed, or else denser or slower; a curve that is stated at
-    /// full speed first. Where none of the usual ones does, the longest of them comes last: the arm may lean less than is reckoned with here.
+    /// The shortest candidates that keep the promise within a cone: at full speed, or else denser or slower; a stated curve comes
+    /// at full speed first. Where none of the usual ones keeps it, the longest of them comes last: the arm may lean less than is
+    /// assumed here.
     fn within(&self, cone_rad: f64) -> Vec<Pattern> {
         let mut chosen = self.usual(cone_rad);
         if self.is_chosen() && !chosen.is_empty() {
@@ -173,7 +175,7 @@ impl Patterns {
         chosen
     }
 
-    /// The shortest of the usual curves that keep what is promised at full speed; a curve that is stated, whether it does so or not.
+    /// The shortest of the usual curves that keep the promise at full speed; a stated curve is taken in any case.
     fn usual(&self, cone_rad: f64) -> Vec<Pattern> {
         let keeps = |estimate: &&Estimate| estimate.keeps(&self.promise, &self.surface, (&self.rule, cone_rad));
         let kept = self
@@ -186,8 +188,8 @@ impl Patterns {
             .collect()
     }
 
-    /// The quickest curves, dense ones among them, each with the greatest share of the wash speed at which it keeps what is promised with
-    /// a margin.
+    /// The quickest curves, dense ones among them, each with the greatest share of the wash speed at which it keeps the promise
+    /// with a margin.
     fn slower(&self, cone_rad: f64, margin: &Margin) -> Vec<Pattern> {
         if !self.has_contact {
             return Vec::new();

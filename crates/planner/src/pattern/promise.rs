@@ -1,6 +1,6 @@
-//! What a wash must bring about on a face.
+//! Promise of a wash: the contact that it must bring about on a face.
 //!
-//! What a wash falls short of.
+//! Shortfall of a wash against its promise.
 
 use crate::scene::Scene;
 use crate::trig::{acos, sin_cos};
@@ -17,14 +17,14 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// Places of a face that are looked at.
+/// Number of places of a face that are checked.
 const PLACES: u32 = 2000;
 
-/// Places that are looked at first: where this much of a share lacks there, the others are not.
+/// Number of places that are checked first: where they lack this much of a share, the others are skipped.
 const FIRST: u32 = 250;
 const LACKING: f64 = 8e-3;
 
-/// Places of those that are looked at before them, and the stride from one to the next, which spreads them over the face.
+/// Number of places that are checked before those, and the stride from one to the next, which spreads them over the face.
 const FEW: u32 = 50;
 const SPREAD: u32 = 97;
 
@@ -34,30 +34,30 @@ const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 /// Every force is within \[N\].
 const ANY_FORCE_N: [f64; 2] = [0.0, f64::INFINITY];
 
-/// How far the tip may be off a flat face, as far as strain and force go \[m\].
+/// Distance of the tip from a flat face that is tolerated for strain and force \[m\].
 const OFF_FACE_M: f64 = 1e-5;
 
 /// A compression that every place has \[m\].
 const ANY_M: f64 = -1e3;
 
-/// By how much more than is promised must be seen, as what is looked at is no bound.
+/// Margins by which an estimate must exceed the promise: it samples some places and moments only, and is no bound.
 #[derive(Debug, Clone, Copy)]
 pub struct Margin {
-    /// Of time and dose, as a factor.
+    /// Factor on time and dose.
     more: f64,
-    /// Of shares, as a part of what may lack it.
+    /// Part of the share that may lack it, kept as a reserve.
     part: f64,
-    /// Of strain and force, as a factor.
+    /// Factor on strain and force.
     load: f64,
-    /// Of the tool's tilt on a flat face \[rad\].
+    /// Reserve of the tool's tilt on a flat face \[rad\].
     tilt_rad: f64,
 }
 
 impl Margin {
-    /// Before the arm's own tilts are known.
+    /// Margin before the arm's own tilts are known.
     pub const BARE_FACE: Self = Self { more: 1.1, ..Self::ARM };
 
-    /// With the arm.
+    /// Margin with the arm's own configurations.
     pub const ARM: Self = Self {
         more: 1.04,
         part: 0.2,
@@ -65,14 +65,14 @@ impl Margin {
         tilt_rad: 5e-4,
     };
 
-    /// On the bare face, where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) lets expect.
+    /// Margin on the bare face where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) allows for.
     pub const WEAK_ARM: Self = Self {
         more: 1.3,
         part: 0.5,
         ..Self::ARM
     };
 
-    /// With the arm, where more would cost time: what places that are looked at one by one may miss of a share.
+    /// Margin with the arm where a larger one would cost time: for the part of a share that a check of single places may miss.
     pub const CLOSE: Self = Self {
         more: 1.005,
         part: 0.05,
@@ -80,7 +80,7 @@ impl Margin {
         tilt_rad: 1e-4,
     };
 
-    /// None: what lacks even so is not proved.
+    /// No margin: a shortfall that remains is certain to fail the proof.
     pub const NONE: Self = Self {
         more: 1.0,
         part: 0.0,
@@ -94,24 +94,24 @@ impl Margin {
     }
 }
 
-/// What a wash must bring about: of how much of a face it is wanted.
+/// Result that a wash must bring about, and the share of a face on which it is required.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Promise {
     /// The sponge; of unknown stiffness 1 Pa.
     pub foundation: Foundation,
-    /// What is wanted of a place.
+    /// Requirement at a single place of the face.
     pub wanted: Wanted,
     /// Shares that must be in contact, long enough, and with enough of a dose.
     pub shares: [f64; 3],
-    /// Greatest strain; infinite where nothing is asked.
+    /// Greatest strain; infinite without a limit.
     pub strain: f64,
-    /// Least and greatest force \[N\]; 0 and infinite where nothing is asked.
+    /// Least and greatest force \[N\]; 0 and infinite without limits.
     pub force_n: [f64; 2],
 }
 
 impl Promise {
-    /// What a job asks for on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and touches
-    /// others.
+    /// Promise of a job on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and
+    /// touches others.
     #[must_use]
     pub fn of(terms: &JobTerms, surface: &Surface) -> Self {
         let (requirements, sponge) = (&terms.requirements, &terms.workcell.tool.sponge);
@@ -150,9 +150,9 @@ impl Promise {
 }
 
 impl Promise {
-    /// The same of a face that is to be swept alone, where nothing tells which way the tool leans: of the sponge's face counts what is over the
-    /// disc whose radius is that of the sponge times the cosine of the cone, less what the tip may be off its path, as in the certificate.
-    /// `None` of all others.
+    /// The same promise for a face that only has to be swept, where the lean of the tool has an unknown direction. The counted
+    /// part of the sponge's face is the part over a disc. The radius of the disc is that of the sponge times the cosine of the
+    /// cone, less the tip's deviation from its path, as in the certificate. `None` for all other promises.
     pub(crate) fn swept_within(&self, surface: &Surface, cone_rad: f64) -> Option<Self> {
         let (_, cosine) = sin_cos(cone_rad);
         let is_swept = surface.is_flat() && self.wanted.compression_m == ANY_M;
@@ -165,7 +165,8 @@ impl Promise {
         })
     }
 
-    /// What an arm in some configurations along a wash, at a constant speed, lacks of it: looked at there, not between.
+    /// Returns the shortfall of an arm in some configurations along a wash at a constant speed. It is checked in these
+    /// configurations, not between them.
     #[must_use]
     pub fn shortfall(
         &self,
@@ -179,7 +180,7 @@ impl Promise {
             .or_else(|| self.missing(&plate.surface, &moments, margin))
     }
 
-    /// The strain or force of the sponge that is beyond what is promised.
+    /// The strain or force of the sponge that exceeds the promise.
     fn overload(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let [least_n, most_n] = self.force_n;
         if self.strain.is_infinite() && self.force_n == ANY_FORCE_N {
@@ -211,8 +212,8 @@ impl Promise {
         }
     }
 
-    /// The least and the greatest volume of compressed foam \[m³\] and the greatest compression \[m\] on a flat face, whatever the moment: as
-    /// the certificate bounds them, from the greatest tilt and the place farthest out.
+    /// Least and greatest volume of compressed foam \[m³\] and greatest compression \[m\] on a flat face, over all moments. They
+    /// are bounded as in the certificate, from the greatest tilt and the place farthest out.
     fn pressed_level(&self, rim_m: f64, moments: &[Moment], margin: &Margin) -> ([f64; 2], f64) {
         let (mut least_cosine, mut distance_m): (f64, f64) = (1.0, 0.0);
         for moment in moments {
@@ -248,12 +249,12 @@ impl Promise {
         )
     }
 
-    /// Whether places of a face, looked at one by one through some moments, have what is promised with a margin.
+    /// Checks that the places of a face, one by one over some moments, keep the promise with a margin.
     pub(crate) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         !self.lacks_much(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
     }
 
-    /// Whether a few of the places that are looked at first lack so much that all of them do: most candidates are refused by these.
+    /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
     fn lacks_much(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         let wanted = self.wanted_with(margin);
         let looks = Looks::new(&self.foundation, moments, &wanted);
@@ -267,7 +268,7 @@ impl Promise {
         })
     }
 
-    /// What is wanted of a place, with a margin.
+    /// Requirement at a place, with a margin.
     fn wanted_with(&self, margin: &Margin) -> Wanted {
         Wanted {
             time_s: margin.more * self.wanted.time_s,
@@ -291,8 +292,8 @@ impl Promise {
         })
     }
 
-    /// The greatest share of the speed, from `least` to 1, at which places of a face have what is promised with a margin. Slower, they are
-    /// pressed longer; how deep they are pressed and what dose they get stays.
+    /// Greatest share of the speed, from `least` to 1, at which the places of a face keep the promise with a margin. A lower
+    /// speed makes the contact longer; depth and dose stay the same.
     pub(crate) fn speed_share(
         &self,
         surface: &Surface,
@@ -315,7 +316,7 @@ impl Promise {
         Some((time_s / (margin.more * self.wanted.time_s)).clamp(least, 1.0))
     }
 
-    /// The share of a face that is too small, looked at place by place through some moments.
+    /// The share of a face that is too small, checked place by place over some moments.
     fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let wanted = self.wanted_with(margin);
         let looks = Looks::new(&self.foundation, moments, &wanted);
@@ -358,7 +359,7 @@ pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
     Foundation::stiff(sponge, sponge.stiffness_pa.unwrap_or([1.0; 2]))
 }
 
-/// Whether the k-th place is pressed deep enough, for long enough, and with enough of a dose.
+/// Checks that the k-th place is pressed deep enough, long enough, and with enough of a dose.
 fn kept_at(looks: &Looks<'_>, surface: &Surface, wanted: &Wanted, k: u32) -> [bool; 3] {
     let dwell = looks.at(&place(surface, k));
     [
@@ -396,11 +397,11 @@ pub enum Promised {
 /// A promise that a wash does not keep, as it is seen at the configurations along it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Shortfall {
-    /// Which one.
+    /// The promise that is not kept.
     pub promised: Promised,
-    /// What was found: a force \[N\], or a share.
+    /// Value found: a force \[N\], or a share.
     pub found: f64,
-    /// What is required.
+    /// Value required.
     pub required: f64,
 }
 

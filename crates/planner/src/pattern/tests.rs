@@ -80,7 +80,7 @@ fn rings_are_as_many_as_are_stated() {
         for sponge_m in [1e-4, 0.025, 1.0] {
             let mut terms = job.terms().clone();
             terms.workcell.tool.sponge.radius_m = sponge_m;
-            // Nothing is promised: what is looked at is which curves there are.
+            // Without a promise about contact the test sees the curves alone.
             terms.requirements.contact = None;
             let promise = Promise::of(&terms, &surface);
             for turns in [None, Some(1.0), Some(2.0), Some(7.0), Some(99.0)] {
@@ -152,7 +152,8 @@ fn what_is_chosen_is_short_and_on_the_plate() {
     }
 }
 
-/// What was only looked at on the bare face holds with the arm's own tilts; with a third of the compression nothing does.
+/// A pattern checked on the bare face alone also keeps its promise with the arm's own tilts; with a third of the compression no
+/// pattern does.
 #[test]
 fn the_kitchen_presses_as_is_promised() {
     let job = contact_kitchen();

@@ -2,11 +2,12 @@
 //!
 //! | phase | file |
 //! | --- | --- |
-//! | what they share | `shared.rs` |
+//! | data that they share | `shared.rs` |
 //! | the order of the plates | `tour.rs` |
 //! | each plate: wash path, configurations, timing, the lines over its ends | `visit.rs`, `visits.rs` |
-//! | what keeps a plate from being washed | `visits.rs` |
-//! | where else it could be washed: the nearest place, a map of all; layouts that can be washed; what to expect, before any of them | `places.rs` |
+//! | obstructions that keep a plate from being washed | `visits.rs` |
+//! | other places for a plate: the nearest one, a map of all; layouts that can be washed; the outlook before planning |
+//! `places.rs` |
 //! | transits; one motion, and its tilt | `motion.rs` |
 //! | all of them | `phases.rs` |
 

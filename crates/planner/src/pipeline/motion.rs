@@ -2,7 +2,7 @@
 //!
 //! Transits between the plates, and from and to home.
 //!
-//! Whether the tool keeps its largest tilt between the points that were solved too.
+//! Check that the tool keeps its largest tilt between the points that were solved, too.
 
 use crate::error::PlanError;
 use crate::pipeline::shared::Pipeline;
@@ -136,10 +136,10 @@ impl Pipeline<'_> {
 /// Looks into every piece of the motion.
 const LOOKS: u32 = 16;
 
-/// What a tilt of zero may be by rounding \[rad\].
+/// Largest tilt that counts as zero within rounding \[rad\].
 const ROUNDING_RAD: f64 = 1e-8;
 
-/// The part of the usual reserve that is left for the certificate: it bounds the tilt between what is looked at here.
+/// Part of the usual reserve that is left for the certificate, which bounds the tilt between the points checked here.
 const LEFT: f64 = 0.1;
 
 impl Pipeline<'_> {

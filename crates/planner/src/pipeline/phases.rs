@@ -14,7 +14,7 @@ use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::WashPath;
 
-/// What the reserve of tilt is multiplied by, where a motion uses up more of it.
+/// Factors on the reserve of tilt, for motions that use up more of it.
 const MORE_TILT_RESERVE: [f64; 3] = [2.0, 5.0, 12.0];
 
 /// Plans a job.
@@ -33,9 +33,9 @@ pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
     planned(job, Pipeline::of(job, watch)?)
 }
 
-/// [`plan_with`] for whoever does not wait: where a plate cannot be washed, no other place is looked for, whatever the job asks for.
-/// [`PlaceSearch::Later`](crate::PlaceSearch::Later) says so; [`nearest_place`](crate::nearest_place) is that search. Plans are the
-/// same, to the bit.
+/// Plans as [`plan_with`], for callers that do not wait: where a plate cannot be washed, no other place is searched for, even if
+/// the job asks for it. The result then has [`PlaceSearch::Later`](crate::PlaceSearch::Later);
+/// [`nearest_place`](crate::nearest_place) is that search. Plans are the same, to the bit.
 ///
 /// # Errors
 /// As [`plan_with`].
@@ -43,7 +43,8 @@ pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
     planned(job, Pipeline::here(job, watch)?)
 }
 
-/// [`plan_here`] for whoever only wants to know whether there is a plan: where a plate cannot be washed, it is not looked into why.
+/// Plans as [`plan_here`], for callers that only need to know if there is a plan: the cause is not investigated where a plate
+/// cannot be washed.
 ///
 /// # Errors
 /// As [`plan_with`], without causes.
@@ -53,8 +54,8 @@ pub fn plan_unexplained(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, Pla
     planned(job, pipeline)
 }
 
-/// [`plan_here`] with the plates in a given order and along given curves, whatever the job's settings say of them: those of another
-/// plan, say. Where no path is given for a plate, its curve is chosen.
+/// Plans as [`plan_here`], with the plates in a given order and along given curves, such as those of another plan; the job's
+/// settings for both are ignored. Where no path is given for a plate, its curve is chosen.
 ///
 /// # Errors
 /// As [`plan_with`], and [`PlanError::Order`].
@@ -92,7 +93,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanE
     let lines: Vec<_> = visits.iter().map(|visit| visit.lines.each_ref()).collect();
     let transits = pipeline.transits(&scene, &lines, |_| true)?;
     let whole = assemble(&visits, &transits)?;
-    // What one path states all keep, so that all state the widest cone that was needed.
+    // Every path states the widest cone that any of them needed: all of them keep it.
     let cone_rad = visits.iter().map(|visit| visit.path.cone_rad).fold(0.0, f64::max);
     let stated = |visit: &Visit| WashPath { cone_rad, ..visit.path };
     let wash_paths: Vec<WashPath> = visits.iter().map(stated).collect();
@@ -132,8 +133,8 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanE
     })
 }
 
-/// Refuses what is known to fail before anything is searched for: an end configuration beyond its limits or too near something, an
-/// arm without a tool, obstacles that reach into plates or the base, plates that overlap where they must not. Plates may be left out
+/// Refuses jobs that are known to fail before any search: an end configuration beyond its limits or too near a body, an arm
+/// without a tool, obstacles that reach into plates or the base, plates that overlap where they must not. Plates may be left out
 /// where they are not known yet.
 ///
 /// # Errors

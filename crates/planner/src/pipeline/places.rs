@@ -1,8 +1,8 @@
-//! Where else a plate could lie for the job to wash it.
+//! Search for another place of a plate at which the job can wash it.
 //!
-//! Where a plate could be washed, the others as they lie.
+//! Map of the places at which a plate could be washed, with the others in place.
 //!
-//! What to expect of each plate, before anything is planned.
+//! Outlook on each plate, before anything is planned.
 //!
 //! Layouts of which every plate can be washed whole.
 
@@ -45,8 +45,8 @@ pub fn nearest_place(job: &WashJob, plate: usize, watch: &Watch<'_>) -> Result<O
 }
 
 impl Pipeline<'_> {
-    /// The wash path of a plate, and the configuration not far from which it starts \[rad\]: where the one before it ended; home,
-    /// where a few points tell that it cannot be washed.
+    /// Returns the wash path of a plate, and the configuration near which it starts \[rad\]: the last one of the plate before it, or
+    /// home, if a check of a few points shows that this plate cannot be washed.
     fn start_on(&self, scene: &Scene<'_>, order: &[usize], plate: usize) -> Result<(WashPath, JointVector), Cancelled> {
         let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
         let path = self.path_of(scene, order, turn);
@@ -90,7 +90,7 @@ impl Pipeline<'_> {
         }
     }
 
-    /// The plate of a wash path, to be looked at elsewhere.
+    /// The plate of a wash path as a subject of the search for another place.
     pub fn elsewhere<'a>(&'a self, scene: &'a Scene<'a>, path: &'a WashPath, near: &'a JointVector) -> Elsewhere<'a> {
         Elsewhere {
             scene,
@@ -101,8 +101,8 @@ impl Pipeline<'_> {
         }
     }
 
-    /// Whether the job would wash a plate with its centre there \[m\]: planned as the job is, up to the transits to it and from
-    /// it. Other plates that cannot be washed are left out.
+    /// Checks that the job would wash a plate with its centre at `centre_m` \[m\]. It is planned as the job is, up to the
+    /// transits to it and from it. Other plates that cannot be washed are left out.
     fn washes_at(&self, plate: usize, centre_m: [f64; 2]) -> Result<bool, PlanError> {
         let mut plates = self.plates.to_vec();
         plates[plate] = self.scene()?.moved(&plates[plate], centre_m);
@@ -135,12 +135,13 @@ impl Pipeline<'_> {
     }
 }
 
-/// Where a plate could be washed, the others as they lie: squares of an area, coarse ones first, told of in patches as they come.
+/// Maps the places at which a plate could be washed, with the others in place: squares of an area, coarse ones first, sent in
+/// patches.
 ///
 /// A square counts as washable where the plate, with its centre in the middle, overlaps neither another plate nor the base, a policy
-/// of tilts washes it whole from home, and the arm is clear at home. That is a guess, as [`outlook`](crate::outlook) is: transits are
-/// not looked at, and a search may wash more. Every square told of was looked at; the finer ones are those along the border of what
-/// the coarser ones told, so that what lies within one coarse square alone may be missed.
+/// of tilts washes it whole from home, and the arm is clear at home. This is an estimate, as [`outlook`](crate::outlook) is:
+/// transits are not checked, and a search may wash more. Every reported square was checked. The finer ones are those along the
+/// border in the answers of the coarser ones, so that a detail within one coarse square may be missed.
 ///
 /// Squares, answers and their order in patches are the same for any number of threads: of each size, the nearest to where the plate
 /// lies come first.
@@ -192,7 +193,7 @@ pub fn washable_map(
 }
 
 impl Pipeline<'_> {
-    /// Whether the plate suits with its centre there \[m\], and leaves the arm room at home: place by place.
+    /// Checks, place by place, that the plate suits with its centre there \[m\], and leaves the arm room at home.
     fn suited(&self, asked: &Elsewhere<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
         let look = |trial: &mut Trial<'_>, centre: &[f64; 2]| match trial.suits(&(*centre).into()) {
             Ok(suits) => Ok(suits && self.check_homes_among(trial.bodies()).is_ok()),
@@ -207,9 +208,10 @@ impl Pipeline<'_> {
 /// The chance of each plate to be washed, by its index: each by itself, from home, along the wash path that planning would take.
 /// A guess for the eye, in milliseconds.
 ///
-/// One that is told to be unwashable is one that [`plan`](crate::plan) fails for, if not for another. One that is told to be washable
-/// may still fail: transits are not looked at, and the arm may come from elsewhere. Plates that overlap are washed all the same; that
-/// they do is a finding of the layout, and refused by [`plan`](crate::plan) where the job allows none to.
+/// A plate that is reported as unwashable makes [`plan`](crate::plan) fail, for this reason or for another one. A plate that is
+/// reported as washable may still fail: transits are not checked, and the arm may come from elsewhere. Plates that overlap are
+/// washed all the same; the overlap is a finding of the layout, and [`plan`](crate::plan) refuses it where the job does not allow
+/// it.
 ///
 /// # Errors
 /// [`PlanError`] of the input, an end configuration that is not clear, and [`PlanError::Cancelled`].
@@ -243,11 +245,11 @@ impl Pipeline<'_> {
 /// Layouts drawn before it is given up.
 const MOST_LAYOUTS: usize = 200;
 
-/// The first of the layouts drawn of which every plate can be washed whole under `terms`, whose own plates are ignored.
+/// Draws layouts until every plate of one can be washed whole under `terms`, whose own plates are ignored.
 ///
 /// # Errors
-/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and whatever [`check`](crate::check)
-/// refuses.
+/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and the errors of
+/// [`check`](crate::check).
 pub fn draw_washable_layout(
     arm: &Arc<RobotModel>,
     terms: &JobTerms,
@@ -275,8 +277,8 @@ pub fn draw_washable_layout(
     }
 }
 
-/// What keeps the plates of a layout from being washed, in words: that one shares its place with another or with an obstacle, or
-/// cannot be washed whole.
+/// Returns the obstruction that keeps the plates of a layout from being washed, in words: a plate shares its place with another
+/// or with an obstacle, or cannot be washed whole.
 fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> Result<Option<String>, PlanError> {
     if let Err(overlap) = check_apart(arm, &terms) {
         return Ok(Some(overlap.to_string()));
@@ -291,7 +293,7 @@ fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> R
 }
 
 impl Pipeline<'_> {
-    /// What stands in the way on the first plate that cannot be washed whole.
+    /// Returns the obstruction on the first plate that cannot be washed whole, in words.
     fn first_unwashable(&self) -> Result<Option<String>, PlanError> {
         let (scene, [start, _]) = (self.scene()?, &self.terms.home_rad);
         let home = self.home_tip(&scene, start);

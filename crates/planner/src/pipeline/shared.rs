@@ -1,4 +1,4 @@
-//! What the phases of planning share.
+//! Data that the phases of planning share.
 
 use crate::error::PlanError;
 use crate::infeasible::PlaceSearch;
@@ -23,7 +23,7 @@ const LONGEST_LIFT_M: f64 = 10.0;
 /// Most waypoints of the arc round the base.
 const MOST_ARC_POINTS: f64 = 1e4;
 
-/// What the phases of planning share.
+/// Data that the phases of planning share.
 #[derive(Debug)]
 pub(crate) struct Pipeline<'a> {
     pub robot: &'a RobotModel,
@@ -33,20 +33,20 @@ pub(crate) struct Pipeline<'a> {
     pub settings: &'a PlannerSettings,
     pub plates: &'a [Plate],
     pub clearance: ClearanceModel,
-    /// What the largest tilt planned stays below the largest allowed \[rad\].
+    /// Reserve between the largest tilt planned and the largest allowed \[rad\].
     pub tilt_reserve_rad: f64,
     /// Limits while washing, and elsewhere.
     pub washing: MotionLimits,
     pub transit: MotionLimits,
-    /// How another place is looked for where a plate cannot be washed.
+    /// Extent of the search for another place where a plate cannot be washed.
     pub place_search: PlaceSearch,
-    /// Whether it is looked into why a plate cannot be washed.
+    /// True where the cause is investigated that keeps a plate from being washed.
     pub explains: bool,
     /// The patterns to try on each plate.
     pub patterns: Vec<Arc<Patterns>>,
     /// The order of the plates, where it is not for the settings to decide.
     pub asked_order: Option<Vec<usize>>,
-    /// Paths to follow as they are, whatever lies where they end.
+    /// Wash paths whose curves are taken as given: they are not turned towards the next place.
     pub asked_paths: Vec<WashPath>,
     pub watch: Watch<'a>,
 }
@@ -146,7 +146,7 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    /// The same among as many plates that lie elsewhere; nobody listens.
+    /// The same pipeline among as many plates at other places, without a listener.
     pub fn among<'b>(&self, plates: &'b [Plate]) -> Pipeline<'b>
     where
         'a: 'b,
@@ -193,7 +193,7 @@ impl<'a> Pipeline<'a> {
         self.terms.requirements.clearance_m
     }
 
-    /// Where the tip is at an end \[m\].
+    /// Position of the tip at an end \[m\], in the frame of the base.
     pub fn home_tip(&self, scene: &Scene<'_>, home: &JointVector) -> Vector3<f64> {
         self.robot.fk(home).rigid(&scene.tip).translation
     }
@@ -212,7 +212,7 @@ impl<'a> Pipeline<'a> {
         self.check_homes_among(&self.clearance)
     }
 
-    /// The same among other bodies.
+    /// The same check among other bodies.
     pub fn check_homes_among(&self, bodies: &ClearanceModel) -> Result<(), PlanError> {
         for (end, q) in ends(self.terms) {
             let too_near = TooNear::at(bodies, q, Stretch::Free, self.clearance_m());

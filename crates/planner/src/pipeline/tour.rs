@@ -12,7 +12,7 @@ use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::job::OrderRule;
 
 impl Pipeline<'_> {
-    /// The plates in the order of washing, and what it gains.
+    /// Returns the plates in the order of washing, and the gain of that order.
     pub fn order(&self, scene: &Scene<'_>) -> Result<(Vec<usize>, TourSummary), PlanError> {
         let times = self.travel_times(scene)?;
         let nearest = times.nearest_next();

@@ -19,28 +19,29 @@ use std::f64::consts::TAU;
 /// Distance of the samples on a line \[m\].
 const LINE_STEP_M: f64 = 2e-3;
 
-/// How often the height at which a sponge meets a plate is halved.
+/// Number of bisections of the height at which a sponge meets a plate.
 const HALVINGS: u32 = 16;
 
-/// What is added to it \[m\].
+/// Reserve added to that height \[m\].
 const MEETS_M: f64 = 1e-4;
 
 /// The share of the speed of landing and lifting at which the free sponge touches at most.
 const LANDING: f64 = 0.97;
 
-/// The share of the speed limit of washing at which the sponge touches at most: the rest is for what its rim adds to the tip.
+/// Share of the speed limit of washing at which the sponge touches at most: the rest is for the motion of its rim relative to the
+/// tip.
 const TOUCHING: f64 = 0.99;
 
-/// How a plate is washed.
+/// Washing of one plate.
 #[derive(Debug)]
 pub(crate) struct Turn {
     /// Its wash path.
     pub path: WashPath,
     /// The configurations along it.
     pub washing: Washing,
-    /// How fast the tip is at most \[m/s\].
+    /// Greatest speed of the tip \[m/s\].
     pub speed_m_s: f64,
-    /// What it lacks of what is promised about contact, as far as its configurations show.
+    /// Shortfall against the promise about contact, as far as its configurations show.
     pub shortfall: Option<Shortfall>,
 }
 
@@ -65,7 +66,8 @@ pub(crate) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, pattern: &Pattern
     }
 }
 
-/// The curve that ends in a direction of its plate's frame; it leaves the centre at an angle within a turn of 0, whatever its turns.
+/// Turns a curve so that it ends in a direction of its plate's frame; it leaves the centre at an angle within a turn of 0, for
+/// any number of turns.
 fn turned(curve: WashCurve, towards: &Vector3<f64>) -> WashCurve {
     let start_angle_rad = (atan2(towards.y, towards.x) - curve.end() % TAU) % TAU;
     WashCurve {
@@ -141,16 +143,16 @@ pub(crate) fn lines(
     Ok([line(0, 0, wanted.landing_m_s)?, line(1, last, wanted.lifting_m_s)?])
 }
 
-/// How far a sponge reaches towards a plate that it comes down on or leaves.
+/// Reach of a sponge towards a plate that it comes down on or leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Reach {
-    /// As far as while it washes.
+    /// Reach while it washes.
     Compressed,
-    /// As far as while nothing presses it.
+    /// Reach while nothing presses it.
     Free,
 }
 
-/// How fast the sponge may be where it touches.
+/// Speed limit of the sponge near contact.
 #[derive(Debug, Clone, Copy)]
 struct Touching {
     from: Reach,

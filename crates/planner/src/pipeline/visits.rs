@@ -26,7 +26,7 @@ pub(crate) struct Failed {
     pub path: WashPath,
     /// The configuration not far from which it was to start \[rad\].
     pub near: JointVector,
-    /// Where the search ended.
+    /// Error with which the search ended.
     pub error: RedundancyError,
 }
 
@@ -47,7 +47,8 @@ impl Pipeline<'_> {
         Ok(visits)
     }
 
-    /// The `k`-th plate of an order, where a few points tell that it cannot be washed, and no policy of tilts washes it either.
+    /// Returns the `k`-th plate of an order if a check of a few points shows that it cannot be washed, and no policy of tilts
+    /// washes it either.
     pub fn blocked(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<Option<Failed>, Cancelled> {
         scene.check_cancelled()?;
         let [near, _] = self.terms.home_rad;
@@ -64,7 +65,8 @@ impl Pipeline<'_> {
         Ok(error.map(|error| Failed { path, near, error }))
     }
 
-    /// The washings of the plates that are `wanted`, in order; each starts where the last one ended. Those that fail are left out.
+    /// Returns the washings of the plates that are `wanted`, in order; each starts where the last one ended. Plates that fail are
+    /// left out.
     pub fn turns(
         &self,
         scene: &Scene<'_>,
@@ -122,7 +124,7 @@ impl Pipeline<'_> {
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
         let mut offered = patterns.first().iter().copied().chain(patterns.wider());
         let mut denser = patterns.denser();
-        // Whether the one found lacks a little margin, once that is asked.
+        // True where the washing found lacks a little of the margin, once that is checked.
         let mut lacks = None;
         loop {
             let Some(pattern) = offered.next().or_else(|| {
@@ -139,7 +141,7 @@ impl Pipeline<'_> {
             };
             match self.washing(scene, &path, near) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
-                // What the widest cone does not reach is told.
+                // The last error is reported: that of the widest cone.
                 Err(error) => found = found.or(Err(error)),
                 Ok(washing) => {
                     let speed_m_s = pattern.speed_share * self.terms.wash_speed_m_s();
@@ -164,7 +166,7 @@ impl Pipeline<'_> {
         }
     }
 
-    /// What a plate's washing lacks of what is promised about contact, looked at where its configurations are.
+    /// Returns the shortfall of a plate's washing against the promise about contact, checked at its configurations.
     fn shortfall(&self, scene: &Scene<'_>, turn: &Turn, margin: &Margin) -> Option<Shortfall> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
@@ -172,7 +174,7 @@ impl Pipeline<'_> {
         promise.shortfall(scene, plate, (&turn.washing.q, turn.speed_m_s), margin)
     }
 
-    /// Refuses a washing of which no plan could be proved, where its curve was chosen: what a stated one lacks is for the certificate to say.
+    /// Refuses a washing with a chosen curve if no plan of it could be proved; the certificate judges stated curves.
     pub fn check_promise(&self, turn: &Turn) -> Result<(), PlanError> {
         let plate = turn.path.plate;
         match turn.shortfall {
@@ -187,9 +189,8 @@ impl Pipeline<'_> {
     }
 }
 
-/// Every plate of a job that cannot be washed whole or that no way was found for, with all that stands in the way, by their
-/// index. Where another could lie is not looked for, nor how the arm gets from one to the next: a job of which nothing is
-/// listed here may still not be planned.
+/// Lists every plate of a job that cannot be washed whole or for which no way was found, with its obstructions, by index. Other
+/// places are not searched for, and transits are not checked: a job without an entry here may still fail to be planned.
 ///
 /// The one that [`plan_here`](crate::plan_here) reports is among them, with the same words.
 ///
@@ -239,7 +240,8 @@ pub fn other_unwashable_plates(
 }
 
 impl Pipeline<'_> {
-    /// All plates for which no configurations are found: those that a few points tell, and the others as they are washed.
+    /// Returns all plates for which no configurations are found: those that a check of a few points rules out, and those whose
+    /// washing fails.
     fn failed(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Failed>, Cancelled> {
         let turns = (0..order.len()).into_par_iter();
         let blocked: Result<Vec<_>, Cancelled> = turns.map(|k| self.blocked(scene, order, k)).collect();
@@ -259,7 +261,7 @@ impl Pipeline<'_> {
         }
     }
 
-    /// Why, and where else it could lie if that is to be looked for.
+    /// Returns the cause, and the nearest other place for the plate if the job asks for it.
     fn with_place(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
         let (path, near) = (failed.path, failed.near);
         let plate = self.look_into(scene, failed)?;
@@ -271,7 +273,7 @@ impl Pipeline<'_> {
         Ok(UnwashablePlate { nearest_m, ..plate })
     }
 
-    /// Why, without a search for another place.
+    /// Returns the cause, without a search for another place.
     fn look_into(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
         let Failed { path, near, error } = failed;
         if let RedundancyError::Cancelled(cancelled) = error {

@@ -1,6 +1,6 @@
 //! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
 //!
-//! Whether the lines over the ends of a wash path must be clear.
+//! The rule that says if these lines must be clear.
 
 use crate::redundancy::task::{Stop, Task};
 use crate::scene::{Contact, Hindrance, Start, Stretch};
@@ -8,7 +8,7 @@ use platewash_kinematics::JointVector;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Places on a line that are looked at.
+/// Number of places on a line that are checked.
 const PLACES: u32 = 8;
 
 impl Task<'_> {
@@ -25,7 +25,7 @@ impl Task<'_> {
         Ok(())
     }
 
-    /// Whether the line over a contact point that a wash begins or ends at can be followed.
+    /// Checks that the arm can follow the line over a contact point at which a wash begins or ends.
     pub(crate) fn has_line(&self, contact: &Contact, tilt: f64, q: &JointVector, start: &Start) -> bool {
         self.check_line(contact, tilt, self.started(*q, start)).is_ok()
     }
@@ -34,8 +34,8 @@ impl Task<'_> {
         Start { q, ..*start }
     }
 
-    /// Refuses a line on which the wrist comes too near to 0, or to its other side, or bodies too near to each other, with the tool turned as
-    /// it is at its foot. A line that the arm does not follow at all is for whoever plans it to tell.
+    /// Refuses a line on which the wrist comes too near to 0, or to its other side, or bodies come too near each other, with the
+    /// tool turned as at its foot. A line that the arm cannot follow at all is left to the caller that plans it.
     fn check_line(&self, contact: &Contact, tilt: f64, mut from: Start) -> Result<(), Hindrance> {
         self.check_apart(&from.q, self.stretch())?;
         for k in 1..=PLACES {
@@ -63,7 +63,7 @@ impl Task<'_> {
     }
 }
 
-/// Whether lines must be clear, and whether that ever stood in the way.
+/// Rule for the lines over the ends of a path, with a flag that is set once a line is refused because it is not clear.
 #[derive(Debug, Clone)]
 pub(crate) struct Lines {
     must_be_clear: bool,
@@ -71,7 +71,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Those that must be clear.
+    /// Rule under which lines must be clear.
     pub fn clear() -> Self {
         Self {
             must_be_clear: true,
@@ -79,7 +79,7 @@ impl Lines {
         }
     }
 
-    /// Those that need not be: that they are not is for whoever plans them to tell.
+    /// Rule under which lines need not be clear: the caller that plans them reports those that are not.
     pub fn any() -> Self {
         Self {
             must_be_clear: false,
@@ -87,7 +87,7 @@ impl Lines {
         }
     }
 
-    /// Whether they must be clear.
+    /// Returns true where lines must be clear.
     pub fn must_be_clear(&self) -> bool {
         self.must_be_clear
     }
@@ -97,7 +97,7 @@ impl Lines {
         self.stood_in_the_way.store(true, Ordering::Relaxed);
     }
 
-    /// Whether a line was refused because it is not clear.
+    /// Returns true once a line was refused because it is not clear.
     pub fn stood_in_the_way(&self) -> bool {
         self.stood_in_the_way.load(Ordering::Relaxed)
     }

@@ -1,6 +1,6 @@
-//! What washing leaves free: tilt and yaw of the tool, and the branch of the arm, at every contact point.
+//! The redundancy of washing: tilt and yaw of the tool, and the branch of the arm, at every contact point.
 //!
-//! # What is sought
+//! # Goal
 //!
 //! A configuration for each contact point of a [`WashPath`](platewash_workcell::wash_path::WashPath), such that the tip is
 //! exactly there, the tool within the path's cone about the normal, the joints within their limits, the bodies clear of each
@@ -10,24 +10,24 @@
 //!
 //! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
 //! ([`Scene::tip_pose`](crate::scene::Scene::tip_pose)). Of the two directions in which the tool can tilt, the one in the arm's
-//! own plane is the useful one, but for what stands beside the arm.
+//! own plane is the useful one, except for obstacles beside the arm.
 //!
-//! # How
+//! # Method
 //!
 //! 1. `TiltPolicy` (`scene/stance.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
 //!    points.
-//! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that will do, smoothed
-//!    (`tilt_spline`) as far as it stays within what will do.
+//! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that is possible, smoothed
+//!    (`tilt_spline`) as far as it stays possible.
 //!
-//! Before the second, a few points of the last turn tell (`blocked`) whether it can find anything at all.
+//! Before the second, a check of a few points of the last turn (`blocked`) shows if it can find anything at all.
 //!
 //! Where an obstacle stands in the way of both, they are tried again with the tool leaning across the arm's plane besides (`aside`).
 //!
 //! Each is tried on every branch of the arm, elbow up in front first; on arms without a closed form, on every branch that a
-//! search finds ([`platewash_kinematics::ik::spread`]). Whatever answers has been checked for limits and steps at
-//! every contact point, and for clearance at every one but those within 4 mm behind one with 8 mm to spare. Between the
-//! points nothing is proved here. Where nothing answers, the error names contact points and what stands in the way there;
-//! [`Conclusion`] tells whether there is no configuration or none was found.
+//! search finds ([`platewash_kinematics::ik::spread`]). Every answer has been checked for limits and steps at every contact
+//! point, and for clearance at every one except those within 4 mm behind one with 8 mm to spare. Between the points nothing is
+//! proved here. Where there is no answer, the error names contact points and their obstructions; [`Conclusion`] distinguishes a
+//! proof that there is no configuration from a search without a result.
 
 mod lines;
 pub mod places;

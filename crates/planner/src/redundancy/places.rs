@@ -1,8 +1,8 @@
-//! A plate at another place than its own, the others as they lie: whether it could be washed there.
+//! Check of a plate at another place than its own, with the others in place.
 //!
-//! Where else a plate could lie to be washed whole.
+//! Search for the nearest place at which a plate can be washed whole.
 //!
-//! The chance that a plate can be washed, told in milliseconds: a guess to show while somebody thinks.
+//! Outlook for a plate, in milliseconds: an estimate to show while a user edits.
 
 use crate::redundancy::stuck::is_blocked;
 use crate::redundancy::task::{RedundancyError, Task};
@@ -20,7 +20,7 @@ use platewash_workcell::wash_path::WashPath;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// A plate to be looked at elsewhere.
+/// Plate for which another place is checked.
 #[derive(Debug, Clone, Copy)]
 pub struct Elsewhere<'a> {
     /// The scene, with the plates as they lie.
@@ -59,8 +59,8 @@ impl<'a> Trial<'a> {
         &self.clearance
     }
 
-    /// Whether a policy of tilts washes the plate whole with its centre there \[m\], and it has room there: it overlaps neither
-    /// another plate nor the base.
+    /// Checks that a policy of tilts washes the plate whole with its centre at `centre` \[m\], and that the plate has room there:
+    /// it overlaps neither another plate nor the base.
     ///
     /// # Errors
     /// [`RedundancyError`] for numbers out of range, or where the search was given up.
@@ -102,7 +102,7 @@ pub const RING_M: f64 = 0.02;
 /// Rings tried.
 pub const RINGS: u32 = 30;
 
-/// How far from where a plate lies another place is looked for \[m\].
+/// Greatest distance from a plate's own place at which another place is searched for \[m\].
 pub const SEARCHED_M: f64 = 0.6;
 
 /// Places of the grid in a metre.
@@ -120,14 +120,14 @@ const HALVINGS: u32 = 6;
 /// Steps outwards from the least distance that suits, tried until one holds on the grid \[m\].
 const FURTHER_M: [f64; 7] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 9e-3, 17e-3];
 
-/// Times that the caller's check is asked, at most: it may plan a whole job.
+/// Greatest number of calls of the caller's check: it may plan a whole job.
 pub const MOST_CHECKS: usize = 32;
 
 /// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
-/// overlaps neither another plate nor the base, and `holds` agrees; `None` within [`SEARCHED_M`] of where it lies. Tried in 24
-/// directions on growing rings, halved towards where it lies, put on the grid, and stepped further out until the place on the
-/// grid itself passes: right to about a tenth of its distance. `holds` is asked [`MOST_CHECKS`] times at most; `tell` hears of
-/// each ring before it is tried, from 1 to [`RINGS`].
+/// overlaps neither another plate nor the base, and `holds` agrees; `None` if there is none within [`SEARCHED_M`] of the plate's
+/// own place. Places are tried in 24 directions on growing rings, halved towards the plate's own place, put on the grid, and
+/// stepped further out until the place on the grid itself passes: right to about a tenth of its distance. `holds` is called
+/// [`MOST_CHECKS`] times at most; `tell` gets each ring before it is tried, from 1 to [`RINGS`].
 ///
 /// # Errors
 /// [`RedundancyError`] for numbers out of range, or where the search was given up.
@@ -195,7 +195,7 @@ fn halve(trial: &mut Trial<'_>, here: &Vector2<f64>, away: &Vector2<f64>, ring: 
     Ok(good)
 }
 
-/// The nearest place of the grid; what three decimals print is it to the bit.
+/// The nearest place of the grid, equal to the bit to the number that its three decimals print.
 pub(crate) fn on_grid(place: &Vector2<f64>) -> Vector2<f64> {
     // Adding 0 makes −0 into 0.
     place.map(|at| (at * PER_METRE).round() / PER_METRE + 0.0)
@@ -205,11 +205,11 @@ pub(crate) fn on_grid(place: &Vector2<f64>) -> Vector2<f64> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Chance {
-    /// A policy of tilts washes it from end to end. How the arm gets there and away was not looked at.
+    /// A policy of tilts washes it from end to end. The way of the arm there and back was not checked.
     Washable,
-    /// No policy washes it, and a search along the wash path finds nothing: some contact point is beyond the lengths of the links, or
-    /// without a configuration at any tilt that the search would try. Whether that proves anything,
-    /// [`Conclusion`](crate::redundancy::Conclusion) tells.
+    /// No policy washes it, and a search along the wash path finds nothing: some contact point is beyond the lengths of the
+    /// links, or without a configuration at any tilt that the search would try. A [`Conclusion`](crate::redundancy::Conclusion)
+    /// states if that is a proof.
     Unwashable,
     /// Neither: a search may find a way.
     Unclear,

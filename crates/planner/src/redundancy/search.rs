@@ -72,8 +72,8 @@ pub(crate) struct Vertex {
 /// Vertices of a layer, by tilt.
 type Layer = Vec<Option<Vertex>>;
 
-/// What the trace back needs of a layer: of every vertex the index of the tilt before it. Of a long wash path it is a small part of
-/// what the vertices are.
+/// Part of a layer that the trace back needs: for every vertex, the index of the tilt before it. On a long wash path it is much
+/// smaller than the vertices themselves.
 type Trail = Vec<Option<u16>>;
 
 impl Graph {
@@ -161,7 +161,7 @@ impl Graph {
         }
     }
 
-    /// The tilts, those near to what a contact point prefers first \[rad\].
+    /// Returns the tilts, those closest to the preferred tilt of a contact point first \[rad\].
     pub fn likeliest_first(&self, task: &Task<'_>, contact: &Contact) -> Vec<f64> {
         let preferred = self.preferred.tilt(task.scene.distance(&contact.point));
         let mut tilts = self.tilts.clone();

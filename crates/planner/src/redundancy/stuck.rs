@@ -1,16 +1,16 @@
 //! Plates that cannot be washed, known from a few contact points before any search.
 //!
-//! A search along a wash path fails where some contact point has no configuration at all, whatever the branch and the points
-//! before it. The points farthest from the plate's centre are the likeliest: the farthest from axis 1 may be out of reach, the
-//! nearest too close to the base. So the last turn is looked at, on every branch and at every tilt that the search would try.
+//! A search along a wash path fails where some contact point has no configuration at all, on any branch and after any points. The
+//! points farthest from the plate's centre are the likeliest: the farthest from axis 1 may be out of reach, the nearest too close
+//! to the base. So the last turn is checked, on every branch and at every tilt that the search would try.
 //!
-//! What stands in the way where a search finds nothing.
+//! Dead ends: the obstructions where a search finds nothing.
 //!
-//! Whether a contact point can be washed at all: every branch, every tilt, in every direction.
+//! Exhaustive check of a contact point: every branch, every tilt, in every direction.
 //!
 //! It judges the planner: where it finds nothing, a failure is the arm's. It takes no short cut that the planner
-//! takes: tilts out of the arm's plane are tried too, and neighbouring points are not looked at. Yaw about the tool's
-//! axis is left out where it changes nothing but joint 6: with the tool along axis 6.
+//! takes: tilts out of the arm's plane are tried too, and neighbouring points are not used. Yaw about the tool's axis is left out
+//! where it changes nothing but joint 6: with the tool along axis 6.
 
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Stop, Task, check_step};
@@ -21,10 +21,11 @@ use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use std::f64::consts::TAU;
 
-/// Contact points looked at: even, so that the farthest from axis 1 and the nearest are among them.
+/// Number of contact points that are checked: even, so that the farthest from axis 1 and the nearest are among them.
 const POINTS: u32 = 16;
 
-/// Whether some contact point of the last turn has no configuration among those that a search would try; `false` says nothing.
+/// Checks for a contact point of the last turn without a configuration among those that a search would try; `false` proves
+/// nothing.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -56,7 +57,7 @@ fn first_dead(task: &Task<'_>, graph: &Graph) -> Result<Option<usize>, Cancelled
     Ok(None)
 }
 
-/// Why no search can find anything, if points of the last turn show it.
+/// Returns the reason that no search can find anything, if points of the last turn show it.
 pub(crate) fn blocked(task: &Task<'_>, graph: &Graph) -> Result<Option<RedundancyError>, Cancelled> {
     let layers = last_turn(task, graph);
     let (tried, mut dead) = (layers.len(), Vec::new());
@@ -75,7 +76,7 @@ pub(crate) fn blocked(task: &Task<'_>, graph: &Graph) -> Result<Option<Redundanc
     }))
 }
 
-/// The layers to look at; none where not every branch of the arm is known.
+/// Returns the layers to check; none where not every branch of the arm is known.
 fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
     if !task.scene.inverse.knows_all_branches() {
         return Vec::new();
@@ -101,7 +102,7 @@ fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
     layers
 }
 
-/// Whether a layer has no configuration at any tilt, on any branch.
+/// Checks that a layer has no configuration at any tilt, on any branch.
 fn at(task: &Task<'_>, graph: &Graph, layer: usize) -> Result<bool, Cancelled> {
     let contact = task.samples.at(graph.theta[layer]);
     for tilt in graph.likeliest_first(task, &contact) {
@@ -184,7 +185,7 @@ pub(crate) fn between(task: &Task<'_>, stop: Stop) -> RedundancyError {
     RedundancyError::Between { plate, end }
 }
 
-/// What stands in the way of every tilt of a layer.
+/// Returns the dead end of a layer: the hindrance at each of its tilts.
 pub(crate) fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Start) -> DeadEnd {
     let theta = graph.theta[layer];
     let contact = task.samples.at(theta);

@@ -1,8 +1,8 @@
-//! One plate to wash: whether a contact point can be washed at a tilt, and a whole wash path at a profile of tilts.
+//! Task of washing one plate: checks a contact point at a tilt, and a whole wash path at a profile of tilts.
 //!
-//! Numbers that bound what is planned on a plate.
+//! Bounds of planning on a plate.
 //!
-//! Why no configurations were found along a wash path.
+//! Errors of a search for configurations along a wash path.
 
 use crate::redundancy::lines::Lines;
 use crate::redundancy::samples::{Samples, TiltSpline};
@@ -22,7 +22,7 @@ const WRIST: usize = 4;
 /// The most that a joint may move per length of the wash path \[rad/m\]: 0.35 rad in 5 mm.
 pub(crate) const JOINT_RATE: f64 = 70.0;
 
-/// What a joint may move in any step, however short \[rad\].
+/// Joint motion allowed in any step, however short \[rad\].
 const LEAST_STEP_RAD: f64 = 1e-3;
 
 /// With this much more than the clearance required \[m\] …
@@ -37,9 +37,9 @@ const DIFFERENCE_RAD: f64 = 1e-3;
 /// A tilt in the arm's plane for each contact point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Profile {
-    /// By the distance from axis 1.
+    /// Tilt by the distance from axis 1.
     Policy(TiltPolicy),
-    /// By the length along the wash path.
+    /// Tilt by the length along the wash path.
     Spline(TiltSpline),
 }
 
@@ -56,12 +56,12 @@ pub struct Task<'a> {
     pub(crate) near: JointVector,
 }
 
-/// Where a profile cannot be followed further.
+/// End of a profile that cannot be followed further.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stop {
     /// Index of the sample.
     pub sample: usize,
-    /// Why.
+    /// Reason that the profile ends here.
     pub hindrance: Hindrance,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Task<'a> {
         })
     }
 
-    /// The same task, whose lines over the ends of the path need not be clear.
+    /// The same task without the rule that the lines over the ends of the path must be clear.
     pub(crate) fn with_any_lines(&self) -> Self {
         Self {
             lines: Lines::any(),
@@ -100,17 +100,17 @@ impl<'a> Task<'a> {
         }
     }
 
-    /// What every pair but the sponge and the plates must keep, with its reserve \[m\].
+    /// Clearance required of every pair but the sponge and the plates, with the reserve \[m\].
     pub(crate) fn required_m(&self) -> f64 {
         self.clearance_m + self.stretch().reserve_m()
     }
 
-    /// It is at its plate.
+    /// The stretch of its plate.
     pub(crate) fn stretch(&self) -> Stretch {
         Stretch::AtPlate(self.path.plate)
     }
 
-    /// The task with the arm in another scene, its lines not looked at yet.
+    /// The task with the arm in another scene, its lines not checked yet.
     pub(crate) fn in_scene<'b>(&self, scene: &'b Scene<'b>) -> Task<'b>
     where
         'a: 'b,
@@ -132,8 +132,8 @@ impl<'a> Task<'a> {
         self.scene.stance.tilt_rad(self.planned_lean_rad())
     }
 
-    /// How far the tool leans at most, in all, at the points that are solved \[rad\]: the reserve less than allowed, or half of what is
-    /// allowed where that is more.
+    /// Largest total lean of the tool at the points that are solved \[rad\]: the allowed lean less the reserve, or half the
+    /// allowed lean where that is more.
     pub(crate) fn planned_lean_rad(&self) -> f64 {
         let most = self.path.cone_rad;
         (most - self.scene.stance.tilt_reserve_rad).max(0.5 * most)
@@ -162,17 +162,17 @@ impl<'a> Task<'a> {
         Ok(q)
     }
 
-    /// Whether a configuration \[rad\] holds the wrist as it must, and the bodies keep off each other.
+    /// Checks that a configuration \[rad\] holds the wrist as required, and that all pairs of bodies keep their clearance.
     pub(crate) fn is_allowed(&self, q: &JointVector) -> bool {
         self.check_wrist(q).is_ok() && self.is_clear(q)
     }
 
-    /// The same, where it is known whether the bodies have room.
+    /// The same check, where it is already known if the bodies have room.
     pub(crate) fn is_allowed_with(&self, q: &JointVector, has_room: bool) -> bool {
         self.check_wrist(q).is_ok() && (has_room || self.check_clear(q).is_ok())
     }
 
-    /// Whether joint 5 is far enough from 0.
+    /// Checks that joint 5 is far enough from 0.
     pub(crate) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
         let Some(least_rad) = self.scene.stance.wrist_rad else {
             return Ok(());
@@ -184,7 +184,7 @@ impl<'a> Task<'a> {
         Err(Hindrance::Wrist { found_rad, least_rad })
     }
 
-    /// Whether the tool at a target stands within the planned cone about the normal.
+    /// Checks that the tool at a target stands within the planned cone about the normal.
     pub(crate) fn check_cone(&self, contact: &Contact, target: &Rigid) -> Result<(), Hindrance> {
         if contact.axis == contact.normal {
             // Tilts count from the normal, and are within the cone.
@@ -198,18 +198,18 @@ impl<'a> Task<'a> {
         Err(Hindrance::Cone { found_rad, most_rad })
     }
 
-    /// Whether the bodies keep off each other at `q` \[rad\].
+    /// Checks that all pairs of bodies keep their clearance at `q` \[rad\].
     pub(crate) fn is_clear(&self, q: &JointVector) -> bool {
         let surroundings = self.scene.surroundings;
         surroundings.is_clear(q, self.stretch(), self.required_m())
     }
 
-    /// The same, with what does not.
+    /// The same check; the error names the pair that is too near.
     pub(crate) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
         self.check_clear_in(q, self.stretch())
     }
 
-    /// The same in another stretch.
+    /// The same check in another stretch.
     pub(crate) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
         let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
         if surroundings.is_clear(q, stretch, required_m) {
@@ -221,7 +221,7 @@ impl<'a> Task<'a> {
         }
     }
 
-    /// Whether the bodies keep [`ROOM_M`] more than they must.
+    /// Checks that all pairs of bodies keep [`ROOM_M`] more than required.
     pub(crate) fn has_room(&self, q: &JointVector) -> bool {
         let surroundings = self.scene.surroundings;
         surroundings.is_clear(q, self.stretch(), self.required_m() + ROOM_M)
@@ -344,7 +344,7 @@ pub(crate) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> R
     })
 }
 
-/// How far the chord between neighbouring contact points may leave the wash path \[m\].
+/// Largest deviation of the chord between neighbouring contact points from the wash path \[m\].
 pub const CHORD_ERROR_M: f64 = 2e-5;
 
 /// The largest tilt that can be asked for \[rad\]: short of lying flat.
@@ -397,11 +397,11 @@ pub struct DeadEnd {
     pub theta: f64,
     /// The contact point \[m\], world frame.
     pub position_m: Vector3<f64>,
-    /// What stood in the way, one entry a filter: the most frequent first.
+    /// Hindrances there, one entry per filter: the most frequent first.
     pub reasons: Vec<Reason>,
 }
 
-/// A filter and what it rejected at one contact point.
+/// A filter, and the hindrance that it found at one contact point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reason {
     /// Tilts that it rejected.
@@ -410,7 +410,7 @@ pub struct Reason {
     pub least: Hindrance,
 }
 
-/// Why no configurations were found along a wash path.
+/// Reason that no configurations were found along a wash path.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RedundancyError {
@@ -423,7 +423,7 @@ pub enum RedundancyError {
         least: f64,
         /// Greatest value.
         most: f64,
-        /// What was given.
+        /// Value given.
         found: f64,
     },
     /// There is no such plate.
@@ -431,7 +431,7 @@ pub enum RedundancyError {
     Plate {
         /// Index of the plate.
         plate: usize,
-        /// How many there are.
+        /// Number of plates.
         count: usize,
     },
     /// At some contact points no tilt within the limit was found reachable, within the joint limits and clear.
@@ -443,7 +443,7 @@ pub enum RedundancyError {
         dead: usize,
         /// Points tried.
         tried: usize,
-        /// Those points, at most [`MOST_DEAD_ENDS`] of them, evenly chosen.
+        /// Contact points without a tilt, at most [`MOST_DEAD_ENDS`] of them, evenly chosen.
         ends: Vec<DeadEnd>,
     },
     /// Every contact point has a tilt, but no continuous sequence of them was found within the joint steps and tilt rate allowed.
@@ -451,7 +451,7 @@ pub enum RedundancyError {
     Disconnected {
         /// Index of the plate.
         plate: usize,
-        /// Where the last of the sequences ends.
+        /// End of the last of the sequences.
         end: DeadEnd,
     },
     /// The search was given up.
@@ -462,7 +462,7 @@ pub enum RedundancyError {
     Between {
         /// Index of the plate.
         plate: usize,
-        /// Where.
+        /// Contact point at which the motion breaks.
         end: DeadEnd,
     },
 }

@@ -1,6 +1,6 @@
-//! Whether a plate can be washed whole where it lies; if not, which part of it not, and why.
+//! Extent to which a plate can be washed in its place: the part that cannot be washed, and the cause.
 //!
-//! What follows from having found no configuration: that there is none, or nothing.
+//! Conclusion from a search that found no configuration: a proof that there is none, or no conclusion.
 
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::{anywhere, reasons};
@@ -14,7 +14,7 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// What of a plate can be washed.
+/// Extent to which a plate can be washed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Washable {
@@ -24,33 +24,33 @@ pub enum Washable {
     Part {
         /// Share of the wash path for which configurations were found, on the best branch of the arm.
         share: f64,
-        /// The parts of the rest, by what stands in their way, the largest first: they add up to the rest.
+        /// The parts of the rest, by their obstruction, the largest first: they add up to the rest.
         causes: Vec<Cause>,
-        /// Whether the rest cannot be washed, or was only not found to be.
+        /// Conclusion about the rest: proved unwashable, or only not found to be washable.
         conclusion: Conclusion,
-        /// The contact points looked at.
+        /// The contact points that were checked.
         points: Points,
     },
 }
 
-/// Contact points looked at one by one, in the order of the wash path, world frame \[m\].
+/// Contact points that were checked one by one, in the order of the wash path, world frame \[m\].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Points {
-    /// Those for which configurations were found, on the best branch of the arm.
+    /// Contact points with a configuration, on the best branch of the arm.
     pub free_m: Vec<[f64; 3]>,
-    /// Those for which none were.
+    /// Contact points without a configuration.
     pub dead_m: Vec<[f64; 3]>,
 }
 
-/// What keeps a part of a wash path from being washed.
+/// Obstruction that keeps a part of a wash path from being washed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cause {
     /// Share of the wash path.
     pub share: f64,
     /// Least and greatest distance of that part from axis 1 \[m\].
     pub from_axis_m: [f64; 2],
-    /// Of each filter that leaves no tilt there, together with the others, the greatest of its hindrances, at each point that of the
-    /// best tilt.
+    /// Greatest hindrance of each filter that, together with the others, leaves no tilt there. At each point the hindrance counts
+    /// at the best tilt.
     pub worst: Vec<Hindrance>,
 }
 
@@ -89,7 +89,7 @@ impl Cause {
     }
 }
 
-/// What of a plate can be washed.
+/// Determines the extent to which a plate can be washed.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -100,7 +100,7 @@ pub fn washable(task: &Task<'_>) -> Result<Washable, Cancelled> {
     }
 }
 
-/// What of a plate can be washed that no policy of tilts washes.
+/// Determines the part that can be washed of a plate that no policy of tilts washes whole.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -172,7 +172,7 @@ fn survey(
     Ok(Some(unwashed))
 }
 
-/// Points, each with its distance from axis 1 \[m\], gathered by what stands in their way: by the set of the filters.
+/// Groups points, each with its distance from axis 1 \[m\], by the set of filters that stand in their way.
 fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
     let mut found: Vec<(Vec<Filter>, Cause)> = Vec::new();
     for (r, reasons) in unwashed.into_iter().filter(|(_, reasons)| !reasons.is_empty()) {
@@ -207,13 +207,13 @@ fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
     found.into_iter().map(|(_, cause)| cause).collect()
 }
 
-/// Contact points looked at closely before it is said that there may be a configuration after all.
+/// Greatest number of contact points that are checked closely before the conclusion that a configuration may exist.
 const MOST_LOOKED_AT: usize = 4;
 
-/// How exactly the tip must lie on axis 6 for its yaw to be joint 6 alone (m, and sine of the angle).
+/// Tolerance within which the tip lies on axis 6, so that its yaw is joint 6 alone (m, and sine of the angle).
 const ON_AXIS_6: f64 = 1e-9;
 
-/// What is known of a plate for which no configurations were found.
+/// Conclusion about a plate for which no configurations were found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Conclusion {
@@ -229,14 +229,14 @@ pub enum Conclusion {
 }
 
 impl Conclusion {
-    /// Whether it is known that there are none.
+    /// Returns true where it is proved that there are none.
     #[must_use]
     pub fn is_proved(self) -> bool {
         self != Self::NotFound
     }
 }
 
-/// What follows where contact points, by their θ \[rad\], are without a configuration in the arm's plane.
+/// Draws the conclusion from contact points, by their θ \[rad\], that have no configuration in the arm's plane.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -255,7 +255,7 @@ pub(crate) fn conclude(task: &Task<'_>, dead: &[f64]) -> Result<Conclusion, Canc
     Ok(Conclusion::NotFound)
 }
 
-/// Whether a point \[m\] is farther away than the lengths of the links add up to: no configuration puts the tip there.
+/// Checks that a point \[m\] is farther away than the lengths of the links add up to: no configuration puts the tip there.
 pub(crate) fn is_beyond_reach(task: &Task<'_>, point: &Vector3<f64>) -> bool {
     let (centre, bound_m) = task.scene.robot.reach_bound(&task.scene.tip);
     (point - centre.coords).norm() > bound_m + ON_AXIS_6
@@ -275,8 +275,8 @@ fn telling(task: &Task<'_>, dead: &[f64]) -> Vec<f64> {
     chosen
 }
 
-/// Whether turning the tool about its own axis takes joint 6 alone, which can go all the way round: then no yaw reaches
-/// what another one does not.
+/// Checks that joint 6 alone turns the tool about its own axis, and can go all the way round: then every yaw reaches the same
+/// points.
 fn yaw_is_joint_6(scene: &Scene<'_>) -> bool {
     let limits = scene.robot.limits();
     let poses = scene.robot.fk(&JointVector::zeros());

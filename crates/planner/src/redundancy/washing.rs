@@ -1,10 +1,10 @@
-//! How a plate is washed: the policies in turn, then the search.
+//! Washing of a plate: the policies in turn, then the search.
 //!
-//! Leaning across the arm's plane, away from what stands beside the arm.
+//! Leaning across the arm's plane, away from obstacles beside the arm.
 //!
-//! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along whatever stands beside them. Where that is in the
-//! way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay within the
-//! path's cone.
+//! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along obstacles beside them. Where these are
+//! in the way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay
+//! within the path's cone.
 
 use crate::redundancy::samples::{TiltSpline, smoothed};
 use crate::redundancy::search::{Graph, GraphPath};
@@ -23,7 +23,7 @@ const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
 /// Shares of the gentle tilt that are tried on faces that are not flat, the least first.
 const PROFILE_STEPS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 
-/// How a plate is washed.
+/// Configurations and tilts that wash a plate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Washing {
     /// Parameters of the wash path, from 0 to its end, as
@@ -32,7 +32,8 @@ pub struct Washing {
     pub theta: Vec<f64>,
     /// Tilt of the tool in the arm's plane at each: its angle from the plate's normal there, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
-    /// How far the tool leans across the arm's plane besides, all along: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\].
+    /// Lean of the tool across the arm's plane, the same all along: [`Stance::aside_rad`](crate::scene::Stance::aside_rad)
+    /// \[rad\].
     pub aside_rad: f64,
     /// Configuration of the arm at each \[rad\].
     pub q: Vec<JointVector>,
@@ -40,18 +41,18 @@ pub struct Washing {
     pub feet: [Contact; 2],
     /// dq/dθ at the first and at the last.
     pub end_slopes: [JointVector; 2],
-    /// How the tilt was chosen.
+    /// Source of the tilt.
     pub choice: TiltChoice,
 }
 
-/// How the tilt was chosen.
+/// Source of the tilt.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum TiltChoice {
-    /// By the distance from axis 1.
+    /// Tilt by the distance from axis 1.
     Policy(TiltPolicy),
-    /// By a search along the wash path.
+    /// Tilt by a search along the wash path.
     Search {
         /// Passes of smoothing that its path bore.
         smoothing: usize,
@@ -75,7 +76,7 @@ impl Washing {
     }
 }
 
-/// How to wash a plate.
+/// Finds configurations and tilts that wash a plate.
 ///
 /// # Errors
 /// [`RedundancyError`]: the contact points where nothing will do, and why; or the search was given up.
@@ -94,14 +95,14 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
             }
         }
     }
-    // What stands in the way of the lines is for whoever plans them to tell.
+    // The caller that plans the lines reports their obstructions.
     if task.lines.stood_in_the_way() {
         return washing_by_any(&task.with_any_lines());
     }
     found
 }
 
-/// By a policy, or by the search.
+/// Finds a washing by a policy, or by the search.
 fn washing_by_any(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     match by_policy(task, Width::Everywhere)? {
         Some(washing) => Ok(washing),
@@ -130,7 +131,8 @@ pub(crate) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
     amplitudes.iter().flat_map(both).collect()
 }
 
-/// The policy, with less amplitude where on this wash path it would come nearer to the largest tilt than what follows may need.
+/// The policy, with less amplitude where this wash path would otherwise bring it nearer to the largest tilt than the later steps
+/// allow.
 fn within(policy: TiltPolicy, task: &Task<'_>) -> TiltPolicy {
     let most = task.planned_tilt_rad();
     let tilt = |contact: &Contact| policy.tilt(task.scene.distance(&contact.point)).abs();
@@ -210,8 +212,8 @@ pub(crate) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     })
 }
 
-/// Whether some branch reaches the contact points nearest to axis 1 and farthest from it, where every branch is known: it spares
-/// the path there.
+/// Checks that some branch reaches the contact points nearest to axis 1 and farthest from it, on arms with every branch known: a
+/// quick test before the whole path is tried.
 fn may_do(task: &Task<'_>, tilts: &[f64]) -> bool {
     let inverse = &task.scene.inverse;
     if !inverse.knows_all_branches() {
@@ -263,7 +265,7 @@ pub(crate) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>
 
 /// The path's tilts, as smooth as they can be and still do.
 fn smooth(task: &Task<'_>, graph: &Graph, path: &GraphPath, start: &Start) -> Result<Result<Washing, Stop>, Cancelled> {
-    // A spline stays between its control values: where those keep within what is planned, so do its tilts.
+    // A spline stays between its control values: where those keep within the planned tilt, so does the spline.
     let most = task.planned_tilt_rad();
     let planned = |tilt: f64| tilt.clamp(-most, most);
     let rough: Vec<f64> = path.tilt.iter().map(|&j| planned(graph.tilts[j])).collect();
@@ -309,7 +311,7 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
     }
 }
 
-/// How far it leans, as shares of the cone that is planned: the least first, as the rest is left for tilts in the arm's plane.
+/// Leans aside that are tried, as shares of the planned cone: the least first, as the rest is left for tilts in the arm's plane.
 const SHARES: [f64; 3] = [0.35, 0.65, 1.0];
 
 /// The leans to try \[rad\], to either side.
@@ -320,7 +322,7 @@ pub(crate) fn leans(task: &Task<'_>) -> impl Iterator<Item = f64> + use<> {
         .flat_map(move |share| [share * most_rad, -share * most_rad])
 }
 
-/// Whether an obstacle stands in the way where a search ended.
+/// Checks that an obstacle stands in the way at the contact points where a search ended.
 pub(crate) fn may_help(task: &Task<'_>, error: &RedundancyError) -> bool {
     let ends = match error {
         RedundancyError::NoTilt { ends, .. } => &ends[..],
@@ -330,7 +332,7 @@ pub(crate) fn may_help(task: &Task<'_>, error: &RedundancyError) -> bool {
     ends.iter().any(|end| may_help_at(task, end))
 }
 
-/// Whether an obstacle stands in the way of some tilt at a contact point.
+/// Checks that an obstacle stands in the way of some tilt at a contact point.
 pub(crate) fn may_help_at(task: &Task<'_>, end: &DeadEnd) -> bool {
     let surroundings = task.scene.surroundings;
     end.reasons.iter().any(|reason| match &reason.least {

@@ -1,4 +1,4 @@
-//! What keeps the arm from a contact point: the filters of a configuration, one a variant.
+//! Hindrances of the arm at a contact point: the filters of a configuration, one per variant.
 
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
@@ -8,7 +8,7 @@ use platewash_workcell::clearance::PairClearance;
 use serde::Serialize;
 use std::fmt;
 
-/// Why a contact point cannot be washed at a tilt in a configuration of the arm.
+/// Reason that a contact point cannot be washed at a tilt in a configuration of the arm.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Hindrance {
@@ -24,9 +24,9 @@ pub enum Hindrance {
     /// The numeric inverse kinematics found nothing.
     #[error("inverse kinematics: {cause}, {:.1} mm off", 1e3 * position_error_m)]
     Unsolved {
-        /// Why.
+        /// Cause reported by the inverse kinematics.
         cause: IkCause,
-        /// How far the best configuration is away \[m\].
+        /// Distance of the tip of the best configuration from the target \[m\].
         position_error_m: f64,
     },
     /// Two bodies are too near.
@@ -38,7 +38,7 @@ pub enum Hindrance {
     Clearance {
         /// The bodies.
         pair: PairClearance,
-        /// What they must keep \[m\].
+        /// Clearance required of the pair \[m\].
         required_m: f64,
     },
     /// A joint would have to move too far from the last contact point.
@@ -46,23 +46,23 @@ pub enum Hindrance {
     Jump {
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// How far \[rad\].
+        /// Size of the jump \[rad\].
         by_rad: f64,
     },
     /// Joint 5 would be too near to 0, or on its other side.
     #[error("joint 5 is {}° from 0, where the wrist flips; {:.2}° must be kept", not_as_zero(.found_rad.to_degrees(), 2), .least_rad.to_degrees())]
     Wrist {
-        /// How far it is \[rad\].
+        /// Angle of joint 5 from 0 \[rad\].
         found_rad: f64,
-        /// How far it must be \[rad\].
+        /// Least angle required \[rad\].
         least_rad: f64,
     },
     /// The tool would lean too far from the normal of the face.
     #[error("the tool leans {:.2}° from the normal, at most {:.2}° are planned", .found_rad.to_degrees(), .most_rad.to_degrees())]
     Cone {
-        /// How far it leans \[rad\].
+        /// Lean of the tool \[rad\].
         found_rad: f64,
-        /// How far it may \[rad\].
+        /// Largest lean allowed \[rad\].
         most_rad: f64,
     },
     /// The pose or the start of the arm is not finite.
@@ -106,7 +106,7 @@ impl Hindrance {
         }
     }
 
-    /// How far it is from being none, in the unit of its kind: m for reach and clearance, rad for limits and jumps.
+    /// Amount by which the requirement is missed, in the unit of its kind: m for reach and clearance, rad for limits and jumps.
     #[must_use]
     pub fn shortfall(&self) -> f64 {
         match self {
@@ -127,7 +127,7 @@ impl Hindrance {
     pub(crate) fn fmt_worst(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mm = |m: f64| (1e4 * m).ceil() / 10.0;
         let degrees = |rad: f64| (100.0 * rad.to_degrees()).ceil() / 100.0;
-        // What is 10 mm but for rounding reads so.
+        // 10 mm up to rounding is printed as 10 mm.
         let nearest = |mm: f64| (10.0 * mm + 1e-6).floor() / 10.0;
         match self {
             Self::Reach(miss) => write!(f, "out of reach by up to {:.1} mm", mm(miss.by_m)),

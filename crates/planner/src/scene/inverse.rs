@@ -7,13 +7,13 @@ use platewash_kinematics::rotation::Rigid;
 use platewash_kinematics::{AXES, Frame, JointLimits, JointVector, Pose, RobotModel};
 use std::f64::consts::PI;
 
-/// How exactly the numeric solver meets a pose \[m and rad\]: far below what a plan must keep.
+/// Tolerance of the numeric solver on a pose \[m and rad\]: far below the tolerances of a plan.
 const TOLERANCE: f64 = 1e-9;
 
 /// Configurations on one named branch this near to each other start the same path \[rad\].
 const SAME_START_RAD: f64 = 0.5 * PI;
 
-/// The same where branches have no names \[rad\].
+/// The same tolerance where branches have no names \[rad\].
 const SAME_UNNAMED_RAD: f64 = 0.5;
 
 /// Starts of the numeric solver's list that are tried for all branches of a pose.
@@ -32,22 +32,22 @@ pub(crate) struct Start {
 /// The inverse kinematics of an arm.
 #[derive(Debug)]
 pub(crate) enum Inverse<'a> {
-    /// In closed form.
+    /// Closed form.
     Analytic {
         arm: Box<AnalyticArm>,
         tip: Frame,
         limits: &'a JointLimits,
     },
-    /// By iteration, from where a path stands.
+    /// Iteration, from the current configuration of a path.
     Numeric(Box<IkSolver<'a>>),
 }
 
-/// How widely configurations to start from are looked for, where that is a search.
+/// Width of the search for configurations to start from, on arms where they are searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Width {
-    /// From a configuration nearby, turned towards the target, and its mirrored branches.
+    /// Starts from a configuration nearby, turned towards the target, and its mirrored branches.
     Near,
-    /// From the solver's list of starts too.
+    /// Starts from the solver's list, too.
     Everywhere,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Inverse<'a> {
         best.map_err(|rejection| rejection.map_or(Hindrance::NotFinite, Hindrance::from))
     }
 
-    /// Whether [`Inverse::starts`] knows every branch of the arm.
+    /// Returns true where [`Inverse::starts`] knows every branch of the arm.
     pub fn knows_all_branches(&self) -> bool {
         matches!(self, Self::Analytic { .. })
     }

@@ -1,6 +1,6 @@
-//! The arm, its tool and what stands around it; and how the tool stands at a contact point.
+//! The arm, its tool and the bodies around it; and the pose of the tool at a contact point.
 //!
-//! What the arm must keep clear of.
+//! Bodies that the arm must keep clear of.
 
 mod hindrance;
 mod inverse;
@@ -35,7 +35,7 @@ const LEVEL: f64 = 1e-9;
 /// The sine of the angle from which on a tool leans from axis 6.
 const LEAST_LEAN: f64 = 0.02;
 
-/// What everything is planned in: the arm with its tool, and the bodies around them.
+/// Surroundings of all planning: the arm with its tool, and the bodies around them.
 #[derive(Debug, Clone)]
 pub struct Scene<'a> {
     /// The arm.
@@ -46,11 +46,11 @@ pub struct Scene<'a> {
     pub surroundings: &'a dyn Surroundings,
     /// The plates, as in `surroundings`.
     pub plates: &'a [Plate],
-    /// Where the upright tool leans.
+    /// Borders between which the upright tool leans, by distance.
     pub reach: ReachBorders,
-    /// How the tool stands, and how the wrist is held.
+    /// Rules for the tool on faces, and for the wrist.
     pub stance: Stance,
-    /// `T_world_base`, for places that are told; all else is in the frame of the base.
+    /// `T_world_base`, for places in reports; all else is in the frame of the base.
     pub mount: Pose,
     pub(crate) solver: Arc<IkSolver<'a>>,
     pub(crate) inverse: Arc<Inverse<'a>>,
@@ -93,7 +93,7 @@ impl<'a> Scene<'a> {
         Ok(scene)
     }
 
-    /// The same scene, in which all searches end as soon as `cancel` says so.
+    /// The same scene, in which all searches end as soon as `cancel` is set.
     #[must_use]
     pub fn until(self, cancel: &'a CancelToken) -> Self {
         let cancel = Some(cancel);
@@ -164,14 +164,15 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Whether the work is to be given up.
+    /// Returns an error once the work is to be given up.
     pub(crate) fn check_cancelled(&self) -> Result<(), Cancelled> {
         self.cancel.map_or(Ok(()), CancelToken::check)
     }
 
-    /// Where the tip frame must be to wash at `contact` with the tool tilted by `tilt_rad` in the arm's plane, the one through
-    /// axis 1, the contact point and its axis n: z of the tip is `−(cos τ n + sin τ ρ̂)`, so that τ > 0 leans the flange
-    /// away from axis 1. A stance that leans aside adds to that. The yaw is the one at which joints 4 and 6 rest on arms whose wrist allows it, where the face is level.
+    /// Pose of the tip frame that washes at `contact` with the tool tilted by `tilt_rad` in the arm's plane. That plane goes
+    /// through axis 1, the contact point and its axis n; z of the tip is `−(cos τ n + sin τ ρ̂)`, so that τ > 0 leans the flange
+    /// away from axis 1. A stance that leans aside adds to that. On a level face the yaw is the one at which joints 4 and 6 rest,
+    /// on arms whose wrist allows it.
     ///
     /// On axis 1 itself ρ̂ is x of the base frame, along the face.
     #[must_use]
@@ -217,9 +218,10 @@ impl<'a> Scene<'a> {
 
     /// ρ̂ of a contact point: the direction across its axis n away from axis 1, where n is along that.
     ///
-    /// Where it is not, that direction vanishes on faces that look towards axis 1, and so does the one across n and the arm's plane on faces
-    /// that look along the way round; each is as long as the sine of the angle to the direction that it is cut from. What is taken is
-    /// along their sum, which changes steadily over a face: both are one where n is in the arm's plane.
+    /// With n in any other direction, that direction vanishes on faces that look towards axis 1, and the direction across n and the
+    /// arm's plane vanishes on faces that look along the way round. The length of each is the sine of the angle between n and the
+    /// direction that it is cut from. The result is along their sum, which changes steadily over a face: both agree where n is in
+    /// the arm's plane.
     pub(crate) fn out(&self, contact: &Contact) -> Vector3<f64> {
         let (n, [_, a]) = (contact.axis, self.axis_1);
         let across = |v: Vector3<f64>| v - n * n.dot(&v);
@@ -243,9 +245,10 @@ impl<'a> Scene<'a> {
         away - direction * direction.dot(&away)
     }
 
-    /// Of a tool along axis 6: axis 5 at q = 0 in the tip frame, across the tool, in the sense that it has against ẑ × ρ̂ there. Of a tool
-    /// that leans from axis 6: across both, so that both lie in the arm's plane, the flange pointing back towards axis 1. The wrist is bent by
-    /// as much more there: the other way round it would be near its singularity.
+    /// Direction across the tool in the tip frame that is held across the arm's plane. For a tool along axis 6 it is axis 5 at q
+    /// = 0, in the sense that it has against ẑ × ρ̂ there. For a tool that leans from axis 6 it is across both, so that both lie
+    /// in the arm's plane and the flange points back towards axis 1. The wrist is bent by the same angle more there: the other
+    /// way round it would be near its singularity.
     fn across_at_rest(&self, [axis_5, axis_6]: [&Vector3<f64>; 2]) -> Vector3<f64> {
         let tip = self.robot.fk(&JointVector::zeros()).rigid(&self.tip);
         let leans = Vector3::z().cross(&tip.rotation.tr_mul(axis_6));
@@ -280,7 +283,7 @@ fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 
     }
 }
 
-/// What the arm is doing at a configuration: decides which bodies may be near each other.
+/// Stretch of a motion that a configuration belongs to: decides which bodies may be near each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stretch {
     /// It washes a plate or is on the line over one, by its index: the sponge may be near that one, and near those whose rims it may
@@ -291,7 +294,8 @@ pub enum Stretch {
 }
 
 impl Stretch {
-    /// What planning keeps beyond the clearance asked for, as it looks at a motion in steps: these are short at a plate \[m\].
+    /// Reserve that planning keeps beyond the clearance asked for \[m\], as it checks a motion in steps. The steps are short at a
+    /// plate.
     #[must_use]
     pub fn reserve_m(self) -> f64 {
         match self {
@@ -301,15 +305,15 @@ impl Stretch {
     }
 }
 
-/// What the arm must keep clear of.
+/// Bodies that the arm must keep clear of.
 pub trait Surroundings: Debug + Sync {
-    /// Whether at `q` \[rad\] every pair that counts keeps `required_m`.
+    /// Checks that every pair that counts keeps `required_m` at `q` \[rad\].
     fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool;
 
     /// The nearest of the pairs that do not; `None` where there is none.
     fn too_near(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> Option<PairClearance>;
 
-    /// Whether the body of that name stands around the arm: it is not of the arm, its tool or the plates.
+    /// Returns true where the body of that name stands around the arm: it is not of the arm, its tool or the plates.
     fn is_obstacle(&self, _name: &str) -> bool {
         false
     }

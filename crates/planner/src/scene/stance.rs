@@ -1,4 +1,4 @@
-//! How a tool stands on faces that are not flat, and how a wrist is held.
+//! Stance: the rules for a tool on faces that are not flat, and for the wrist.
 //!
 //! A point at which the tip stands.
 //!
@@ -16,7 +16,7 @@
 //!
 //! - [`TiltPolicy::sloping`]: both ramps over the whole plate. The tool turns about its tip while the tip moves out
 //!   and in, so that shoulder and elbow travel less: on the IRB 120 a wash path takes half the joint travel of a fixed pose.
-//! - [`TiltPolicy::upright`]: ramps at the borders of what the arm reaches, and upright between them.
+//! - [`TiltPolicy::upright`]: ramps at the borders of the arm's reach, and upright between them.
 
 use crate::trig::{asin, sin_cos};
 use nalgebra::Vector3;
@@ -32,23 +32,23 @@ pub const AXIS_SHARE: f64 = 0.5;
 /// Half the length of the meridian over which the axis takes the mean slope \[m\], so that it turns evenly over a bend.
 const HALF_WINDOW_M: f64 = 6e-3;
 
-/// What a wrist keeps more than it must \[rad\], 0.25°: between the points solved it may come nearer.
+/// Reserve of the wrist beyond its least angle \[rad\], 0.25°: between the points solved joint 5 may come nearer to 0.
 pub const WRIST_RESERVE_RAD: f64 = PI / 720.0;
 
-/// What the largest tilt planned stays below the largest allowed \[rad\], 0.057°: between the points solved, the joints follow
+/// Reserve between the largest tilt planned and the largest allowed \[rad\], 0.057°. Between the points solved, the joints follow
 /// curves through them and then cubics, which turn the tool a little further.
 pub const TILT_RESERVE_RAD: f64 = 1e-3;
 
-/// How a tool stands on faces, and how the wrist is held.
+/// Rules for the tool on faces, and for the wrist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stance {
     /// Slope of the tool's axis as a share of the mean slope of the face around.
     pub axis_share: f64,
-    /// How far joint 5 keeps from 0, always on one side \[rad\]; `None` where nothing is asked of it.
+    /// Least angle of joint 5 from 0, always on one side \[rad\]; `None` where no angle is required.
     pub wrist_rad: Option<f64>,
-    /// What the largest tilt planned stays below the largest allowed \[rad\].
+    /// Reserve between the largest tilt planned and the largest allowed \[rad\].
     pub tilt_reserve_rad: f64,
-    /// How far the tool leans across the arm's plane, besides any tilt in it: towards n × ρ̂ where that is positive \[rad\].
+    /// Lean of the tool across the arm's plane, besides any tilt in it \[rad\]: positive towards n × ρ̂.
     pub aside_rad: f64,
 }
 
@@ -64,7 +64,7 @@ impl Default for Stance {
 }
 
 impl Stance {
-    /// How far the tool leans in all at a tilt in the arm's plane \[rad\].
+    /// Total lean of the tool at a tilt in the arm's plane \[rad\].
     #[must_use]
     pub fn lean_rad(&self, tilt_rad: f64) -> f64 {
         if self.aside_rad == 0.0 {
@@ -140,14 +140,14 @@ pub(crate) fn angle_between(a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f6
     2.0 * asin(half)
 }
 
-/// A point at which the tip stands, and what it stands on.
+/// Point at which the tip stands, with the face there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// The point \[m\], base frame.
     pub point: Vector3<f64>,
     /// The normal of the face there, out of it, base frame.
     pub normal: Vector3<f64>,
-    /// From where the tilt of the tool counts, base frame: along it the tool is upright. On a flat face the normal.
+    /// Axis from which the tilt of the tool counts, base frame: along it the tool is upright. On a flat face it is the normal.
     pub axis: Vector3<f64>,
 }
 

@@ -24,8 +24,8 @@ const ANYWHERE: u32 = 4000;
 const AWAY: [f64; 2] = [0.3, 0.65];
 const ABOVE: [f64; 2] = [0.08, 0.35];
 
-/// How far beside the middle of plates that do not lie level with the base the tip is at most, as a part of the arm's reach; and the least
-/// cosine of the angle to the axis of the base of those that do.
+/// Largest sideways distance of the tip from the middle of plates that are not level with the base, as a part of the arm's reach;
+/// and the least cosine of the angle to the axis of the base of plates that count as level.
 const BESIDE: f64 = 0.2;
 const LEVEL: f64 = 0.99;
 
@@ -41,7 +41,7 @@ pub struct SuggestedHome {
     pub q_deg: [f64; AXES],
     /// The nearest bodies there; `None` where nothing could touch.
     pub nearest: Option<PairClearance>,
-    /// How far the joint nearest to a limit is from it \[rad\]; infinite without limits.
+    /// Distance of the joint nearest to a limit from that limit \[rad\]; infinite without limits.
     pub margin_rad: f64,
     /// The angle between the tool and the way straight onto the plates \[rad\].
     pub tilt_rad: f64,
@@ -66,9 +66,9 @@ struct Candidate {
     manipulability: f64,
 }
 
-/// A home for terms whose own is of no account: of many configurations whose tool points down over the plates, the one that is best in
-/// clearance, pair by pair, distance from limits and manipulability together, each up to what is of use. It keeps the clearance asked for among the
-/// plates of the terms.
+/// Suggests a home for terms, without regard to their own. Of many configurations with the tool pointing down over the plates, it
+/// returns the best one by clearance, pair by pair, distance from limits and manipulability together, each up to a useful bound.
+/// It keeps the clearance asked for among the plates of the terms.
 ///
 /// The search draws nothing: the same arm, tool, obstacles and plates have the same home, for any number of threads.
 ///
@@ -199,7 +199,7 @@ impl Search<'_> {
             .map(|((a, b), count)| ([(*a).to_owned(), (*b).to_owned()], count)))
     }
 
-    /// What all pairs keep at a home \[m\].
+    /// Clearance required of all pairs at a home \[m\].
     fn required_m(&self) -> f64 {
         self.terms.requirements.clearance_m + Stretch::Free.reserve_m()
     }

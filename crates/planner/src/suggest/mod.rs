@@ -1,4 +1,5 @@
-//! What suits an arm with its tool, for whoever has none of it yet: a home with clearance, and where plates can be washed.
+//! Suggestions for an arm with its tool that has no layout yet: a home with clearance, and the region in which plates can be
+//! washed.
 
 mod home;
 mod region;

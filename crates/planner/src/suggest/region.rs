@@ -18,8 +18,9 @@ const ACROSS: f64 = 24.0;
 const DIRECTIONS: usize = 72;
 const DISTANCES: usize = 48;
 
-/// Where a plate lies in front of an arm, as a part of the arm's reach; its coordinates are rounded to so much \[m\].
+/// Distance of a plate in front of an arm, as a part of the arm's reach.
 const IN_FRONT: f64 = 0.45;
+/// Step to which its coordinates are rounded \[m\].
 const PLACE_M: f64 = 1e-3;
 
 /// Sine of the angle to the vertical up to which axis 1 is vertical.
@@ -32,7 +33,7 @@ pub struct RegionSquare {
     pub centre_m: [f64; 2],
     /// Its edge \[m\].
     pub edge_m: f64,
-    /// Whether the plate could be washed with its centre there.
+    /// True where the plate could be washed with its centre there.
     pub is_washable: bool,
 }
 
@@ -45,14 +46,14 @@ pub struct Sector {
     pub azimuth_deg: [f64; 2],
 }
 
-/// Where a plate can be washed.
+/// Region in which a plate can be washed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SuggestedRegion {
     /// The map: coarse squares, and finer ones along the border.
     pub squares: Vec<RegionSquare>,
     /// Edge of the finest squares \[m\].
     pub step_m: f64,
-    /// What squares with a washable plate cover together \[m²\].
+    /// Total area of the squares with a washable plate \[m²\].
     pub area_m2: f64,
     /// Least and greatest distance of their middles from axis 1 \[m\]; `None` where there is none, or axis 1 is not vertical.
     pub rho_m: Option<[f64; 2]>,
@@ -76,8 +77,8 @@ pub fn place_in_front(arm: &RobotModel, tool: &Tool, mount: &Pose) -> [f64; 2] {
     [place(from.x, ahead.x), place(from.y, ahead.y)]
 }
 
-/// Where the first plate of a job could be washed from its home, were it alone: a map that takes a second or two, and what it comes to. A
-/// guess, as [`washable_map`] is: transits are not looked at, and a search may wash more.
+/// Computes the region in which the first plate of a job could be washed from its home, were it alone: a map that takes a second
+/// or two, and a summary of it. It is an estimate, as [`washable_map`] is: transits are not checked, and a search may wash more.
 ///
 /// # Errors
 /// As [`washable_map`].
@@ -100,7 +101,7 @@ pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegio
     })
 }
 
-/// The squares told of, by their edge: the finest last.
+/// The checked squares, by their edge: the finest last.
 #[derive(Debug)]
 struct Map<'a> {
     area: &'a MapArea,
@@ -126,7 +127,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// Whether the plate could be washed with its centre there \[m\]: what the finest square told.
+    /// Checks that the plate could be washed with its centre there \[m\]: the answer of the finest square.
     fn at(&self, place: [f64; 2]) -> bool {
         let told = self.levels.iter().rev();
         let mut answers = told.filter_map(|(step_m, squares)| squares.get(&square(self.area, *step_m, place)));
@@ -243,7 +244,7 @@ mod tests {
         step_m: 0.04,
     };
 
-    /// All squares of one level, washable where a rule says so.
+    /// Map with all squares of one level, washable by a rule.
     fn map(rule: impl Fn(f64, f64) -> bool) -> SuggestedRegion {
         let mut map = Map::of(&AREA);
         let places = (-25..25).flat_map(|i| (-25..25).map(move |k| [i, k].map(|n| 0.04 * (f64::from(n) + 0.5))));
@@ -270,7 +271,7 @@ mod tests {
         assert!((region.area_m2 - std::f64::consts::PI * (0.49 - 0.09)).abs() < 0.05);
     }
 
-    /// Behind −x, where directions begin, too.
+    /// The sector crosses −x, the direction from which directions count.
     #[test]
     fn the_sector_of_a_wedge_lies_in_it() {
         for middle in [0.0_f64, 90.0, 180.0] {
@@ -293,7 +294,7 @@ mod tests {
         assert_eq!(map(|_, _| false).rho_m, None);
     }
 
-    /// What the sector holds, planning washes: four places on its border and one within.
+    /// Planning washes plates in the sector: four places on its border and one within.
     #[test]
     fn plates_in_the_sector_are_washed() {
         let (job, cancel) = (kitchen(), CancelToken::new());

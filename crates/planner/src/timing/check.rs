@@ -1,6 +1,6 @@
-//! How far the promised motion exceeds its limits, piece by piece: exactly for the joints, by a bound for the tip.
+//! Check of the motion against its limits, piece by piece: exactly for the joints, by a bound for the tip.
 //!
-//! The tip's velocity and acceleration are looked at in equal steps of a piece. Between two looks a vector leaves the
+//! The tip's velocity and acceleration are checked at equal steps of a piece. Between two steps a vector leaves the
 //! straight line between its values by at most `τ²/8 · sup |second derivative|`, τ the step, so that the larger norm at
 //! the two and this term bound it. Steps are halved until the term is small, or the bound keeps the limit.
 
@@ -17,11 +17,11 @@ const MOST_STEPS: u32 = 16;
 /// Demand over limit, by piece: above 1 the limit is broken.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Demand {
-    /// Of the speeds of joints and tip, the larger.
+    /// Demand of the speeds of joints and tip, the larger.
     pub speed: f64,
-    /// Of the accelerations of the joints.
+    /// Demand of the accelerations of the joints.
     pub joints: f64,
-    /// Of the tip's acceleration; 0 without a limit.
+    /// Demand of the tip's acceleration; 0 without a limit.
     pub tip: f64,
 }
 
@@ -36,7 +36,7 @@ impl Demand {
         }
     }
 
-    /// By what time must be stretched for this demand to be 1.
+    /// Factor by which time must be stretched for this demand to be 1.
     pub fn stretch(&self) -> f64 {
         self.speed.max(self.joints.sqrt()).max(self.tip.sqrt())
     }

@@ -1,6 +1,6 @@
 //! The knots on the path: where they are, and how the joints and the tip move there with the path's parameter.
 //!
-//! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 whatever u is.
+//! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 for any u.
 //!
 //! How the tip moves when the joints do, and bounds on how fast that changes.
 //!
@@ -24,7 +24,7 @@ pub(crate) struct PathKnot {
     pub q: JointVector,
     /// dq/ds \[rad\].
     pub slope: JointVector,
-    /// How the tip moves, where it has limits.
+    /// Rates of the tip, where it has limits.
     pub tip: Option<TipRates>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Grid<'a> {
         self.path.on_piece(self.knots[k].piece, from + (to - from) * share).q
     }
 
-    /// How much u goes through while s goes from 0 to 1.
+    /// Range of u that s covers from 0 to 1.
     pub fn span(&self) -> f64 {
         self.span
     }

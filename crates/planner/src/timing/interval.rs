@@ -1,4 +1,4 @@
-//! What the limits say about one interval between two knots, as constraints on x = ṡ² at its ends.
+//! Limits on one interval between two knots, as constraints on x = ṡ² at its ends.
 //!
 //! Between knots the motion is the cubic Hermite piece of the promised trajectory, not the path itself. With σ = √x,
 //! duration `h = 2 Δ / (σ₀ + σ₁)` (s̈ constant), `d = (q₁ − q₀)/Δ` and slopes `q′`, its accelerations at the ends are
@@ -8,8 +8,8 @@
 //!
 //! `σ₀ σ₁ = (x₀ + x₁)/2 − (σ₁ − σ₀)²/2`; without the last term, which is of second order in h, both are linear in
 //! (x₀, x₁). As a piece's acceleration is a line in time, its ends are all that counts. So a joint's limit is a pair of
-//! strips `|α x₀ + β x₁| ≤ 1`, and the tip's is the same with vectors. What the dropped term adds is found when the
-//! motion is checked, and then taken off the interval's limits ([`Interval::tighten_joints`]).
+//! strips `|α x₀ + β x₁| ≤ 1`, and the tip's is the same with vectors. The effect of the dropped term is found when the motion is
+//! checked, and then taken off the interval's limits ([`Interval::tighten_joints`]).
 //!
 //! The linear program of one interval: the largest x₀ from which some x₁ within limits can be reached.
 //!
@@ -38,9 +38,9 @@ pub(crate) struct Interval {
     pub at_end: [f64; STRIPS],
     /// The tip's acceleration at both ends.
     pub tip: Option<[VectorStrip; 2]>,
-    /// By what the joints' limits were divided.
+    /// Divisor of the joints' limits.
     joints_tightened: f64,
-    /// By what the tip's limit was divided.
+    /// Divisor of the tip's limit.
     tip_tightened: f64,
 }
 
@@ -155,7 +155,7 @@ impl Interval {
         most
     }
 
-    /// How far (x₀, x₁) goes towards the limits: above 1 it breaks one.
+    /// Load of (x₀, x₁) relative to the limits: above 1 it breaks one.
     pub fn load(&self, x: [f64; 2]) -> f64 {
         let mut most = 0.0;
         for k in 0..STRIPS {
@@ -184,9 +184,9 @@ impl Interval {
 
 /// Tangents of the tip's ellipses that may be added.
 const TANGENTS: usize = 16;
-/// By what an ellipse may be left before the answer is scaled.
+/// Excess over an ellipse that is tolerated before the answer is scaled.
 const TANGENT_TOLERANCE: f64 = 1e-5;
-/// By what a strip may be left before it counts as broken.
+/// Excess over a strip that is tolerated before it counts as broken.
 const TOLERANCE: f64 = 1e-12;
 /// Variation of a constraint over a range below which it says nothing about a place in it.
 const FLAT: f64 = 1e-10;
@@ -291,7 +291,7 @@ impl LinearProgram {
         }
         let x = [x[0].clamp(0.0, most[0]), x[1].clamp(0.0, most[1])];
         let share = interval.load(x).max(1.0).recip();
-        // What is always possible: to stop until the end. Counts where rounding spoils the rest.
+        // A stop until the end is always possible. It counts where rounding spoils the rest.
         let stop = interval.load([1.0, 0.0]).recip().min(most[0]);
         if stop > x[0] * share {
             [stop, 0.0]

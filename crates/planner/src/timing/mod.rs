@@ -1,8 +1,8 @@
 //! Time-optimal timing along a path of the joints.
 //!
-//! [`time_optimal`] makes a [`JointPath`] a motion from rest to rest that is as fast as its limits allow. What is promised
-//! is the motion itself, cubic Hermite pieces between knots: their accelerations, not those of the path, are what the
-//! limits constrain, and no motion is returned that breaks a limit anywhere.
+//! [`time_optimal`] makes a [`JointPath`] a motion from rest to rest that is as fast as its limits allow. The limits hold for the
+//! motion itself, cubic Hermite pieces between knots: they constrain the accelerations of these, not those of the path, and no
+//! motion is returned that breaks a limit anywhere.
 //!
 //! | concept | file |
 //! | --- | --- |
@@ -12,13 +12,13 @@
 //! | constraints of an interval; linear program of an interval | `interval.rs` |
 //! | backward and forward pass; the rounds of all this | `rounds.rs` |
 //! | a piece of the motion | `hermite.rs` |
-//! | what a piece demands of its limits | `check.rs` |
+//! | demand of a piece on its limits | `check.rs` |
 //!
 //! A path in time.
 //!
-//! Why a path could not be timed.
+//! Errors of timing.
 //!
-//! What a timed motion must keep to.
+//! Limits of a timed motion.
 
 mod check;
 mod grid;
@@ -98,14 +98,14 @@ pub struct Timed {
     pub path_error_rad: f64,
 }
 
-/// Why a path could not be timed.
+/// Reason that a path could not be timed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimingError {
     /// A limit is no positive finite number.
     #[error("limit of the {limit}: {value}; it must be a positive, finite number")]
     Limit {
-        /// Which.
+        /// The limit.
         limit: Limit,
         /// Its value \[rad/s, rad/s², m/s, m/s²\].
         value: f64,
@@ -119,7 +119,7 @@ pub enum TimingError {
     /// The path is so steep, so slow or so finely sampled that its time cannot be computed.
     #[error("no time can be computed at the path's parameter {u:.6}: the numbers leave the range of a double")]
     Range {
-        /// Where, as the path's parameter.
+        /// Position, as the path's parameter.
         u: f64,
     },
     /// Cubics in time would leave the path by more than allowed with as many knots as may be.
@@ -128,11 +128,11 @@ pub enum TimingError {
          at most {allowed_rad:.1e} rad is allowed"
     )]
     PathError {
-        /// Where, as the path's parameter.
+        /// Position, as the path's parameter.
         u: f64,
         /// Largest deviation of a joint there \[rad\].
         error_rad: f64,
-        /// What is allowed \[rad\].
+        /// Deviation allowed \[rad\].
         allowed_rad: f64,
         /// Knots of the motion.
         knots: usize,
@@ -141,7 +141,7 @@ pub enum TimingError {
     /// samples much too close together for its length.
     #[error("a motion of {duration_s:.1} s still exceeds its limits: time would have to be stretched by {excess:.1e}")]
     Unheld {
-        /// By what share time would have to be stretched further.
+        /// Share by which time would have to be stretched further.
         excess: f64,
         /// Duration reached \[s\].
         duration_s: f64,
@@ -174,7 +174,7 @@ pub struct TipLimits {
 /// A stretch of a path on which its parameter moves slowly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slow {
-    /// From one value of the parameter to another, both included.
+    /// Range of the parameter, both ends included.
     pub u: [f64; 2],
     /// Largest speed of the parameter at a knot there, per second; positive.
     pub most: f64,

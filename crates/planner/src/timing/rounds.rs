@@ -24,7 +24,7 @@ pub const SHORTEST_PIECE_S: f64 = 1e-4;
 const MARGIN: f64 = 1e-6;
 /// Excess of a limit that is left to stretching the whole motion in time.
 const STRETCHED: f64 = 1e-4;
-/// Stretch that is not worth it: what it mends is within the margin.
+/// Stretch that is not worth it: the excess is within the margin.
 const HELD: f64 = 2e-7;
 /// Times that a motion is stretched at most; the first is enough but where times round coarsely.
 const STRETCHES: usize = 8;
@@ -38,12 +38,12 @@ const REFINEMENTS: usize = 10;
 pub(crate) struct Rounds<'a> {
     grid: Grid<'a>,
     samples: usize,
-    /// What is aimed at: the limits less the margin.
+    /// Limits that are aimed at: the given limits less the margin.
     limits: MotionLimits,
-    /// Where the parameter moves slowly.
+    /// Ranges in which the parameter moves slowly.
     slow: Vec<Slow>,
     intervals: Vec<Interval>,
-    /// By what each interval's speed is lowered.
+    /// Divisor of the speed limit of each interval.
     slowed: Vec<f64>,
     /// Bounds on x = ṡ² at the knots.
     most: Vec<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct Rounds<'a> {
 }
 
 impl<'a> Rounds<'a> {
-    /// Before the first round.
+    /// State before the first round.
     pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow: &[Slow]) -> Self {
         let samples = grid.knots().len();
         let mut rounds = Self {
@@ -78,7 +78,7 @@ impl<'a> Rounds<'a> {
         rounds
     }
 
-    /// All rounds.
+    /// Runs all rounds.
     pub fn run(mut self) -> Result<Timed, TimingError> {
         self.pass()?;
         for _ in 0..REFINEMENTS {
@@ -175,7 +175,7 @@ impl<'a> Rounds<'a> {
         self.grid.knots().len() > knots
     }
 
-    /// What piece k demands of the limits.
+    /// Demand of piece k on the limits.
     fn demand(&self, k: usize) -> Demand {
         let piece = piece(k, &self.times, self.grid.knots(), &self.speeds);
         check::demand(&piece, &self.grid, &self.limits)
@@ -200,7 +200,7 @@ impl<'a> Rounds<'a> {
         worst
     }
 
-    /// Stretches the whole motion in time until it keeps its limits, `worst` being what it demands.
+    /// Stretches the whole motion in time until it keeps its limits, for the demand `worst`.
     fn stretch(&mut self, mut worst: Demand) -> Result<(), TimingError> {
         for _ in 0..STRETCHES {
             let by = worst.stretch();
@@ -304,17 +304,17 @@ impl Passes {
 /// above 25 s.
 pub const LONGEST_PIECE_S: f64 = 0.025;
 
-/// How far a joint may leave its path between knots \[rad\].
+/// Largest deviation of a joint from its path between knots \[rad\].
 pub const PATH_ERROR_RAD: f64 = 5e-6;
 
-/// Length of the new pieces over the longest allowed: some room for what the next round changes.
+/// Length of the new pieces over the longest allowed: some room for the changes of the next round.
 const ROOM: f64 = 0.8;
 /// Pieces that one piece becomes at most, in one round.
 const MOST_PARTS: f64 = 64.0;
 /// Knots of a motion at most, for each sample of its path, and for any path.
 const MOST_KNOTS: [usize; 2] = [16, 4096];
 
-/// How a piece fares: x = ṡ² at its ends, length in s, duration and deviation from the path.
+/// Course of a piece: x = ṡ² at its ends, length in s, duration and deviation from the path.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Course {
     /// x at both ends.
@@ -377,7 +377,7 @@ pub(crate) fn missing(courses: &[Course], longest_s: f64) -> usize {
     courses.iter().map(|course| course.parts(longest_s) - 1).sum()
 }
 
-/// Whether a path of so many samples may have so many knots.
+/// Checks that a path of so many samples may have so many knots.
 pub(crate) fn affordable(samples: usize, knots: usize) -> bool {
     knots <= samples.saturating_mul(MOST_KNOTS[0]).saturating_add(MOST_KNOTS[1])
 }

@@ -11,11 +11,11 @@ use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::PairClearance;
 use std::fmt;
 
-/// Why there is no transit.
+/// Reason that there is no transit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransitError {
-    /// None that is free was found.
+    /// No free transit was found.
     #[error(
         "no free transit from {} to {} was found: direct, raised, arc and {nodes} sampled configurations all fail{}",
         name(.from), name(.to), first(.blocked.as_deref())
@@ -27,7 +27,7 @@ pub enum TransitError {
         to: Option<usize>,
         /// Configurations sampled.
         nodes: usize,
-        /// Where the first of the direct ones ends.
+        /// Obstruction at which the first of the direct candidates ends.
         blocked: Option<Box<Blocked>>,
     },
     /// The line over a plate is not free.
@@ -57,7 +57,7 @@ pub enum TransitError {
     Cancelled(#[from] Cancelled),
 }
 
-/// What ends a direct transit.
+/// Obstruction that ends a direct transit.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Blocked {
     /// A joint would be beyond its limit.
@@ -67,7 +67,7 @@ pub enum Blocked {
 }
 
 impl TransitError {
-    /// Whether there is none, as opposed to numbers with which none can be computed.
+    /// Returns true where no transit exists or none was found, as opposed to numbers with which none can be computed.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         matches!(self, Self::NotFound { .. } | Self::Line { .. } | Self::Home { .. })
@@ -95,7 +95,7 @@ fn colon(too_near: Option<&TooNear>) -> String {
     too_near.map_or_else(String::new, |too_near| format!(": {too_near}"))
 }
 
-/// With a hint where it is the lift that decides: at the top of the line the sponge must be clear of the plates.
+/// Words on a line, with a hint where the lift decides: at the top of the line the sponge must be clear of the plates.
 fn line(too_near: Option<&TooNear>) -> String {
     let touches = |too_near: &&TooNear| {
         let names = [&too_near.pair.a, &too_near.pair.b];
@@ -115,7 +115,7 @@ pub struct TooNear {
     pub pair: PairClearance,
     /// The clearance asked for \[m\].
     pub asked_m: f64,
-    /// What is kept on top of it \[m\]: [`Stretch::reserve_m`].
+    /// Reserve kept on top of it \[m\]: [`Stretch::reserve_m`].
     pub reserve_m: f64,
 }
 
@@ -133,10 +133,10 @@ impl TooNear {
     }
 }
 
-/// Distances that differ by less than this are not told apart by their digits \[m\].
+/// Distances that differ by less than this get no further digits \[m\].
 const ALIKE_M: f64 = 1e-9;
 
-/// What is kept, before the reserve.
+/// Words of both messages that stand before the reserve.
 const KEPT: &str = "the clearance asked for and";
 
 impl fmt::Display for TooNear {

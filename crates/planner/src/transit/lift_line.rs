@@ -1,8 +1,8 @@
-//! Where a transit begins or ends.
+//! Ends of a transit.
 //!
 //! The arc round the base, as a path of the joints.
 //!
-//! A quintic from one state of the joints to another: C² where it joins what comes before and after.
+//! A quintic from one state of the joints to another: C² where it joins the pieces before and after.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
 use crate::scene::{Contact, Scene};
@@ -18,7 +18,7 @@ pub struct LiftLine {
     height_m: Vec<f64>,
     /// Configurations there \[rad\].
     q: Vec<JointVector>,
-    /// By the height, at the lower and the upper end \[rad/m\]; the second one twice at the upper end.
+    /// Slopes by the height, at the lower and the upper end \[rad/m\]; the second one twice at the upper end.
     slopes: Option<[JointVector; 3]>,
     plate: Option<usize>,
     /// Up to a height \[m\] the tip is no faster than that \[m/s\].
@@ -31,7 +31,7 @@ pub struct LiftLine {
 pub struct LiftLineError {
     /// The plate.
     pub plate: usize,
-    /// What is wrong with its samples.
+    /// Error in its samples.
     pub error: JointPathError,
 }
 
@@ -65,14 +65,14 @@ impl LiftLine {
         })
     }
 
-    /// The same, with the tip no faster than `speed_m_s` up to `height_m` above the place of rest.
+    /// The same line, with the tip no faster than `speed_m_s` up to `height_m` above the place of rest.
     #[must_use]
     pub fn no_faster(mut self, height_m: f64, speed_m_s: f64) -> Self {
         self.slow = Some([height_m, speed_m_s]);
         self
     }
 
-    /// Where a path that leaves from here is slow: its parameter is the height.
+    /// Slow range of a path that leaves from here: its parameter is the height.
     pub(crate) fn slow_from(&self, u: f64) -> Option<Slow> {
         self.slow.map(|[height_m, most]| Slow {
             u: [u, u + height_m],
@@ -80,7 +80,7 @@ impl LiftLine {
         })
     }
 
-    /// The same for a path that ends here.
+    /// The same range for a path that ends here.
     pub(crate) fn slow_until(&self, u: f64) -> Option<Slow> {
         self.slow.map(|[height_m, most]| Slow {
             u: [u - height_m, u],
@@ -100,13 +100,13 @@ impl LiftLine {
         (&self.height_m, &self.q)
     }
 
-    /// Where the arm rests \[rad\].
+    /// Configuration in which the arm rests \[rad\].
     #[must_use]
     pub fn rest(&self) -> &JointVector {
         &self.q[0]
     }
 
-    /// Where the arm is free to go anywhere \[rad\].
+    /// Configuration from which the arm is free to go anywhere \[rad\].
     #[must_use]
     pub fn top(&self) -> &JointVector {
         &self.q[self.q.len() - 1]

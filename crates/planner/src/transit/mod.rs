@@ -3,7 +3,7 @@
 //! A transit leaves a [`LiftLine`] (a plate along its normal, or home) and enters another. Its path parameter is metres of
 //! lift along the normals; between their tops it is as long as keeps the joints' pace. Its kinds, in order:
 //!
-//! | kind | what | file |
+//! | kind | path | file |
 //! | --- | --- | --- |
 //! | [`TransitKind::Direct`] | a quintic of the joints from top to top, in a few paces | `lift_line.rs` |
 //! | [`TransitKind::Raised`] | the same over a configuration above both | `lift_line.rs` |
@@ -11,7 +11,7 @@
 //! | [`TransitKind::Sampled`] | bidirectional random trees, shortened and smoothed | `sampled.rs` |
 //!
 //! All candidates of the first two that are free are timed and the fastest is taken; the others stand in when none is.
-//! Every candidate is looked at in steps of at most [`STEP_RAD`] of a joint; a certificate proves what lies between.
+//! Every candidate is checked in steps of at most [`STEP_RAD`] of a joint; a certificate proves the motion between them.
 
 mod error;
 mod lift_line;

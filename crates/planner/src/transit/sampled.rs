@@ -1,4 +1,5 @@
-//! Bidirectional random trees for what nothing simple solves (RRT-Connect: Kuffner & LaValle 2000), shortened and smoothed.
+//! Bidirectional random trees for transits without a simple solution (RRT-Connect: Kuffner & LaValle 2000), shortened and
+//! smoothed.
 
 use crate::scene::Stretch;
 use crate::transit::search::{FreePath, STEP_RAD, TransitRules};
@@ -22,7 +23,7 @@ pub(crate) const SPACINGS_RAD: [f64; 3] = [0.12, 0.06, 0.03];
 /// Straight lines of the joints that are free, one after the other.
 #[derive(Debug)]
 pub(crate) struct FreeLines {
-    /// Where they meet, with both ends \[rad\].
+    /// Corners between the lines, with both ends \[rad\].
     corners: Vec<JointVector>,
     /// Configurations that were sampled for them.
     pub nodes: usize,
@@ -133,7 +134,7 @@ fn random(rules: &TransitRules<'_>, rng: &mut Pcg64) -> JointVector {
     })
 }
 
-/// From the first tree's root to the second one's, over the configuration at which both end.
+/// Path from the first tree's root to the second one's, over the configuration at which both end.
 fn joined(trees: &[Vec<Node>; 2]) -> Vec<JointVector> {
     let to_root = |tree: &[Node]| {
         let mut at = tree.len() - 1;

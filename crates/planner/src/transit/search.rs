@@ -1,6 +1,6 @@
 //! Candidates of a transit, and the choice among them.
 //!
-//! What a transit must keep, and what it may try.
+//! Requirements of a transit, and the candidates that it may try.
 //!
 //! Kinds of transits.
 //!
@@ -20,7 +20,7 @@ use std::fmt;
 
 /// Pace of the joints on a direct path \[rad of the fastest joint per metre of the parameter\], the candidates.
 const PACES_RAD_M: [f64; 3] = [2.0, 3.5, 6.0];
-/// How far a raised path goes towards the raised configuration, in steps.
+/// Steps of a raised path towards the raised configuration \[rad\].
 const RAISES_RAD: [f64; 3] = [0.15, 0.35, 0.6];
 /// Ways from top to top that are sampled, where a smooth path along the first ones is not free.
 const SAMPLED_WAYS: usize = 8;
@@ -30,7 +30,7 @@ const SHORTEST_M: f64 = 0.02;
 /// A transit in time, from rest to rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transit {
-    /// How it goes.
+    /// Kind of the transit.
     pub kind: TransitKind,
     /// The motion.
     pub timed: Timed,
@@ -80,7 +80,7 @@ pub fn plan(
     })
 }
 
-/// What keeps the arm from a configuration \[rad\] of a free part.
+/// Returns the obstruction that keeps the arm from a configuration \[rad\] of a free part.
 fn what_blocks(rules: &TransitRules<'_>, q: &JointVector) -> Option<Blocked> {
     let too_near = || rules.too_near(q, Stretch::Free).map(Blocked::TooNear);
     rules
@@ -98,7 +98,7 @@ struct Search<'a> {
     ends: [&'a LiftLine; 2],
     /// The fastest so far.
     best: Option<Transit>,
-    /// Where the first candidate that is not free ends \[rad\].
+    /// Configuration at which the first candidate that is not free ends \[rad\].
     blocked: Option<JointVector>,
 }
 
@@ -129,8 +129,8 @@ impl Search<'_> {
 }
 
 impl Search<'_> {
-    /// Considers sampled paths until one is free; how many configurations were sampled. A smooth path may leave what is free where the
-    /// lines that it follows do not: then it is laid closer to them, and at last along others.
+    /// Tries sampled paths until one is free; returns the number of configurations sampled. A smooth path may leave the free
+    /// space where the lines that it follows do not: then it is laid closer to them, and at last along others.
     fn sampled(&mut self, rng: &mut Pcg64) -> Result<usize, TransitError> {
         let (mut nodes, [from, to]) = (0, self.ends);
         for _ in 0..SAMPLED_WAYS {
@@ -152,7 +152,7 @@ impl Search<'_> {
     }
 }
 
-/// Whether the tip is faster than it may be at a knot of a stretch that shall be slow.
+/// Checks that the tip exceeds its speed limit at a knot of a stretch that must be slow.
 fn is_too_fast(rules: &TransitRules<'_>, timed: &Timed, slow: &Slow) -> bool {
     let (positions, speeds) = (timed.motion.positions(), timed.motion.speeds());
     let tip_speed = |k: usize| {
@@ -272,10 +272,10 @@ fn blended(from: &PathState, to: &PathState, length: f64) -> FreePath {
     }
 }
 
-/// What a transit must keep, and what it may try.
+/// Requirements of a transit, and the candidates that it may try.
 #[derive(Debug, Clone, Copy)]
 pub struct TransitRules<'a> {
-    /// Where it goes.
+    /// Scene in which the arm moves.
     pub scene: &'a Scene<'a>,
     /// Limits of the motion.
     pub limits: &'a MotionLimits,
@@ -295,7 +295,7 @@ pub struct BaseArc {
 }
 
 impl TransitRules<'_> {
-    /// Whether a configuration \[rad\] keeps its clearance.
+    /// Checks that a configuration \[rad\] keeps its clearance.
     pub(crate) fn is_clear(&self, q: &JointVector, stretch: Stretch) -> bool {
         let required_m = self.clearance_m + stretch.reserve_m();
         self.scene.surroundings.is_clear(q, stretch, required_m)
@@ -307,11 +307,11 @@ impl TransitRules<'_> {
     }
 }
 
-/// How a transit goes.
+/// Kind of route of a transit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TransitKind {
-    /// From top to top in the joints.
+    /// Quintic from top to top in the joints.
     Direct,
     /// The same over a raised configuration.
     Raised,
@@ -332,7 +332,7 @@ impl fmt::Display for TransitKind {
     }
 }
 
-/// Joint motion between neighbouring configurations that are looked at, at most \[rad\].
+/// Largest joint motion between neighbouring configurations that are checked \[rad\].
 pub const STEP_RAD: f64 = 0.02;
 
 /// Configurations between two tops, both left out, with the parameter counted from the first top \[m\], and its

@@ -13,7 +13,7 @@ use platewash_workcell::random;
 use platewash_workcell::tool::{StraightTool, Tool};
 use std::fmt;
 
-/// Whether a configuration is free on a stretch.
+/// Check that a configuration is free on a stretch.
 type Free<'a> = &'a (dyn Fn(&JointVector, Stretch) -> bool + Sync);
 
 /// Obstacles that a rule says.
@@ -37,7 +37,7 @@ impl Surroundings for MadeUp<'_> {
 
 struct Set {
     robot: RobotModel,
-    /// Of an arm without a tool.
+    /// Tip of an arm without a tool.
     tip: Frame,
     limits: MotionLimits,
 }
@@ -95,7 +95,7 @@ fn plan_among(set: &Set, free: Free<'_>, arc: Option<f64>) -> Result<Transit, Tr
     Ok(transit)
 }
 
-/// From rest to rest, within limits, and free at a hundred times more places than the planner looked at.
+/// Checks a transit: from rest to rest, within limits, and free at a hundred times more places than the planner checks.
 fn check(set: &Set, transit: &Transit, free: Free<'_>) {
     let motion = &transit.timed.motion;
     let (start, end) = (motion.at(0.0).unwrap(), motion.at(motion.duration_s()).unwrap());

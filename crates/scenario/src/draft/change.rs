@@ -1,4 +1,4 @@
-//! What a text becomes where a key gets a value, or loses it.
+//! Change of a text where a key gets a value, or loses it.
 
 use crate::draft::{EditError, Target, elements};
 use crate::keys::KEYS;
@@ -18,7 +18,7 @@ const MOST_ON_A_LINE: usize = 4;
 /// Longest part of a line that is quoted in a message.
 const LONGEST: usize = 40;
 
-/// Why a text is not changed.
+/// Reason that a text is not changed.
 pub(crate) enum Stop {
     /// The value is there already.
     Same,
@@ -36,7 +36,7 @@ pub(crate) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Resu
     let change = || {
         let document = Document::parse(plain.as_str()).map_err(|_| Stop::Unplaced)?;
         let mut document = document.into_mut();
-        // What is not printed as it stands, such as dotted keys of two sections that take turns, would be moved.
+        // Text that is not printed as it stands, such as dotted keys of two sections that take turns, would be moved.
         if document.to_string() != plain {
             return Err(Stop::Unplaced);
         }
@@ -155,7 +155,7 @@ fn remove(document: &mut DocumentMut, target: &Target) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Whether braces have no lines and no comments of their own: those could not be kept.
+/// Checks that braces have no lines and no comments of their own, which could not be kept.
 fn is_on_one_line(table: &InlineTable) -> bool {
     !table.to_string().contains('\n')
 }
@@ -184,7 +184,7 @@ fn add_section(document: &mut DocumentMut, section: &str) {
     document.insert(section, Item::Table(table));
 }
 
-/// Whether there are keys before the first section.
+/// Checks that there are keys before the first section.
 fn has_keys(document: &DocumentMut) -> bool {
     let is_key = |item: &Item| match item {
         Item::Table(table) => table.is_dotted(),
@@ -193,7 +193,7 @@ fn has_keys(document: &DocumentMut) -> bool {
     document.iter().any(|(_, item)| is_key(item))
 }
 
-/// Takes what stands at the beginning of a text without keys: the comments up to the last blank line before the first section.
+/// Takes the head of a text without keys: the comments up to the last blank line before the first section.
 fn take_head(document: &mut DocumentMut) -> String {
     let tables = tables_of(document.as_table_mut()).into_iter();
     if let Some(first) = tables.min_by_key(|table| table.position()) {
@@ -210,7 +210,7 @@ fn take_head(document: &mut DocumentMut) -> String {
     }
 }
 
-/// Where the last header of a section is printed, those of its own sections included.
+/// Position of the last header of a section, those of its own sections included.
 fn last_position(item: &Item) -> Option<isize> {
     let table = item.as_table()?;
     let inside = table.iter().filter_map(|(_, item)| last_position(item));
@@ -291,7 +291,7 @@ fn keep_lead(document: &mut DocumentMut, target: &Target, lead: &str) {
     }
 }
 
-/// All tables with a header.
+/// Returns all tables with a header.
 fn tables_of(table: &mut Table) -> Vec<&mut Table> {
     let mut all = Vec::new();
     for (_, item) in table.iter_mut() {
@@ -363,7 +363,7 @@ pub(crate) fn parsed(text: &str) -> Result<Value, Stop> {
     text.parse().map_err(|_| Stop::Unplaced)
 }
 
-/// A value's text without what stands around it.
+/// A value's text without the text around it.
 fn bare(value: &Value) -> String {
     let mut bare = value.clone();
     bare.decor_mut().clear();
@@ -374,7 +374,7 @@ pub(crate) fn json(value: &Value) -> Json {
     DeValue::parse(&bare(value)).map_or(Json::Null, |value| json_of(value.get_ref()))
 }
 
-/// Whether two values are the same to whoever reads the file: numbers to the bit, and a whole number with a point is the one
+/// Compares two values as readers of the file see them: numbers to the bit, and a whole number with a point equals the one
 /// without.
 pub(crate) fn same(a: &Json, b: &Json) -> bool {
     match (a, b) {
@@ -385,7 +385,7 @@ pub(crate) fn same(a: &Json, b: &Json) -> bool {
     }
 }
 
-/// What stands where a key would go: the last thing on the way to it that is there.
+/// Error of a key whose place is taken: it names the last thing on the way to it that is there.
 fn blocked(text: &str, target: &Target) -> EditError {
     let mut at = 0;
     if let Ok(document) = Document::parse(text) {

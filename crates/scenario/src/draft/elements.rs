@@ -1,6 +1,6 @@
-//! Elements of lists that change, come and go; what stays keeps its layout and its comments.
+//! Elements of lists that change, come and go; the other elements keep their layout and their comments.
 //!
-//! `toml_edit` keeps what stands between two elements, a comment behind the comma too, before the second one.
+//! `toml_edit` keeps the text between two elements, also a comment behind the comma, before the second one.
 
 use crate::draft::change::{Stop, json, merge as merge_value, parsed, same, text_of};
 use crate::keys::value::on_one_line;
@@ -29,7 +29,7 @@ pub(crate) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
     Ok(())
 }
 
-/// What stands before an element; before the bracket, behind the last one.
+/// Text before an element; before the bracket, behind the last one.
 fn gap(array: &Array, at: usize) -> String {
     match (array.get(at), array.get(at.wrapping_sub(1))) {
         (Some(element), _) => text_of(element.decor().prefix()),

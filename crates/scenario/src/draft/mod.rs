@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// What errors call a text that has no name.
+/// Name that errors use for a text without one.
 const UNNAMED: &str = "text";
 
 /// A scenario's text that is being changed: valid TOML of at most 1 MiB, which need not be a scenario that can be carried out.
@@ -80,7 +80,7 @@ impl Draft {
         Ok(())
     }
 
-    /// Whether a key takes a value, in whatever text; that a text has a place for it is not said.
+    /// Checks that a key takes a value, in any text. It does not check that a text has a place for the key.
     ///
     /// # Errors
     /// [`EditError::Refused`], as [`Draft::set`] has it.
@@ -88,7 +88,7 @@ impl Draft {
         Target::with_value(key, Some(value)).map(|_| ())
     }
 
-    /// Whether the values of a key are paths of files or folders.
+    /// Returns true where the values of a key are paths of files or folders.
     #[must_use]
     pub fn names_files(key: &str) -> bool {
         Target::of(key).is_some_and(|target| matches!(target.key.domain, Domain::Path | Domain::Paths))
@@ -179,7 +179,7 @@ impl Target {
         }
     }
 
-    /// What it is called.
+    /// Full name of the key.
     pub fn path(&self) -> String {
         match self.row {
             Some((list, index)) => format!("{list}[{index}].{}", self.name()),
@@ -198,21 +198,21 @@ impl Target {
     }
 }
 
-/// Why a change of a scenario's text was refused; the text stays as it was.
+/// Reason that a change of a scenario's text was refused; the text stays as it was.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EditError {
     /// A key or a value that a file would be refused for, in the same words.
     #[error("{0}")]
     Refused(Problem),
-    /// What the text states does not leave room for the key.
+    /// The text leaves no room for the key.
     #[error("{key} cannot be changed: line {line} of the scenario has '{}' where it would go; change that line by hand", printable(.found))]
     Blocked {
         /// The key.
         key: String,
         /// Line of the text, from 1.
         line: usize,
-        /// How that line begins.
+        /// Beginning of that line.
         found: String,
     },
     /// A list has no such section.
@@ -231,7 +231,7 @@ pub enum EditError {
         /// The most that are read \[bytes\].
         limit: u64,
     },
-    /// The changed text would not state what it should.
+    /// The changed text would not state the new value.
     #[error("{key} cannot be changed without changing something else; change it by hand")]
     Unplaced {
         /// The key.

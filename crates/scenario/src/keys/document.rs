@@ -1,6 +1,6 @@
 //! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
 //!
-//! The table of keys as data, for whoever draws a form of it.
+//! The table of keys as data, for programs that draw a form of it.
 
 use crate::keys::key::{Domain, Key};
 use crate::keys::value::{on_one_line, values_of};
@@ -79,13 +79,13 @@ pub struct FormKey {
     pub domain: FormDomain,
     /// The domain in words, as messages and the reference print it.
     pub expected: String,
-    /// What it means.
+    /// Meaning of the key.
     pub meaning: &'static str,
-    /// Its value where a file states none; `None` where there is none then.
+    /// Its value where a file states none; `None` where it has no default.
     pub default: Option<Value>,
 }
 
-/// What a key's value may be.
+/// Domain of a key's values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FormDomain {
     /// The kind of [`Domain`], in lower case with underscores.

@@ -1,10 +1,10 @@
-//! Whether a value lies in a key's domain, and what is said where it does not: the same of files and of edits.
+//! Check that a value lies in a key's domain, and the message where it does not: the same for files and for edits.
 //!
 //! Keys that do not exist.
 //!
-//! The word that was probably meant.
+//! The word that was probably intended.
 //!
-//! What is checked of sections that a file states several times.
+//! Checks of sections that a file states several times.
 //!
 //! Lines of a text by their numbers, and where a text states a key.
 
@@ -37,7 +37,7 @@ pub(crate) fn check(key: &Key, value: &Value, found: impl FnOnce() -> String) ->
     })
 }
 
-/// Whether a value lies in the domain; NaN and infinity, which are null here, never do.
+/// Checks that a value lies in the domain; NaN and infinity, which are null here, never do.
 fn fits(domain: Domain, value: &Value) -> bool {
     let text = value.as_str().is_some_and(|s| !s.trim().is_empty());
     match domain {
@@ -69,7 +69,7 @@ fn fits(domain: Domain, value: &Value) -> bool {
     }
 }
 
-/// What is said of a value that fits where it was meant in millimetres or per cent, and of a word that is nearly one of those expected.
+/// Hint on a value that fits if it was meant in millimetres or per cent, and on a word that is close to one of those expected.
 fn meant(key: &Key, value: &Value) -> String {
     if let (Domain::Word(words), Some(word)) = (key.domain, value.as_str()) {
         let nearest = nearest(&word.to_lowercase(), words.iter().copied()).filter(|_| words.len() > 1);
@@ -126,7 +126,7 @@ fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(Value::as_f64).collect()
 }
 
-/// What is said of a key that does not exist.
+/// Problem for a key that does not exist.
 pub(crate) fn unknown(key: &str) -> Problem {
     let paths = || KEYS.iter().map(|key| key.path);
     let sections = paths().filter_map(|path| Some(path.split_once('.')?.0));
@@ -158,7 +158,7 @@ pub(crate) fn unknown(key: &str) -> Problem {
 /// Less like any word than this, nothing is suggested.
 const LEAST_LIKENESS: f64 = 0.6;
 
-/// Of the words known the one most like another, where it is like it.
+/// Returns the most similar one of the known words, where it is similar enough.
 pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let ranked = known.map(|other| (strsim::normalized_damerau_levenshtein(other, word), other));
     let nearest = ranked.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -167,8 +167,8 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> O
         .map(|(_, other)| other)
 }
 
-/// What is said of a name that does not exist, beside those `known`, which `in_full` writes out: of a diameter the radius, of others the one
-/// most like it, or else what `otherwise` says.
+/// Hint on a name that does not exist among `known`, which `in_full` writes out. It names the radius for a diameter, otherwise
+/// the most similar name, or else returns the text of `otherwise`.
 pub(crate) fn hint(
     name: &str,
     known: &[&str],
@@ -182,10 +182,10 @@ pub(crate) fn hint(
     nearest(name, known.iter().copied()).map_or_else(otherwise, |other| format!("did you mean '{}'?", in_full(other)))
 }
 
-/// What is wrong with a value, and at which byte of the text.
+/// Fault of a value, and its byte in the text.
 pub(crate) type Misfit = (usize, Problem);
 
-/// Checks what a file states for a list.
+/// Checks a list of a file.
 pub(crate) fn check_list(list: &List, value: &toml::Spanned<DeValue<'_>>) -> Result<(), Misfit> {
     let misfit = |found: String| {
         let problem = Problem::Value {
@@ -233,7 +233,7 @@ fn check_section(list: &List, index: usize, table: &DeTable<'_>) -> Result<(), M
     Ok(())
 }
 
-/// What is said of a key that does not exist in a section of a list, counted from 0.
+/// Problem for a key that does not exist in a section of a list, counted from 0.
 fn unknown_in_list(list: &List, index: usize, name: &str) -> Problem {
     let of_list = |name: &str| format!("{}[{index}].{name}", list.name);
     let known: Vec<_> = list.keys.iter().map(own_name).collect();
@@ -252,8 +252,8 @@ pub(crate) fn line_at(text: &str, byte: usize) -> usize {
         .count()
 }
 
-/// Where a text states a key such as `layout.count` or `obstacle[1].name`; of a key that it leaves out the section, where that is one of a list or
-/// states something else. `None` where there is neither.
+/// Byte at which a text states a key such as `layout.count` or `obstacle[1].name`. For a key that is left out it is the byte of
+/// the section, where the section is one of a list or states something else. `None` where there is neither.
 pub(crate) fn byte_of(table: &DeTable<'_>, key: &str) -> Option<usize> {
     let (first, rest) = key
         .split_once('.')

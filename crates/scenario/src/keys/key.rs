@@ -7,7 +7,7 @@ use Domain::{
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::surface::MOST_KNOTS;
 
-/// What values a key takes.
+/// Domain of the values of a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Domain {
     /// Text that is not empty and has no control characters, which a terminal would obey.
@@ -60,7 +60,7 @@ pub struct Key {
     pub unit: &'static str,
     /// Values it takes.
     pub domain: Domain,
-    /// What it means.
+    /// Meaning of the key.
     pub meaning: &'static str,
 }
 

@@ -59,9 +59,9 @@ const TOP_LEVEL: &[Key] = &[
 pub struct List {
     /// Its name.
     pub name: &'static str,
-    /// How often it may be stated.
+    /// Greatest number of sections.
     pub most: usize,
-    /// Its keys, by their paths: those of the second one are told as `name[1].key`.
+    /// Its keys, by their paths: messages name those of the second section `name[1].key`.
     pub keys: &'static [Key],
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A value as TOML writes it.
 //!
-//! What counts in a scenario, key by key.
+//! Values in effect in a scenario, key by key.
 
 use crate::keys::KEYS;
 use crate::scenario::Scenario;
@@ -14,8 +14,8 @@ use toml::de::DeValue;
 /// Elements of a list that are named.
 const FEW: usize = 8;
 
-/// A value of a file as JSON. What JSON does not know (NaN, infinity, dates, sections) is null, as are whole numbers of more than 64 bits:
-/// no key takes them.
+/// A value of a file as JSON. Values that JSON does not have (NaN, infinity, dates, sections) are null, as are whole numbers of
+/// more than 64 bits: no key takes them.
 pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
     match value {
         DeValue::String(text) => Value::String(text.clone().into_owned()),
@@ -111,7 +111,7 @@ fn number(number: &Number) -> String {
     }
 }
 
-/// In double quotes. JSON's escapes are TOML's, but for one character that TOML wants escaped, too.
+/// A text in double quotes. JSON's escapes are TOML's, except for one character that TOML escapes, too.
 fn string(text: &str) -> String {
     Value::from(text).to_string().replace('\u{7f}', "\\u007F")
 }

@@ -6,7 +6,7 @@ use platewash_kinematics::urdf::{Files, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
 use std::path::{Path, PathBuf};
 
-/// Why the arm of a scenario could not be made.
+/// Reason that the arm of a scenario could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArmError {
@@ -26,7 +26,7 @@ pub enum ArmError {
     Urdf {
         /// The file.
         file: String,
-        /// Why.
+        /// Error in the description.
         error: UrdfError,
     },
     /// The SRDF was refused.
@@ -34,15 +34,15 @@ pub enum ArmError {
     Srdf {
         /// The file.
         file: String,
-        /// Why.
+        /// Error in the description.
         error: SrdfError,
     },
 }
 
-/// The arm that the section asks for, out of files of the disk or of what was read before.
+/// The arm of the section, from files on disk or from files read before.
 ///
 /// # Errors
-/// [`ArmError`] with the file and what is wrong in it.
+/// [`ArmError`] with the file and its error.
 pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
         (Some(urdf), _) => load_description(urdf, section.srdf.as_deref(), &section.package_path, files),
@@ -54,7 +54,7 @@ pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, Arm
 /// in `package_path`, the others in the folder of the URDF.
 ///
 /// # Errors
-/// [`ArmError`] with the file and what is wrong in it.
+/// [`ArmError`] with the file and its error.
 pub fn load_description(
     urdf: &Path,
     srdf: Option<&Path>,

@@ -1,6 +1,6 @@
-//! What a certified job needs of keys whose ranges are wider for the paper's program, or for messages that name the key.
+//! Requirements of a certified job on keys whose ranges are wider for the paper's program, or for messages that name the key.
 //!
-//! How much work a scenario asks for, known before any of it is done.
+//! Amount of work of a scenario, known before any of it is done.
 
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::resolve::placement::ShapeKeys;
@@ -45,7 +45,7 @@ impl Scenario {
         }
     }
 
-    /// Refuses what no certified job can be planned or proved with, by its key.
+    /// Refuses values with which no certified job can be planned or proved, by key.
     pub(crate) fn check_certified(&self) -> Result<(), Problem> {
         if self.job.program != Program::Certified {
             return Ok(());

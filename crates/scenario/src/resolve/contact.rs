@@ -1,4 +1,4 @@
-//! What `[wash]` asks of the contact of sponge and plate, with its defaults, and keys of it that contradict each other.
+//! Requirements of `[wash]` on the contact of sponge and plate, with their defaults, and keys of it that contradict each other.
 
 use crate::error::{Problem, conflict};
 use crate::scenario::Scenario;
@@ -11,13 +11,13 @@ use platewash_workcell::tool::Tool;
 use platewash_workcell::wash_path::MOST_RINGS;
 use std::f64::consts::PI;
 
-/// How fast the sponge may meet a plate and leave it, where contact is promised and nothing is stated \[m/s\].
+/// Greatest speed at which the sponge meets a plate and leaves it, where contact is promised and no speed is stated \[m/s\].
 const LANDING_M_S: f64 = 0.05;
 
-/// How far joint 5 keeps from 0, where contact is promised and nothing is stated \[deg\].
+/// Least angle of joint 5 from 0, where contact is promised and no angle is stated \[deg\].
 const WRIST_DEG: f64 = 3.0;
 
-/// What is promised where nothing else is stated.
+/// Requirements of a promised contact, where no others are stated.
 const PROMISED: ContactRequirements = ContactRequirements {
     compression_m: 0.001,
     height_error_m: 0.001,
@@ -31,7 +31,7 @@ const PROMISED: ContactRequirements = ContactRequirements {
 };
 
 impl WashSection {
-    /// What the contact must keep; `None` where it is no part of the job.
+    /// Requirements on the contact; `None` where contact is no part of the job.
     #[must_use]
     pub fn contact_requirements(&self) -> Option<ContactRequirements> {
         self.contact.then(|| ContactRequirements {
@@ -47,14 +47,14 @@ impl WashSection {
         })
     }
 
-    /// How fast the free sponge may meet a plate, and leave it \[m/s\]; `None` where that is no limit of its own.
+    /// Greatest speeds at which the free sponge meets a plate, and leaves it \[m/s\]; `None` where there is no limit of its own.
     #[must_use]
     pub fn landing_and_lifting_m_s(&self) -> [Option<f64>; 2] {
         let promised = self.contact.then_some(LANDING_M_S);
         [self.landing_speed_m_s, self.lifting_speed_m_s].map(|stated| stated.or(promised))
     }
 
-    /// How far joint 5 keeps from 0 at a plate \[rad\]; `None` where nothing is asked of it.
+    /// Least angle of joint 5 from 0 at a plate \[rad\]; `None` where no angle is required.
     #[must_use]
     pub fn wrist_rad(&self) -> Option<f64> {
         let promised = self.contact.then_some(WRIST_DEG);
@@ -108,7 +108,7 @@ impl Scenario {
         Ok(())
     }
 
-    /// Refuses a promise that no plan can keep, whatever it does.
+    /// Refuses a promise that no plan can keep.
     ///
     /// The tip washes on the face, so that the column at the sponge's axis is compressed by c + δ cos τ with the plate at its highest. Nowhere
     /// is the sponge pressed by more than its greatest strain, and its force is then E π s² times that at most. With the plate at its lowest
@@ -321,7 +321,7 @@ mod tests {
             "wash.tilt_deg = 15",
             "wash.pattern = \"rings\"\nwash.turns = 99\nwash.path_radius_m = 0.1\nwash.closing_ring = true",
             "wash.pattern = \"spiral\"\nwash.closing_ring = false\nwash.turns = 2.5",
-            // The paper's program takes what it does not use.
+            // The paper's program accepts keys that it does not use.
             "job.program = \"paper\"\nwash.pattern = \"rings\"\nwash.turns = 2.5",
         ] {
             assert!(parsed(lines).is_ok(), "{lines}");

@@ -40,7 +40,7 @@ impl Scenario {
         Ok(Arc::new(load_arm(&self.robot, &self.files)?))
     }
 
-    /// Reads every file that the scenario names, as its job would. What is wrong with one is for the job to tell.
+    /// Reads every file that the scenario names, as its job would. The job reports the errors in them.
     pub fn read_files(&self) {
         // Errors are dropped on purpose.
         let _ = self.arm();
@@ -52,7 +52,7 @@ impl Scenario {
         }
     }
 
-    /// Where the meshes of its bodies are.
+    /// Source of the meshes of its bodies.
     pub(crate) fn meshes(&self) -> MeshSource {
         MeshSource::new(&self.robot.package_path, None).reading(&self.files)
     }
@@ -112,7 +112,7 @@ impl Scenario {
     /// Checks a scenario without carrying it out: the arm loads, its ends are within its limits and clear, and the plates have room in
     /// principle (given ones are placed; for sampled ones the region is not empty).
     ///
-    /// Returns the arm, and what is to be said about given plates.
+    /// Returns the arm, and the findings on given plates.
     ///
     /// # Errors
     /// As carrying it out, for the same fault.
@@ -142,10 +142,10 @@ impl Scenario {
         Ok((arm, layout.findings))
     }
 
-    /// Refuses what carrying it out on some plates refuses before anything is planned.
+    /// Refuses plates that would be refused before anything is planned.
     ///
     /// # Errors
-    /// As carrying it out, for the same fault.
+    /// The error that the job itself would end with.
     pub fn check_on(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
         match self.job.program {
             Program::Certified => platewash_planner::check(arm, self.job_on(arm, layout)?.terms())?,
@@ -192,7 +192,7 @@ impl Scenario {
             dry_run: None,
         };
         if start.is_none() {
-            // What stands where it cannot leaves no home either, and is the better reason.
+            // A body in an impossible place leaves no home either, and is the better reason.
             let overlaps = terms.standing_overlaps(arm)?;
             if !overlaps.is_empty() {
                 return Err(JobError::Standing(overlaps).into());
@@ -234,7 +234,7 @@ impl Scenario {
         }
     }
 
-    /// The arm with its tool where it is mounted, and what stands around it, among so many plates.
+    /// The arm with its tool in its mount, and the bodies around it, among so many plates.
     ///
     /// # Errors
     /// [`Failure`]: an obstacle that is none, or an arm with a shape that is none.

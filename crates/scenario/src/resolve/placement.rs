@@ -1,6 +1,6 @@
 //! From the `[layout]` section to plates.
 //!
-//! The plates that a scenario states one by one or kind by kind: how many of which shape, and what is checked of them.
+//! The plates that a scenario states one by one or kind by kind: their numbers and shapes, and their checks.
 
 use crate::error::{Problem, conflict};
 use crate::failure::Failure;
@@ -21,7 +21,7 @@ use rand_pcg::Pcg64;
 use std::sync::Arc;
 
 impl LayoutSection {
-    /// Where the plates come from.
+    /// Source of the plates' positions.
     #[must_use]
     pub fn placement(&self) -> Placement {
         let region = self.region();
@@ -38,7 +38,7 @@ impl LayoutSection {
         }
     }
 
-    /// What all plates share.
+    /// Geometry that all plates share.
     #[must_use]
     pub fn geometry(&self) -> PlateGeometry {
         PlateGeometry {
@@ -71,7 +71,7 @@ impl LayoutSection {
         Some(Surface::profile(&knots))
     }
 
-    /// How far they keep apart.
+    /// Least distances between plates, and from the base.
     #[must_use]
     pub fn spacing(&self) -> Spacing {
         Spacing {
@@ -146,7 +146,7 @@ impl Scenario {
         [x, y]
     }
 
-    /// Where plates are drawn, to look at: in the world.
+    /// Region in which plates are drawn at random, for display: world frame.
     #[must_use]
     pub fn task_region(&self) -> TaskRegion {
         let ([x, y], layout) = (self.foot_m(), &self.layout);
@@ -178,7 +178,7 @@ impl Scenario {
         Ok(platewash_planner::draw_washable_layout(arm, &terms, &mut draw, watch)?)
     }
 
-    /// Whether plates of a layout share a place, with each other or the base, and no plan of them can be proved for that.
+    /// Checks that plates of a layout share a place, with each other or the base, so that no plan of them can be proved.
     #[must_use]
     pub fn forbids(&self, layout: &Layout) -> bool {
         let shared =
@@ -198,7 +198,7 @@ impl Scenario {
 }
 
 impl Scenario {
-    /// Whether plates are given one by one: by `[[plate]]` or `layout.positions_m`.
+    /// Returns true where plates are given one by one: by `[[plate]]` or `layout.positions_m`.
     #[must_use]
     pub fn lists_plates(&self) -> bool {
         let given = |plate: &PlateSection| plate.at_m.is_some();
@@ -218,7 +218,7 @@ impl Scenario {
         Some(plates?.concat()).filter(|plates| !plates.is_empty())
     }
 
-    /// Of each plate the `[[plate]]` section that says where it is, counted from 0; `None` where none does.
+    /// Index of the `[[plate]]` section that states the position of each plate, counted from 0; `None` where there is none.
     #[must_use]
     pub fn plate_sections(&self) -> Option<Vec<usize>> {
         let listed = !self.plate.is_empty() && self.plate.iter().all(|row| row.at_m.is_some());
@@ -227,7 +227,7 @@ impl Scenario {
         listed.then(|| rows.flat_map(|(index, row)| vec![index; faces(row)]).collect())
     }
 
-    /// How many plates there are of which shape, in the order in which they come.
+    /// Numbers of plates with their shapes, in the order of the plates.
     pub(crate) fn kinds(&self) -> Vec<(usize, PlateGeometry)> {
         let layout = &self.layout;
         let listed = layout.positions_m.as_ref().map_or(layout.count, Vec::len);
@@ -310,7 +310,7 @@ impl Scenario {
     }
 }
 
-/// What the keys of a plate's shape are called: those of `[layout]`, or those of a `[[plate]]` by its index.
+/// Names of the keys of a plate's shape: those of `[layout]`, or those of a `[[plate]]` by its index.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ShapeKeys(Option<usize>);
 
@@ -323,7 +323,7 @@ impl ShapeKeys {
         }
     }
 
-    /// The same problem with the keys as they are called here.
+    /// The same problem with the names of the keys here.
     fn of_problem(self, problem: Problem) -> Problem {
         match problem {
             Problem::Conflict { keys, detail } => Problem::Conflict {

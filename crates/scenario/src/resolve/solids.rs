@@ -14,8 +14,8 @@ const KEPT: usize = 64;
 /// The corners of the convex parts of a mesh \[m\].
 pub(crate) type Hulls = Arc<Vec<Vec<Point3<f64>>>>;
 
-/// What became of meshes that were cut before, by their triangles: the files are read each time, so that a changed one counts at once. Clones share it;
-/// it decides nothing, and all of them are equal.
+/// Cache of the convex parts of meshes that were cut before, by their triangles. The files are read each time, so that a changed
+/// one takes effect at once. Clones share the cache; it decides nothing, and all caches are equal.
 #[derive(Debug, Clone, Default)]
 pub struct Solids {
     kept: Arc<Mutex<Vec<(String, Hulls)>>>,
@@ -57,7 +57,7 @@ impl Solids {
         Some(excess_m(&triangles, &hulls))
     }
 
-    /// What became of a mesh, which is then the last to be forgotten.
+    /// Returns the cached parts of a mesh, which then becomes the last to be forgotten.
     fn found(&self, id: &str) -> Option<Hulls> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let at = kept.iter().position(|(of, _)| of == id)?;
@@ -79,7 +79,7 @@ impl Solids {
     }
 }
 
-/// What decides the parts of a mesh.
+/// Key of the parts of a mesh: its triangles and the kind of parts.
 fn id(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> String {
     let numbers = triangles.iter().flatten().flat_map(|corner| corner.iter().copied());
     let bytes = numbers.flat_map(f64::to_le_bytes);

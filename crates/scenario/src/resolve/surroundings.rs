@@ -16,7 +16,7 @@ use platewash_workcell::words::counted;
 use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use std::path::{Path, PathBuf};
 
-/// Parts that reach no farther beyond a mesh are not told of \[m\].
+/// Excess of convex parts over a mesh up to which no note is given \[m\].
 const LEAST_EXCESS_M: f64 = 1e-3;
 
 /// A mesh's path as a file in a folder states it: those of packages stay as they are.
@@ -30,8 +30,8 @@ pub(crate) fn in_folder(mesh: &Path, folder: &Path) -> PathBuf {
 }
 
 impl Scenario {
-    /// Refuses obstacles without a name or with one that another has, without a place, and shapes without their sizes; plates held that
-    /// are not there; and what is stated of a floor or a table that is not there.
+    /// Refuses obstacles without a name or with one that another has, without a place, and shapes without their sizes; plates
+    /// held that do not exist; and keys of a floor or a table that is not present.
     pub(crate) fn check_surroundings(&self) -> Result<(), Problem> {
         for (index, obstacle) in self.obstacle.iter().enumerate() {
             let at = format!("obstacle[{index}]");
@@ -62,7 +62,7 @@ impl Scenario {
         self.table.check()
     }
 
-    /// What stands around an arm with its tool, among so many plates.
+    /// Obstacles around an arm with its tool, among so many plates.
     ///
     /// # Errors
     /// [`Failure`]: a mesh that cannot be read or is no body, a name that another body has.
@@ -101,7 +101,7 @@ impl Scenario {
         Err(ScenarioError::new(&self.name, None, problem))
     }
 
-    /// Which other body has a name.
+    /// Returns the other body that has a name.
     fn owner(&self, name: &str, arm: &RobotModel, tool: &Tool) -> Option<&'static str> {
         let is_plate = |name: &str| {
             let number = name.strip_prefix("plate ").or_else(|| name.strip_prefix("real plate "));
@@ -118,8 +118,8 @@ impl Scenario {
         }
     }
 
-    /// How far the convex parts that count reach beyond the meshes of tool and obstacles, where they do. Meshes that cannot be read are
-    /// left out: whoever makes the workcell is told of them.
+    /// Notes on convex parts that reach beyond the meshes of tool and obstacles. Meshes that cannot be read are left out: the
+    /// caller that makes the workcell reports them.
     #[must_use]
     pub fn notes_on_meshes(&self) -> Vec<Note> {
         let source = self.meshes();

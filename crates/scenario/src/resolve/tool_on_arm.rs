@@ -12,7 +12,7 @@ use platewash_workcell::tool::Tool;
 use platewash_workcell::tool_chain::{ToolChain, ToolError};
 use std::path::Path;
 
-/// How far a mesh of the tool may reach from its origin \[m\], as other bodies by the ranges of their sizes.
+/// Greatest reach of a mesh of the tool from its origin \[m\], like other bodies by the ranges of their sizes.
 const GREATEST_M: f64 = 2.0;
 
 impl Scenario {
@@ -28,7 +28,7 @@ impl Scenario {
         for (index, section) in self.tool_body.iter().enumerate() {
             shapes.push(section_shape(index, section)?);
         }
-        // What a mesh weighs and fills is known once its file is read.
+        // The weight and volume of a mesh are known once its file is read.
         let shapes: Option<Vec<_>> = shapes.into_iter().map(BodyOf::convex).collect();
         let Some(shapes) = shapes else {
             return Ok(());
@@ -112,7 +112,7 @@ impl Scenario {
     }
 }
 
-/// What a body of the tool is, as far as its section says it.
+/// Body of the tool, as far as its section states it.
 enum BodyOf<'a> {
     Convex(Shape),
     Mesh { file: &'a Path, scale: [f64; 3] },

@@ -4,7 +4,7 @@ use platewash_kinematics::JointVector;
 use platewash_kinematics::words::{rounded, rounded_down, rounded_up};
 use platewash_workcell::simulation::ControlLawName;
 
-/// Why a law was refused.
+/// Reason that a law was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ControlError {
@@ -13,9 +13,9 @@ pub enum ControlError {
     Setting {
         /// The field of the settings.
         name: &'static str,
-        /// What it must be.
+        /// Range or kind of value required.
         expected: &'static str,
-        /// What it is.
+        /// Value found.
         found: f64,
     },
     /// A law that drives torques where one that moves positions is needed.
@@ -54,7 +54,7 @@ pub enum ControlError {
         rate_hz: f64,
         /// A configuration at which it is unstable \[rad\].
         q: JointVector,
-        /// Whether the sponge is on a plate there.
+        /// True where the sponge is on a plate there.
         in_contact: bool,
         /// The least rate at which these gains are stable \[Hz\]; `None` where none that may be asked for is.
         least_rate_hz: Option<f64>,
@@ -64,7 +64,7 @@ pub enum ControlError {
     },
 }
 
-/// Significant digits of what is suggested.
+/// Significant digits of suggested values.
 const DIGITS: usize = 5;
 
 fn degrees(q: &JointVector) -> String {
@@ -73,7 +73,7 @@ fn degrees(q: &JointVector) -> String {
 }
 
 fn remedy(rate: Option<f64>, frequency: Option<f64>) -> String {
-    // Rounded towards what is stable: what is suggested holds when it is typed in.
+    // Rounded towards stability: the suggested value is stable when it is typed in.
     let rate = rate.map(|rate| rounded_up(rate, DIGITS));
     let frequency = frequency.map(|frequency| rounded_down(frequency, DIGITS));
     match (rate, frequency) {

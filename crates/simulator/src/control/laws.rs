@@ -1,4 +1,4 @@
-//! What every law is asked and answers.
+//! Input and output of every law.
 //!
 //! A perfect servo.
 //!
@@ -18,17 +18,17 @@ use platewash_kinematics::{JointLimits, JointVector};
 use platewash_workcell::simulation::{ControlSettings, FeedForward};
 use platewash_workcell::trajectory::JointState;
 
-/// What is asked of the arm at a sample and at the next one.
+/// Commanded states at a sample and at the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
-    /// At the sample.
+    /// State at the sample.
     pub now: JointState,
-    /// At the next one.
+    /// State at the next sample.
     pub next: JointState,
 }
 
 impl Reference {
-    /// To be at rest at `q` \[rad\], now and at the next sample: a waypoint.
+    /// Reference at rest at `q` \[rad\], now and at the next sample: a waypoint.
     #[must_use]
     pub fn towards(q: JointVector) -> Self {
         let still = JointVector::zeros();
@@ -50,7 +50,7 @@ impl Reference {
     }
 }
 
-/// What a law answers.
+/// Output of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Command {
     /// Joint torques, held until the next sample \[N·m\].
@@ -88,7 +88,7 @@ pub struct Gains {
     pub kd: JointVector,
 }
 
-/// What gains multiply.
+/// Quantity that the gains produce.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loop {
     /// Torques: `pd` and `pd_gravity`.
@@ -108,8 +108,8 @@ impl Gains {
         }
     }
 
-    /// Those of the settings: given outright, or from frequency and damping with M each joint's largest inertia within the limits, 1
-    /// where they multiply accelerations.
+    /// Gains of the settings: given outright, or from frequency and damping with M, each joint's largest inertia within the
+    /// limits; M is 1 where the gains produce accelerations.
     #[must_use]
     pub fn new(settings: &ControlSettings, of: Loop, model: &DynamicsModel, limits: &JointLimits) -> Self {
         if let (Some(kp), Some(kd)) = (settings.joint_kp, settings.joint_kd) {
@@ -174,7 +174,7 @@ impl ControlLaw for PaperLaw {
 pub struct Pd {
     /// Gains \[N·m/rad, N·m·s/rad\].
     pub gains: Gains,
-    /// Whether ė is that of the error or of the arm alone.
+    /// Choice of ė: the error's or the arm's alone.
     pub feed_forward: FeedForward,
 }
 
@@ -185,15 +185,15 @@ impl ControlLaw for Pd {
     }
 }
 
-/// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); moving, it
-/// is what accelerations need, about q̈_d/ω².
+/// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); in motion it is
+/// the error that the accelerations require, about q̈_d/ω².
 #[derive(Debug, Clone, PartialEq)]
 pub struct PdGravity<'a> {
     /// The arm as the law believes it to be.
     pub model: &'a DynamicsModel,
     /// Gains \[N·m/rad, N·m·s/rad\].
     pub gains: Gains,
-    /// Whether ė is that of the error or of the arm alone.
+    /// Choice of ė: the error's or the arm's alone.
     pub feed_forward: FeedForward,
 }
 
@@ -213,7 +213,7 @@ pub struct ComputedTorque<'a> {
     pub model: &'a DynamicsModel,
     /// Gains \[1/s², 1/s\].
     pub gains: Gains,
-    /// Whether speeds and accelerations of the commanded motion are used.
+    /// Use of the speeds and accelerations of the commanded motion.
     pub feed_forward: FeedForward,
 }
 

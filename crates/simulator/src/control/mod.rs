@@ -1,6 +1,6 @@
 //! Control laws behind one trait.
 //!
-//! | law | what it commands | file |
+//! | law | command | file |
 //! | --- | --- | --- |
 //! | `paper` | positions, the paper's low-pass filter to the letter | `laws.rs` |
 //! | `exact` | the commanded positions themselves | `laws.rs` |
@@ -8,10 +8,11 @@
 //! | `pd_gravity` | that and g(q) | `laws.rs` |
 //! | `computed_torque` | τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q) | `laws.rs` |
 //!
-//! The trait: `laws.rs`. Gains and where they come from: `laws.rs`. Whether the sampled loop is stable: `stability.rs`. Why a law is
-//! refused: `error.rs`, and within which limits it would not be: `stability.rs`.
+//! The trait: `laws.rs`. Gains and their source: `laws.rs`. Stability of the sampled loop: `stability.rs`. Reasons of a refusal:
+//! `error.rs`; the limits within which a law is accepted: `stability.rs`.
 //!
-//! Another law is a name in [`ControlLawName`], a file here, and what [`kinematic`] and [`law`] then miss.
+//! A further law is a name in [`ControlLawName`], a file here, and the cases that the compiler then misses in [`kinematic`] and
+//! [`law`].
 
 mod error;
 pub(crate) mod laws;
@@ -29,10 +30,10 @@ use crate::plant::Plant;
 use platewash_kinematics::JointLimits;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
 
-/// How a torque law is made.
+/// Constructor of a torque law.
 type Made<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;
 
-/// The law `name` without a plant, as the paper's program needs, whatever its gains.
+/// Returns the law `name` without a plant, as the paper's program needs, with any gains.
 ///
 /// # Errors
 /// [`ControlError::NotKinematic`] for a law that drives torques.
@@ -47,8 +48,8 @@ pub fn kinematic(name: ControlLawName, settings: &ControlSettings) -> Result<Box
     }
 }
 
-/// As [`kinematic`], refused where it is not stable: the error of the paper's law obeys e_{k+1} = (1 − Kp dt − Kd) e_k + Kd e_{k−1}
-/// about a constant target, and is stable if and only if |Kd| < 1 and 0 < Kp dt < 2 (1 − Kd) (Jury's criterion).
+/// Returns a law as [`kinematic`], and refuses it where it is not stable. About a constant target the error of the paper's law obeys
+/// e_{k+1} = (1 − Kp dt − Kd) e_k + Kd e_{k−1}. It is stable if and only if |Kd| < 1 and 0 < Kp dt < 2 (1 − Kd) (Jury's criterion).
 ///
 /// # Errors
 /// [`ControlError::UnstablePaper`], and those of [`kinematic`].

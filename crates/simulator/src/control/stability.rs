@@ -1,4 +1,4 @@
-//! Whether a sampled torque law is stable, linearised about rest.
+//! Stability of a sampled torque law, linearised about rest.
 //!
 //! About a configuration that the arm shall hold, with gravity's slope left out, x = (δq, δq̇) obeys
 //! M δq̈ = −S δq − (D + C) δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction,
@@ -22,13 +22,13 @@ const SQUARINGS: u32 = 24;
 /// A sampled law on a plant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stability {
-    /// What the gains multiply.
+    /// Quantity that the gains produce.
     pub of: Loop,
     /// The gains.
     pub gains: Gains,
     /// Friction per speed at rest \[N·m·s/rad\].
     pub friction: JointVector,
-    /// How the plant is integrated.
+    /// Integrator of the plant.
     pub integrator: Integrator,
     /// Steps of integration to a sample.
     pub substeps: usize,
@@ -40,7 +40,7 @@ type Transition = SMatrix<f64, 12, 12>;
 /// A configuration about which a loop is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standing {
-    /// Where the joints are \[rad\].
+    /// Joint positions \[rad\].
     pub q: JointVector,
     /// The foam on a plate there; `None` where nothing touches.
     pub contact: Option<ContactSlope>,
@@ -52,10 +52,10 @@ impl From<JointVector> for Standing {
     }
 }
 
-/// Whether the loop, sampled at `rate_hz`, is stable at all `configurations`; if not, the first at which it is not.
+/// Checks that the loop, sampled at `rate_hz`, is stable at all `configurations`.
 ///
 /// # Errors
-/// The configuration. Also where a gain is 0, because the joint then never comes back.
+/// The first configuration at which it is not stable. Also where a gain is 0, because the joint then never comes back.
 pub fn check(
     law: &Stability,
     rate_hz: f64,
@@ -70,7 +70,8 @@ pub fn check(
 }
 
 impl Stability {
-    /// Whether the loop is stable with the mass matrix `mass`, foam on a plate if there is any, and the sampling time `period_s`.
+    /// Checks that the loop is stable with the mass matrix `mass`, foam on a plate if there is any, and the sampling time
+    /// `period_s`.
     #[must_use]
     pub fn is_stable(&self, mass: &MassMatrix, contact: Option<&ContactSlope>, period_s: f64) -> bool {
         self.transition(mass, contact, period_s).is_some_and(contracts)
@@ -97,7 +98,7 @@ impl Stability {
             Integrator::SemiImplicitEuler => euler(&stiffness, &damping, h),
             Integrator::Rk4 => rk4(&stiffness, &damping, h),
         };
-        // The torque is that of the sample's first state, whatever the arm does until the next one.
+        // The torque is that of the sample's first state, until the next one.
         let (passed, forced) = repeated(step, input, self.substeps);
         let mut feedback = Transition::zeros();
         feedback.fixed_view_mut::<6, 6>(6, 0).copy_from(&-gain(&self.gains.kp));
@@ -106,7 +107,7 @@ impl Stability {
     }
 }
 
-/// What `count` steps under one input make of state and input, by doubling.
+/// Transition of state and input over `count` steps under one input, by doubling.
 fn repeated(mut step: Transition, mut input: Transition, mut count: usize) -> (Transition, Transition) {
     let (mut passed, mut forced) = (Transition::identity(), Transition::zeros());
     while count > 0 {
@@ -121,7 +122,7 @@ fn repeated(mut step: Transition, mut input: Transition, mut count: usize) -> (T
     (passed, forced)
 }
 
-/// One step of semi-implicit Euler: what it makes of the state, and of an acceleration in rows 6 to 11.
+/// One step of semi-implicit Euler: its effect on the state, and on an acceleration in rows 6 to 11.
 fn euler(stiffness: &MassMatrix, damping: &MassMatrix, h: f64) -> (Transition, Transition) {
     let speed = MassMatrix::identity() - damping * h;
     let mut step = Transition::identity();
@@ -150,7 +151,7 @@ fn rk4(stiffness: &MassMatrix, damping: &MassMatrix, h: f64) -> (Transition, Tra
     (one + rate * sum, sum * forced)
 }
 
-/// Whether some power of the matrix is smaller than 1.
+/// Checks that some power of the matrix is smaller than 1.
 fn contracts(mut power: Transition) -> bool {
     for _ in 0..=SQUARINGS {
         let size = power.norm();

@@ -16,7 +16,7 @@ use platewash_kinematics::{AXES, Frame, JointVector};
 /// (angular, linear) in the common frame.
 type SpatialVector = Vector6<f64>;
 
-/// What the inward pass leaves of a joint for the outward one.
+/// Results of the inward pass for a joint that the outward pass needs.
 #[derive(Clone, Copy)]
 struct Joint {
     /// S.

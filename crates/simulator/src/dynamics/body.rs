@@ -1,6 +1,6 @@
 //! A rigid body: mass, centre of mass, inertia.
 //!
-//! Whether a body can exist.
+//! Check that a body can exist.
 //!
 //! The tool as a body.
 
@@ -21,7 +21,7 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// Nothing.
+    /// Body without mass.
     #[must_use]
     pub fn none() -> Self {
         Self {
@@ -82,15 +82,15 @@ pub(crate) fn symmetric(&[xx, xy, xz, yy, yz, zz]: &[f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-/// What a mass at `d` adds to the inertia about the origin.
+/// Contribution of a mass at `d` to the inertia about the origin.
 pub(crate) fn steiner(mass: f64, d: &Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * d.norm_squared() - d * d.transpose()) * mass
 }
 
-/// What figures rounded to six digits may miss, as a part of the inertia's trace.
+/// Error of figures rounded to six digits, as a part of the inertia's trace.
 const ROUNDING: f64 = 2e-6;
 
-/// Why no body has such mass properties.
+/// Reason that no body has such mass properties.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unphysical {
@@ -135,7 +135,7 @@ pub(crate) fn check(body: &RigidBody) -> Result<(), Unphysical> {
     Err(Unphysical::Inertia(inertia))
 }
 
-/// Whether no principal minor is negative (Sylvester's criterion for semidefinite matrices).
+/// Checks that no principal minor is negative (Sylvester's criterion for semidefinite matrices).
 fn is_semidefinite(s: &Matrix3<f64>) -> bool {
     let minor = |i: usize, j: usize| s[(i, i)] * s[(j, j)] - s[(i, j)] * s[(j, i)];
     let diagonal = (0..3).all(|i| s[(i, i)] >= 0.0);
@@ -185,7 +185,7 @@ mod tests {
     }
 
     proptest! {
-        /// Masses at random points make a body, whatever their number.
+        /// Masses at random points make a body, for any number of points.
         #[test]
         fn points_of_mass_are_a_body(points in prop::collection::vec((0.01..2.0f64, prop::array::uniform3(-1.0..1.0f64)), 1..9)) {
             let point = |(mass_kg, at): &(f64, [f64; 3])| RigidBody {

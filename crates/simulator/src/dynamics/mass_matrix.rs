@@ -73,7 +73,7 @@ impl DynamicsModel {
     }
 }
 
-/// Configurations that are looked at: the largest entry found is then within a percent or so of the largest there is.
+/// Number of configurations that are checked: the largest entry found is then within a percent or so of the largest there is.
 const CONFIGURATIONS: u32 = 4096;
 
 /// `count` configurations \[rad\] spread evenly over the limits, ±π for a continuous joint: [`halton`].

@@ -1,4 +1,4 @@
-//! The arm's bodies, joint by joint: what every algorithm here works on.
+//! The arm's bodies, joint by joint: the data of every algorithm here.
 //!
 //! Body i is everything that joint i moves and joint i + 1 does not, in the folded frame of joint i (z along its axis, origin
 //! on it). A body whose inertia about its own joint's axis is above zero moves only if kinetic energy does: by induction from
@@ -19,7 +19,7 @@ use platewash_workcell::tool::Tool;
 /// Standard gravity as rigid-body codes round it \[m/s²\].
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.81;
 
-/// Why an arm has no dynamics.
+/// Reason that an arm has no dynamics.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DynamicsError {
@@ -34,13 +34,13 @@ pub enum DynamicsError {
     Link {
         /// The link.
         link: String,
-        /// Why.
+        /// Reason that the mass properties are refused.
         cause: Unphysical,
     },
     /// A tool that cannot exist.
     #[error("tool: {cause}")]
     Tool {
-        /// Why.
+        /// Reason that the mass properties are refused.
         cause: Unphysical,
     },
     /// The arm has no link that carries the tool.
@@ -59,7 +59,7 @@ pub enum DynamicsError {
     /// Gravity that is not finite.
     #[error("gravity must be finite; found {found:?} m/s²")]
     Gravity {
-        /// What was found.
+        /// Gravity found.
         found: [f64; 3],
     },
 }
@@ -167,7 +167,7 @@ impl Body {
     }
 }
 
-/// Index of the body that a link belongs to, 0 for what joint 1 moves; `None` for the base.
+/// Index of the body that a link belongs to, 0 for links moved by joint 1; `None` for the base.
 fn behind_joint(link: &Link) -> Option<usize> {
     link.frame.body().checked_sub(1)
 }

@@ -12,7 +12,7 @@
 //! τ_f = (b + c / max(|q̇|, v₀)) q̇: the Coulomb torque c is constant above the speed v₀ and in proportion to it below, where
 //! a joint that should stick creeps at less than v₀.
 //!
-//! What the motors give at most.
+//! Torque limits of the motors.
 //!
 //! State of the joints.
 
@@ -29,9 +29,9 @@ pub struct Plant {
     pub model: DynamicsModel,
     /// Friction in the joints.
     pub friction: Friction,
-    /// What the motors give at most.
+    /// Torque limits of the motors.
     pub limits: TorqueLimits,
-    /// How the motion is integrated.
+    /// Integrator of the motion.
     pub integrator: Integrator,
 }
 
@@ -72,8 +72,8 @@ impl Plant {
         }
     }
 
-    /// As [`Self::step`], with plates that push a sponge: as they do at the start of the step (semi-implicit Euler), or at every state that
-    /// the step looks at (Runge–Kutta). Also what the foam feels at the start.
+    /// Steps as [`Self::step`], with plates that push a sponge: with their effect at the start of the step (semi-implicit Euler),
+    /// or at every state that the step evaluates (Runge–Kutta). Also returns the load on the foam at the start.
     #[must_use]
     pub fn step_on(
         &self,
@@ -184,7 +184,7 @@ impl Friction {
 pub struct TorqueLimits(pub [Option<f64>; AXES]);
 
 impl TorqueLimits {
-    /// Those of the settings, otherwise those of the arm's description.
+    /// Limits of the settings, otherwise those of the arm's description.
     #[must_use]
     pub fn new(settings: &PlantSettings, limits: &JointLimits) -> Self {
         Self(settings.torque_limit_n_m.map_or(limits.effort, |given| given.map(Some)))

@@ -5,12 +5,12 @@
 //! | strain | pressure |
 //! | --- | --- |
 //! | 0 to 0.6 | E ε: the elastic foundation of [`platewash_workcell::contact`], on which the certificate rests |
-//! | 0.6 to 1 | E (0.6 + 20 (ε − 0.6)): the foam bottoms out. That it is 20 times as stiff there is an assumption |
-//! | 1 to 2 | what is left of the energy is let go of smoothly: the holder would be in the plate, which nothing real is |
+//! | 0.6 to 1 | E (0.6 + 20 (ε − 0.6)): the foam bottoms out. The factor of 20 on the stiffness there is an assumption |
+//! | 1 to 2 | the rest of the energy fades smoothly: the holder would be in the plate, which no real one is |
 //!
 //! Pressure is the derivative of the energy everywhere, so that no motion gains any.
 //!
-//! What a sponge feels of a plate: force, moment and energy; and how much of a column is on the plate at its rim.
+//! Load on a sponge from a plate: force, moment and energy; and the share of a column that is on the plate at its rim.
 //!
 //! The longest step with which foam on a plate is integrated stably.
 //!
@@ -27,7 +27,7 @@ use platewash_workcell::simulation::{FoamContact, Integrator};
 /// Strain from which foam bottoms out; no plan that is proved goes beyond.
 pub const DENSE_STRAIN: f64 = 0.6;
 
-/// How many times as stiff it is there: an assumption.
+/// Factor by which it is stiffer there: an assumption.
 pub const DENSE_FACTOR: f64 = 20.0;
 
 /// Strain from which there is no foam any more.
@@ -45,7 +45,7 @@ pub struct Foam {
 }
 
 impl Foam {
-    /// That of settings, in a sponge of that free height \[m\].
+    /// Foam of the settings, in a sponge of that free height \[m\].
     #[must_use]
     pub fn new(settings: &FoamContact, free_height_m: f64) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl Foam {
         }
     }
 
-    /// Whether a column compressed so far \[m\] acts at all.
+    /// Checks that a column compressed so far \[m\] acts at all.
     #[inline]
     #[must_use]
     pub fn acts(&self, compression_m: f64) -> bool {
@@ -88,7 +88,7 @@ impl Foam {
         )
     }
 
-    /// Pressure with what the damping adds at a speed of compression \[m/s\]: the foam never pulls.
+    /// Pressure with the part that the damping adds at a speed of compression \[m/s\]: the foam never pulls.
     #[inline]
     #[must_use]
     pub fn damped(&self, compression_m: f64, pressure_pa: f64, speed_m_s: f64) -> f64 {
@@ -99,7 +99,7 @@ impl Foam {
     }
 }
 
-/// What the foam feels.
+/// Load on the foam.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Felt {
     /// Force along the tool's axis, of all plates together: Σ p dA \[N\].
@@ -154,7 +154,7 @@ pub fn longest_step_s(mass: &MassMatrix, slope: &ContactSlope, integrator: Integ
         return 0.0;
     };
     let scaled = inverse * slope.stiffness * inverse.transpose();
-    // The largest magnitude; a NaN stays one, and 0 is what it gives.
+    // The largest magnitude; a NaN stays one, and gives 0.
     let stiffest = scaled
         .symmetric_eigenvalues()
         .iter()

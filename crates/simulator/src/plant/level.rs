@@ -1,4 +1,4 @@
-//! A sponge on a flat face: what [`super::sponge`] sums over columns, without a column to be met one by one.
+//! A sponge on a flat face: the sums of [`super::sponge`] over columns, without a column to be met one by one.
 //!
 //! On a level face the compression is linear across the sponge: of a column at (x, y) on the unit disc, w = w₀ − s·(x, y), with
 //! w₀ = c − z/cos τ and s = r (u_z, v_z)/cos τ. As long as every column is compressed, within the limit of the foam, undamped and on the
@@ -41,7 +41,8 @@ impl LevelColumns {
         }
     }
 
-    /// How a flat face with a rim pushes, in its plate's frame: along z, and at the rim off it. The tool is not level: cos τ > 0.
+    /// Wrench of a flat face with a rim, in its plate's frame: the force is along z, and at the rim off it. The tool is not level:
+    /// cos τ > 0.
     pub fn pressed(
         &self,
         foam: &Foam,
@@ -70,20 +71,20 @@ impl LevelColumns {
         }
     }
 
-    /// Whether every column is compressed within the limit of the foam, and on the plate.
+    /// Checks that every column is compressed within the limit of the foam, and on the plate.
     fn is_whole(&self, foam: &Foam, face: &Face<'_>) -> bool {
         let (least_m, most_m) = (face.middle_m - face.steep_m, face.middle_m + face.steep_m);
         if least_m < 0.0 || most_m > DENSE_STRAIN * foam.free_height_m {
             return false;
         }
-        // A column stands no more than r from the tip as seen from above, and what it is longer leads aside by sin τ.
+        // A column stands no more than r from the tip as seen from above; the rest of its length leads aside by sin τ.
         let along_m = (self.compression_m - face.middle_m).abs() + face.steep_m;
         let reach_m = self.radius_m + along_m * face.pose.axis.xy().norm();
         let within_m = rim_within(face.rim_m, self.half_width_m) - reach_m;
         within_m >= 0.0 && face.pose.tip.xy().norm_squared() <= within_m * within_m
     }
 
-    /// In closed form.
+    /// Closed form of the sums.
     fn whole(&self, foam: &Foam, face: &Face<'_>) -> Wrench {
         let stiffness = foam.stiffness_pa / foam.free_height_m * self.area_m2;
         let (w, [s, t]) = (face.middle_m, face.slope);

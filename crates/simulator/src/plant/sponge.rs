@@ -1,12 +1,13 @@
 //! A sponge that plates push back.
 //!
-//! Of every column of the sponge's face ([`Columns`], turning with the tool) that a plate compresses by w, with a the tool's axis, n the
-//! normal and x the point where it meets the face, dA its cross-section and g the share of it that is on the plate,
+//! The sums are over every column of the sponge's face ([`Columns`], turning with the tool) that a plate compresses by w. With a
+//! the tool's axis, n the normal and x the point where the column meets the face, dA its cross-section and g the share of it that
+//! is on the plate,
 //!
 //! energy  g Ψ(w) dA,  force  g p(w) dA n/(−a·n) − Ψ(w) dA g′(ρ) (ρ̂ + n (ρ̂·a)/(−a·n)),
 //!
-//! the force at x: exactly what the energy loses with any motion of the tool ([`super::foam`] has Ψ and p). The second part is the rim's:
-//! g falls from 1 to 0 over the width of a column, and foam that bulges over the rim is pushed off it. Without friction.
+//! the force at x: exactly the loss of energy with any motion of the tool ([`super::foam`] has Ψ and p). The second part is the
+//! rim's: g falls from 1 to 0 over the width of a column, and foam that bulges over the rim is pushed off it. Without friction.
 //!
 //! The law is one of the sponge's face. Where the tool leans more than about 50° from a plate's axis its side would meet the plate; energy and
 //! force then fade, to nothing at about 65°, with the moment about the tip that goes with it. No plan comes there.
@@ -40,13 +41,13 @@ pub struct SpongeOnPlates {
     reach_m: f64,
 }
 
-/// A plate, with what does not change of it.
+/// A plate, with its constant data.
 #[derive(Debug, Clone)]
 struct Target {
     plate: Plate,
-    /// From the plate's frame to the base's.
+    /// Rotation from the plate's frame to the base's.
     turn: Matrix3<f64>,
-    /// Where its pole is, base frame \[m\].
+    /// Position of its pole, base frame \[m\].
     pole: Vector3<f64>,
     /// The tip touches it only where its distance from the plate's axis, squared, is below this \[m²\], ...
     far_squared: f64,
@@ -54,12 +55,12 @@ struct Target {
     heights_m: [f64; 2],
 }
 
-/// How plates push a sponge.
+/// Effect of plates on a sponge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Push {
     /// Torques at the joints \[N·m\].
     pub torque: JointVector,
-    /// What is felt: the sum of forces along the tool's axis, and where most.
+    /// Load on the foam: the sum of forces along the tool's axis, and the greatest compression.
     pub felt: Felt,
     /// Energy in the foam \[J\].
     pub energy_j: f64,
@@ -87,7 +88,7 @@ impl Target {
         }
     }
 
-    /// Whether a column might meet the plate: by the height and distance of the tip alone.
+    /// Checks that a column might meet the plate, by the height and distance of the tip alone.
     #[inline]
     fn may_touch(&self, at: &FrameMotion) -> bool {
         let away = at.pose.translation - self.pole;
@@ -136,7 +137,7 @@ impl SpongeOnPlates {
         &self.foam
     }
 
-    /// How all plates push at a state of the arm.
+    /// Effect of all plates at a state of the arm.
     #[must_use]
     pub fn push(&self, model: &DynamicsModel, state: &PlantState) -> Push {
         let at = model.frame_motion(&state.q, &self.tip);
@@ -154,7 +155,7 @@ impl SpongeOnPlates {
         push
     }
 
-    /// What the foam feels of one plate that lies higher by `higher_m` along its axis, at rest at `q` \[rad\].
+    /// Load on the foam from one plate that is raised by `higher_m` along its axis, at rest at `q` \[rad\].
     #[must_use]
     pub fn felt(&self, model: &DynamicsModel, q: &JointVector, plate: usize, higher_m: f64) -> Felt {
         let Some(target) = self.plates.get(plate) else {
@@ -234,7 +235,7 @@ impl SpongeOnPlates {
         }
     }
 
-    /// What a plate of any shape does to the columns, one by one, in its frame.
+    /// Effect of a plate of any shape on the columns, summed one by one, in its frame.
     fn summed(
         &self,
         plate: &Plate,
@@ -274,7 +275,7 @@ impl SpongeOnPlates {
     }
 }
 
-/// What is left of the law at a cosine between tool and plate's axis, and its slope by the cosine.
+/// Remaining share of the law at a cosine between tool and plate's axis, and its slope by the cosine.
 fn faded(cosine: f64) -> (f64, f64) {
     let [from, to] = FADES;
     let past = (from - cosine) / (from - to);
@@ -300,7 +301,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
-        /// On a flat face what is worked out at once is what columns that are met one by one sum to: on the face and over the rim,
+        /// On a flat face the closed form equals the sum over columns that are met one by one: on the face and over the rim,
         /// pressed in part, wholly and too hard, upright and leaning, damped and not.
         #[test]
         fn a_flat_face_is_summed_as_any_other(

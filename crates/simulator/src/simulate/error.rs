@@ -1,6 +1,6 @@
-//! Why a plan could not be simulated.
+//! Errors of a simulation.
 //!
-//! Whether settings make sense.
+//! Checks of its settings.
 
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
@@ -21,7 +21,7 @@ fn counted_a_sample(substeps: usize) -> String {
     format!("with {} a sample", counted(substeps, "step"))
 }
 
-/// Why a plan could not be simulated.
+/// Reason that a plan could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
@@ -62,9 +62,9 @@ pub enum SimulationError {
     Setting {
         /// The field of the settings.
         name: &'static str,
-        /// What it must be.
+        /// Range or kind of value required.
         expected: &'static str,
-        /// What it is.
+        /// Value found.
         found: f64,
     },
     /// Foam that shall push back, on no sponge.
@@ -77,7 +77,7 @@ pub enum SimulationError {
     Stiffness {
         /// Least and greatest of the sponge \[Pa\].
         range_pa: [f64; 2],
-        /// What is asked for \[Pa\].
+        /// Stiffness asked for \[Pa\].
         found_pa: f64,
     },
     /// Foam that is too stiff for the steps of integration.
@@ -124,16 +124,16 @@ pub enum SimulationError {
          the rate or the steps a sample, or lower the gains", .joint + 1
     )]
     Divergence {
-        /// When \[s\].
+        /// Time in the simulation \[s\].
         t_s: f64,
         /// Joint index, 0 for joint 1.
         joint: usize,
-        /// Where it is \[rad\].
+        /// Position of the joint \[rad\].
         position_rad: f64,
-        /// How fast it moves \[rad/s\].
+        /// Speed of the joint \[rad/s\].
         speed_rad_s: f64,
     },
-    /// The work was given up, as it was told to be.
+    /// The work was cancelled on request.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// Coverage could not be measured.
@@ -144,10 +144,10 @@ pub enum SimulationError {
 /// Stiffer, or damped more, is no foam \[Pa, Pa·s\].
 const STIFFEST_PA: f64 = 1e9;
 
-/// What a stiffness may be past the bounds of the sponge's range, as a part of them.
+/// Largest excess of a stiffness over the bounds of the sponge's range, as a part of them.
 const ROUNDING: f64 = 1e-12;
 
-/// Checks what the law does not check by itself; a plan file may state anything.
+/// Checks the settings that the law does not check by itself; a plan file may state any value.
 pub(crate) fn check(settings: &SimulationSettings, tool: &Tool) -> Result<(), SimulationError> {
     check_period(settings)?;
     check_plant(&settings.plant)?;
@@ -157,7 +157,7 @@ pub(crate) fn check(settings: &SimulationSettings, tool: &Tool) -> Result<(), Si
     }
 }
 
-/// Foam within what the sponge states, and no other force beside it.
+/// Checks that the foam is within the sponge's stated range, and that no other force is set.
 fn check_contact(plant: &PlantSettings, contact: &FoamContact, tool: &Tool) -> Result<(), SimulationError> {
     let refuse = |name, expected, found| Err(SimulationError::Setting { name, expected, found });
     if plant.contact_force_n > 0.0 {

@@ -11,23 +11,23 @@ use std::fmt;
 /// One sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// When \[s\].
+    /// Time of the sample \[s\].
     pub t_s: f64,
     /// Index of the plan's segment.
     pub segment: usize,
     /// Positions that the plan asks for \[rad\].
     pub commanded: JointVector,
-    /// Where the arm is.
+    /// State of the arm.
     pub state: PlantState,
     /// Acceleration over the step that follows \[rad/s²\].
     pub qdd: JointVector,
     /// Torques held until the next sample, within the limits \[N·m\]; zeros under a kinematic law.
     pub torque: JointVector,
-    /// What the sponge's foam feels; `None` where it is not simulated.
+    /// Load on the sponge's foam; `None` where it is not simulated.
     pub felt: Option<Felt>,
 }
 
-/// What the arm did.
+/// Motion that the arm made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Execution {
     /// Time between samples \[s\].
@@ -36,11 +36,11 @@ pub struct Execution {
     pub samples: Vec<Sample>,
     /// Torque limits of the plant; `None` under a kinematic law.
     pub limits: Option<TorqueLimits>,
-    /// Samples at which a torque limit cut what the law asked for.
+    /// Samples at which a torque limit cut the torque of the law.
     pub saturated: usize,
 }
 
-/// What stands in the header behind the plan's columns ([`csv::HEADER`]); [`csv::FORCE`] follows where force on the sponge was simulated.
+/// Columns in the header behind the plan's ([`csv::HEADER`]); [`csv::FORCE`] follows where force on the sponge was simulated.
 pub const HEADER: &str = csv::TORQUES;
 
 /// The executed motion at the samples nearest to multiples of `dt_s`, and the last one: the plan's columns, then the torque

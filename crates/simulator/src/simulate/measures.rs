@@ -15,12 +15,12 @@ use platewash_workcell::tool::Tool;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use serde::Serialize;
 
-/// What a joint's motor does.
+/// Effort of a joint's motor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct JointEffort {
     /// |τ| \[N·m\].
     pub torque_n_m: Spread,
-    /// Largest |τ| as a share of the limit; `None` where none is known.
+    /// Largest |τ| as a share of the limit; `None` without a known limit.
     pub share_of_limit: Option<f64>,
     /// Work done by the motor, braking apart: Σ max(τ Δq, 0) \[J\].
     pub work_j: f64,
@@ -30,19 +30,19 @@ pub struct JointEffort {
     pub power_w: f64,
 }
 
-/// What the motors do.
+/// Effort of all motors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
     /// Joint by joint.
     pub joints: [JointEffort; AXES],
-    /// Work of all motors, none of what braking takes up being used again \[J\].
+    /// Work of all motors; energy from braking is not reused \[J\].
     pub work_j: f64,
-    /// Share of the samples at which a torque limit cut what the law asked for.
+    /// Share of the samples at which a torque limit cut the torque of the law.
     pub saturated_share: f64,
 }
 
 impl Effort {
-    /// Of an execution; `None` under a kinematic law, which has no torques.
+    /// Effort in an execution; `None` under a kinematic law, which has no torques.
     #[must_use]
     pub(crate) fn of(execution: &Execution) -> Option<Self> {
         let limits = execution.limits?;
@@ -79,7 +79,7 @@ fn work(execution: &Execution, joint: usize) -> [f64; 2] {
     })
 }
 
-/// How large errors are.
+/// Size of errors.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Spread {
     /// Root mean square.
@@ -91,7 +91,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of magnitudes, in any order; zeros of none.
+    /// Spread of magnitudes, in any order; zeros for none.
     #[must_use]
     pub fn of(mut values: Vec<f64>) -> Self {
         if values.is_empty() {
@@ -119,7 +119,7 @@ pub struct Tracking {
 /// Errors over a segment of the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SegmentTracking {
-    /// What the segment is for.
+    /// Kind of the segment.
     pub kind: SegmentKind,
     /// The plate washed, or the plate it leads to.
     pub plate: usize,
@@ -173,13 +173,13 @@ pub(crate) fn by_segment(execution: &Execution, segments: &[PlanSegment], tip_er
 /// Rated payload of the ABB IRB 120 \[kg\] (ABB's data sheet).
 pub const IRB120_PAYLOAD_KG: f64 = 3.0;
 
-/// Whether the arm may carry its tool.
+/// Verdict on the weight of the tool for the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PayloadVerdict {
     /// The tool weighs no more than the rated payload.
     Within,
-    /// It weighs more.
+    /// The tool weighs more.
     Exceeded,
     /// No payload is known for this arm, and none is stated.
     Unknown,
@@ -192,7 +192,7 @@ pub struct PayloadCheck {
     pub tool_kg: f64,
     /// Rated payload \[kg\], where known.
     pub rated_kg: Option<f64>,
-    /// What follows.
+    /// Verdict.
     pub verdict: PayloadVerdict,
 }
 
@@ -216,7 +216,7 @@ impl PayloadCheck {
         }
     }
 
-    /// That the tool is too heavy, in words: `tool 5 kg, rated 3 kg`; `None` where it is not, or no payload is known.
+    /// Says in words that the tool is too heavy: `tool 5 kg, rated 3 kg`; `None` where it is not, or no payload is known.
     #[must_use]
     pub fn overload(&self) -> Option<String> {
         let rated_kg = self.rated_kg.filter(|_| self.verdict == PayloadVerdict::Exceeded)?;

@@ -1,4 +1,4 @@
-//! A plan under a control law: what the arm does, and what of the wash is left.
+//! A plan under a control law: the motion of the arm, and the resulting wash.
 //!
 //! [`simulate`] runs a plan sample by sample and gives an [`Execution`]; [`SimulationReport::new`] judges it. Both are pure:
 //! equal plans, arms and settings give equal bytes.

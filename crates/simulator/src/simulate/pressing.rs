@@ -1,4 +1,4 @@
-//! How the sponge pressed while it washed a plate: force, contact lost, and what was in contact.
+//! Pressing of the sponge while it washed a plate: force, contact lost, and area in contact.
 //!
 //! Forces are those along the tool's axis, Σ p dA, as in the certificate. Measurements at samples, not bounds.
 
@@ -40,7 +40,7 @@ pub struct ForceRange {
 /// The force that a planned wash has where the plate lies higher or lower.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ForceAtHeight {
-    /// How much higher along its axis \[m\].
+    /// Raise of the plate along its axis \[m\].
     pub higher_m: f64,
     /// The force there.
     #[serde(flatten)]
@@ -52,9 +52,9 @@ pub struct ForceAtHeight {
 pub struct ContactLost {
     /// Share of the wash's samples at which nothing touches.
     pub share: f64,
-    /// How long, all together \[s\].
+    /// Total time \[s\].
     pub time_s: f64,
-    /// When first \[s\].
+    /// Time of the first loss \[s\].
     pub first_t_s: f64,
 }
 
@@ -64,13 +64,13 @@ pub struct ContactLost {
 pub struct ExecutedContact {
     /// Compressed by the least compression.
     pub contact: f64,
-    /// In contact long enough.
+    /// Share in contact long enough.
     pub time: f64,
-    /// With enough of a dose.
+    /// Share with enough of a dose.
     pub dose: f64,
 }
 
-/// How the sponge pressed while it washed a plate.
+/// Pressing of the sponge while it washed a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pressing {
     /// The force.
@@ -78,17 +78,17 @@ pub struct Pressing {
     pub force: ForceRange,
     /// The greatest compression of the foam \[m\].
     pub deepest_m: f64,
-    /// That over the free height.
+    /// Strain: the greatest compression over the free height.
     pub strain: f64,
     /// Contact lost; `None` where it never was.
     pub lost: Option<ContactLost>,
     /// The force of the plan's own poses, with the plate at other heights: −2, −1, 0, 1 and 2 mm.
     pub planned: [ForceAtHeight; HEIGHT_ERRORS_M.len()],
-    /// What was in contact; `None` where the job asks for none.
+    /// Area in contact; `None` where the job asks for no contact.
     pub contact: Option<ExecutedContact>,
 }
 
-/// What a wash is judged with.
+/// Data that a wash is judged with.
 pub(crate) struct Judge<'a> {
     pub model: &'a DynamicsModel,
     pub sponge: &'a SpongeOnPlates,
@@ -100,7 +100,7 @@ pub(crate) struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Of the samples of a wash of a plate, by its index; `None` without samples, or without foam.
+    /// Pressing over the samples of a wash of a plate, by its index; `None` without samples, or without foam.
     pub fn pressing(&self, samples: &[Sample], index: usize, plate: &Plate) -> Option<Pressing> {
         let felt: Option<Vec<Felt>> = samples.iter().map(|sample| sample.felt).collect();
         let felt = felt.filter(|felt| !felt.is_empty())?;
@@ -181,7 +181,7 @@ impl Judge<'_> {
 }
 
 impl ForceRange {
-    /// Of equal times; zeros of none.
+    /// Range over samples of equal duration; zeros without samples.
     fn of(felt: &[Felt]) -> Self {
         if felt.is_empty() {
             return Self::default();

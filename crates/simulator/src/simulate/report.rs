@@ -15,7 +15,7 @@ use platewash_workcell::simulation::{ControlLawName, PlantSettings, SimulationSe
 use platewash_workcell::words::part_of;
 use serde::Serialize;
 
-/// Whether the wash survives its controller.
+/// Verdict on the wash as the controller executed it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SimulationVerdict {
@@ -31,9 +31,9 @@ pub enum SimulationVerdict {
     NotSwept,
     /// A raised plate of a dry run is not swept.
     NotFollowed,
-    /// The arm may not carry its tool, whatever is washed with it.
+    /// The arm may not carry its tool, even if the plates are washed with it.
     Overloaded,
-    /// The plan's hash does not match its contents: whatever was simulated is not the plan that was written.
+    /// The plan's hash does not match its contents: the simulated plan is not the one that was written.
     Altered,
 }
 
@@ -49,7 +49,7 @@ impl SimulationVerdict {
         }
     }
 
-    /// Whether the execution does all that the job requires.
+    /// Returns true where the execution fulfils all requirements of the job.
     #[must_use]
     pub fn is_done(self) -> bool {
         matches!(self, Self::Washed | Self::Swept | Self::DryRun)
@@ -71,12 +71,12 @@ impl SimulationVerdict {
     }
 }
 
-/// Whether a plan is as it was written.
+/// State of a plan's hash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Seal {
-    /// Its hash is that of its contents.
+    /// The hash is that of the contents.
     Whole,
-    /// It is not, or there is none.
+    /// The hash differs from that of the contents, or is missing.
     Broken,
 }
 
@@ -93,14 +93,14 @@ pub struct SimulationReport {
     pub scenario: String,
     /// Its seed.
     pub seed: u64,
-    /// That the plan is a dry run: its plates are raised, and nothing is washed.
+    /// Dry run, if the plan is one: its plates are raised, and nothing is washed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
     /// Name of the arm.
     pub robot: String,
     /// The law.
     pub law: ControlLawName,
-    /// Whether the wash survives, and the plan is the one that was written.
+    /// Verdict on the wash, and on the plan's hash.
     pub verdict: SimulationVerdict,
     /// The first line.
     pub headline: String,
@@ -120,7 +120,7 @@ pub struct SimulationReport {
     pub effort: Option<Effort>,
     /// The tool's mass against the arm's payload.
     pub payload: PayloadCheck,
-    /// What was assumed, as nothing is published or measured.
+    /// Assumptions, where nothing is published or measured.
     pub assumptions: Vec<String>,
 }
 
@@ -138,7 +138,7 @@ impl SimulationReport {
         Self::judge(plan, robot, settings, execution, Seal::of(plan))
     }
 
-    /// The report where it is known whether the plan is as it was written.
+    /// Report of a plan with the given state of its hash.
     pub(crate) fn judge(
         plan: &Plan,
         robot: &RobotModel,

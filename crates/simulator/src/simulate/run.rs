@@ -42,10 +42,10 @@ pub fn simulate(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) 
     simulate_with(plan, robot, settings, &CancelToken::new())
 }
 
-/// As [`simulate`], to be given up half-way when `token` says so.
+/// Simulates as [`simulate`], and stops half-way when `token` is cancelled.
 ///
 /// # Errors
-/// Those of [`simulate`], and [`SimulationError::Cancelled`].
+/// The errors of [`simulate`], and [`SimulationError::Cancelled`].
 pub fn simulate_with(
     plan: &Plan,
     robot: &RobotModel,
@@ -55,11 +55,11 @@ pub fn simulate_with(
     simulate_watched(plan, robot, settings, token, &mut |_| {})
 }
 
-/// As [`simulate_with`], and tells `watch` of each sample as soon as it is known, in time order and once. The run goes on when `watch`
-/// returns, which may take its time, and is the same whatever it does.
+/// Simulates as [`simulate_with`], and passes each sample to `watch` as soon as it is known, in time order and once. The run
+/// waits for `watch` to return, and its result does not depend on it.
 ///
 /// # Errors
-/// Those of [`simulate_with`]; samples before the fault have been told by then.
+/// The errors of [`simulate_with`]; samples before the fault have been sent by then.
 pub fn simulate_watched(
     plan: &Plan,
     robot: &RobotModel,
@@ -126,7 +126,7 @@ fn driving<'a>(
         .map_err(|error| error.with_rates_up_to(highest_rate(duration_s, substeps)))
 }
 
-/// What does not change from sample to sample.
+/// Data that do not change from sample to sample.
 struct Run<'a> {
     motion: &'a Trajectory,
     plant: Option<&'a Plant>,
@@ -138,14 +138,14 @@ struct Run<'a> {
     token: &'a CancelToken,
 }
 
-/// What the arm does under a command, over one sample.
+/// Result of a command over one sample.
 struct Outcome {
     state: PlantState,
     qdd: JointVector,
     torque: JointVector,
-    /// Whether a limit cut the torque.
+    /// True where a limit cut the torque.
     is_cut: bool,
-    /// What the foam feels at the sample.
+    /// Load on the foam at the sample.
     felt: Option<Felt>,
 }
 
@@ -212,7 +212,7 @@ impl Run<'_> {
         sample as f64 * self.period_s
     }
 
-    /// What the plan asks for; after its end, to stay there.
+    /// Commanded state of the plan; after its end, to stay there.
     fn asked(&self, sample: usize) -> JointState {
         let still = JointVector::zeros();
         self.motion.at(self.time(sample)).unwrap_or(JointState {
@@ -310,7 +310,8 @@ fn check_bounded(t_s: f64, state: &PlantState) -> Result<(), SimulationError> {
     }
 }
 
-/// What a sampling time may be past a segment's end and still belong to it, as a part of the sampling period: rounding.
+/// Largest excess of a sampling time over a segment's end that still counts as within it, as a part of the sampling period:
+/// rounding.
 const ROUNDING: f64 = 1e-6;
 
 /// The segment at ascending times.
@@ -463,10 +464,10 @@ pub(crate) fn standings(
     all
 }
 
-/// Whether the steps of integration are short enough for the foam.
+/// Checks that the steps of integration are short enough for the foam.
 ///
 /// # Errors
-/// [`SimulationError::StiffContact`], with what would do.
+/// [`SimulationError::StiffContact`], with settings that are short enough.
 pub(crate) fn check_steps(
     plant: &Plant,
     standings: &[Standing],

@@ -64,7 +64,7 @@ fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f)
 }
 
-/// Force, what was kept in contact, and the force at other heights, a table each.
+/// Writes the force, the contact kept, and the force at other heights, one table each.
 fn pressing(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     let pressed: Vec<_> = report
         .plates
@@ -115,7 +115,7 @@ fn forces(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result 
     writeln!(f)
 }
 
-/// Nothing where the job asks for no contact.
+/// Writes the contact; nothing where the job asks for no contact.
 fn contact(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
     let found: Vec<_> = pressed
         .iter()
@@ -220,10 +220,10 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "payload: {line}")
 }
 
-/// Significant digits of what a job states.
+/// Significant digits of stated values.
 const SHOWN_DIGITS: usize = 6;
 
-/// What a job states, as people read it.
+/// Rounds a stated value to the digits that are shown to people.
 pub(crate) fn shown(value: f64) -> f64 {
     rounded(value, SHOWN_DIGITS)
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 /// The outcome of a setting.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TuneOutcome {
-    /// Whether the wash survives.
+    /// Verdict on the wash.
     pub verdict: SimulationVerdict,
     /// Tip error over the whole execution, root mean square \[m\].
     pub tip_rms_m: f64,
@@ -34,7 +34,7 @@ pub struct TuneRow {
     pub frequency_rad_s: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
-    /// Its outcome, or why it was refused.
+    /// Its outcome, or the error with which it was refused.
     pub outcome: Result<TuneOutcome, SimulationError>,
 }
 

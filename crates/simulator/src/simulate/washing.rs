@@ -1,4 +1,4 @@
-//! What was washed: contact, coverage and verdict, plate by plate.
+//! Washing of the plates: contact, coverage and verdict, plate by plate.
 //!
 //! The planned and the executed motion are measured alike: the tip seen along the plate's axis at every sample of the plate's wash; a
 //! sponge tilted by τ counts as a disc of radius s cos τ, τ the largest tilt of that wash. The executed sponge sweeps only where it
@@ -27,21 +27,21 @@ use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 use std::fmt;
 
-/// As fine as the planner's own report: the proven error is about a tenth of a percent.
+/// Cell size, as in the planner's own report: the proven error is about a tenth of a percent.
 const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
 
 /// Points of a path nearer to the last one than this are left out \[m\]: on a circle of 10 mm the chord is off by 3 µm.
 const SPACING_M: f64 = 5e-4;
 
-/// Whether a plate is washed by what the arm did, or swept where the job requires no contact.
+/// Verdict on the washing of a plate by the executed motion, or on its sweeping where the job requires no contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlateVerdict {
     /// Enough of it is surely swept, and the tool never had to be in the plate.
     Washed,
-    /// The same where the job requires no contact.
+    /// Washed in this sense, where the job requires no contact.
     Swept,
-    /// The same of a plate that a dry run has raised: nothing is there, and nothing is washed.
+    /// Swept in this sense, on a plate that a dry run has raised: nothing is there, and nothing is washed.
     SweptInAir,
     /// Not washed.
     NotWashed,
@@ -60,7 +60,7 @@ impl PlateVerdict {
         }
     }
 
-    /// Whether the plate got what the job requires.
+    /// Returns true where the plate got the treatment that the job requires.
     #[must_use]
     pub fn is_done(self) -> bool {
         matches!(self, Self::Washed | Self::Swept | Self::SweptInAir)
@@ -79,14 +79,14 @@ impl PlateVerdict {
     }
 }
 
-/// What was washed of a plate.
+/// Result of a plate's wash.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlateOutcome {
     /// Index of the plate.
     pub plate: usize,
-    /// Whether it is washed.
+    /// Verdict on the plate.
     pub verdict: PlateVerdict,
-    /// Why not, or why less than planned.
+    /// Causes that it is not washed, or swept less than planned.
     pub causes: Vec<Cause>,
     /// Share swept by the planned motion.
     pub planned: Coverage,
@@ -98,7 +98,7 @@ pub struct PlateOutcome {
     pub in_contact: usize,
     /// Largest tilt of the tool from the plate's normal, executed \[rad\].
     pub tilt_rad: f64,
-    /// How the sponge pressed; `None` where force is not simulated.
+    /// Pressing of the sponge; `None` where force is not simulated.
     pub pressing: Option<Pressing>,
 }
 
@@ -335,7 +335,7 @@ fn sideways_m(plate: &Plate, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     plate.pose.inverse_transform_vector(&(to - from)).xy().norm()
 }
 
-/// Why less is swept than planned, or why a plate is not washed.
+/// Cause that less is swept than planned, or that a plate is not washed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "cause", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -348,7 +348,7 @@ pub enum Cause {
         share: f64,
         /// Height of the tip, at most \[m\].
         most_m: f64,
-        /// When \[s\].
+        /// Time of the sample \[s\].
         t_s: f64,
     },
     /// The arm sinks: the tip is deeper below the surface than the sponge is high, where in truth the plate would stop it.
@@ -357,23 +357,23 @@ pub enum Cause {
         share: f64,
         /// Depth of the tip, at most \[m\].
         most_m: f64,
-        /// When \[s\].
+        /// Time of the sample \[s\].
         t_s: f64,
     },
     /// The tip strays sideways from its path by more than a tenth of the sponge's radius.
     Strayed {
         /// Root mean square of the horizontal distance \[m\].
         rms_m: f64,
-        /// At most \[m\].
+        /// Largest horizontal distance \[m\].
         most_m: f64,
-        /// When \[s\].
+        /// Time of the sample \[s\].
         t_s: f64,
     },
     /// Less is surely swept than is required.
     NotSwept {
-        /// What is surely swept.
+        /// Share that is surely swept.
         at_least: f64,
-        /// What is required.
+        /// Share required.
         required: f64,
     },
 }

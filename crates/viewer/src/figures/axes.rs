@@ -2,17 +2,17 @@
 
 use super::svg::{Drawing, END, LINE, MIDDLE, PAPER, Rect, SMALL, Spot, WORDS, fill, stroke};
 
-/// From numbers to places along an axis.
+/// Scale from numbers to positions along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     /// Least and greatest number.
     pub numbers: [f64; 2],
-    /// Where they are \[px\].
+    /// Positions on the page \[px\].
     pub places: [f64; 2],
 }
 
 impl Scale {
-    /// Where a number is \[px\].
+    /// Position of a number \[px\].
     pub fn at(&self, number: f64) -> f64 {
         let ([low, high], [from, to]) = (self.numbers, self.places);
         from + (number - low) / (high - low) * (to - from)
@@ -57,7 +57,7 @@ pub fn round_above(least: f64) -> f64 {
         .unwrap_or(least)
 }
 
-/// Numbers of an axis as words, with as many decimals as tell them apart.
+/// Numbers of an axis as words, with enough decimals to distinguish them.
 pub fn words(ticks: &[f64]) -> Vec<String> {
     let gaps = ticks.windows(2).map(|two| two[1] - two[0]);
     let gap = gaps.fold(f64::INFINITY, f64::min);
@@ -105,12 +105,13 @@ impl Axes {
         }
     }
 
-    /// Where a pair of numbers is.
+    /// Position of a pair of numbers on the page.
     pub fn at(&self, across: f64, up: f64) -> Spot {
         [self.across.at(across), self.up.at(up)]
     }
 
-    /// The diagram with about so many numbers in either direction, their names where they have some, and what `draw` adds in the frame.
+    /// Draws the diagram with about so many numbers in either direction, their names where they have some, and the drawing of
+    /// `draw` in the frame.
     pub fn draw(
         &self,
         drawing: &mut Drawing,

@@ -1,4 +1,5 @@
-//! What of each plate is swept, or pressed where the job says what counts as contact, and for how long: as planned, and as executed.
+//! Swept area of each plate, or pressed area where the job states what counts as contact, with its dwell time: planned and
+//! executed.
 
 use super::axes::{round_above, words};
 use super::error::FigureError;
@@ -11,7 +12,7 @@ use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::PlanSegment;
 
-/// Most plates of one figure, where there is what is planned, and with what is executed.
+/// Greatest number of plates in one figure: with the planned motion alone, and with the executed one besides.
 const MOST: [usize; 2] = [24, 12];
 
 /// Most plates whose executed maps stand below the planned ones.
@@ -25,7 +26,7 @@ const STEPS: [&str; 8] = [
     "#e5f5f9", "#cdeae6", "#a3d9cf", "#74c2b4", "#48a999", "#278a80", "#0f6b66", "#014d4d",
 ];
 
-/// The colour of what is missed.
+/// Colour of missed places.
 const MISSED: &str = EXECUTED;
 
 /// A map: a plate as planned or as executed.
@@ -35,7 +36,7 @@ struct Map {
     plate: usize,
     is_executed: bool,
     counted: Option<Counted>,
-    /// For how long each cell counts \[s\]; none outside the rim.
+    /// Time for which each cell counts \[s\]; `None` outside the rim.
     dwell_s: Vec<Option<f64>>,
 }
 
@@ -77,7 +78,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     Ok(drawing)
 }
 
-/// What the colours say, and what is asked for.
+/// Caption: the meaning of the colours, and the requirements.
 fn caption(subject: &Subject<'_>, plates: usize) -> String {
     let job = &subject.plan.job;
     let sponge = format!("sponge, radius {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
@@ -168,7 +169,7 @@ impl Map {
         }
     }
 
-    /// What is known of the share that counts: in words, the share, and what is required.
+    /// Returns the known share that counts: in words, the share, and the share required.
     fn share(&self, subject: &Subject<'_>) -> Option<(&'static str, f64, f64)> {
         let asked = &subject.plan.job.requirements;
         let is_promised = self.counted.is_some_and(|counted| counted.is_promised);
@@ -184,7 +185,7 @@ impl Map {
             };
             return Some((words, proved, required));
         }
-        // What a simulation measures is what is swept; of what is pressed there is the map.
+        // A simulation measures the swept area; the pressed area is taken from the map.
         if self.counted.is_some() {
             let inside = self.dwell_s.iter().flatten();
             let reached = inside.clone().filter(|seconds| **seconds > 0.0).count();
@@ -210,7 +211,7 @@ fn colour(seconds: f64, step_s: f64) -> &'static str {
     }
 }
 
-/// What colours mean.
+/// Draws the key of the colours.
 fn key(drawing: &mut Drawing, room: Rect, step_s: f64, is_contact: bool) {
     let [never, what] = match is_contact {
         true => ["no contact", "time in contact [s]"],

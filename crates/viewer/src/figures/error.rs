@@ -2,7 +2,7 @@
 
 use platewash_workcell::trajectory::KnotError;
 
-/// Why a figure cannot be drawn.
+/// Reason that a figure cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
@@ -12,16 +12,16 @@ pub enum FigureError {
     /// Nothing moves.
     #[error("the plan has {knots} knots; a motion has at least 2")]
     NoMotion {
-        /// How many there are.
+        /// Number of knots.
         knots: usize,
     },
     /// The motion leads nowhere that could be drawn.
     #[error("at {t_s} s the tip is not at a finite place, or farther from the base than {FARTHEST_M} m")]
     Nowhere {
-        /// When \[s\].
+        /// Time \[s\].
         t_s: f64,
     },
-    /// A segment that names what there is not, or a time that is none.
+    /// A segment whose plate does not exist, or whose times are not valid.
     #[error(
         "segment {segment}: plate {plate} of {plates}, from {t_start_s} to {t_end_s} s, is no stretch of the motion"
     )]
@@ -30,7 +30,7 @@ pub enum FigureError {
         segment: usize,
         /// The plate that it names.
         plate: usize,
-        /// How many there are.
+        /// Number of plates.
         plates: usize,
         /// Its start \[s\].
         t_start_s: f64,

@@ -15,7 +15,8 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    /// As large as `count` fields with `under` pixels for words below each can be; in so many columns where that is asked for.
+    /// Fields as large as `count` of them with `under` pixels for words below each can be; in the given number of columns, if
+    /// any.
     pub(super) fn new(room: Rect, count: usize, columns: Option<usize>, under: f64) -> Self {
         let edge = |columns: usize| {
             let rows = count.div_ceil(columns) as f64;

@@ -1,4 +1,4 @@
-//! Joints and tip over time: positions, speeds and accelerations as shares of what is allowed.
+//! Joints and tip over time: positions, speeds and accelerations as shares of the limits.
 
 use super::axes::{Axes, ROOM};
 use super::page::{self, Entry, Sign, legend};
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// Moments that are drawn.
 const MOMENTS: usize = 1200;
 
-/// Height of the strip that says what the arm does \[px\].
+/// Height of the strip that names the segments of the motion \[px\].
 const STRIP: f64 = 26.0;
 
 /// Colours of the six joints.
@@ -51,9 +51,9 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
 struct Panel {
     name: &'static str,
     range: [f64; 2],
-    /// What must not be exceeded.
+    /// Limits that must not be exceeded.
     limits: Vec<f64>,
-    /// What is said of it at its upper edge.
+    /// Words at its upper edge.
     words: String,
     lines: Vec<(Vec<f64>, &'static str)>,
 }
@@ -127,8 +127,8 @@ fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
 }
 
 impl Panel {
-    /// A diagram of lines that must stay between two numbers: a range with both in it and all lines, but for what is much greater than
-    /// nearly all of them.
+    /// A diagram of lines that must stay between two numbers. Its range has both numbers and all lines in it, except values much
+    /// greater than nearly all of them.
     fn new(name: &'static str, lines: Vec<(Vec<f64>, &'static str)>, limits: [f64; 2]) -> Self {
         let mut numbers: Vec<f64> = lines.iter().flat_map(|(line, _)| line.iter().copied()).collect();
         numbers.sort_by(f64::total_cmp);
@@ -196,7 +196,7 @@ fn colour(kind: SegmentKind) -> &'static str {
     }
 }
 
-/// What the arm does over time, as a strip above the diagrams.
+/// Draws the segments of the motion over time, as a strip above the diagrams.
 fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
     let top = axes.frame.at[1] - STRIP - 5.0;
     for segment in &subject.plan.segments {

@@ -1,4 +1,4 @@
-//! The workcell from above: plates in their order, what is washed, the ways between (the paper's Fig. 2).
+//! The workcell from above: plates in their order, washed areas, the paths between (the paper's Fig. 2).
 
 use super::axes::fixed;
 use super::map::Map;
@@ -23,7 +23,7 @@ use platewash_workcell::trajectory::SegmentKind;
 /// Ways that are nearer to each other look like one \[m\].
 const APART_M: f64 = 1e-3;
 
-/// How far obstacles are shown beyond everything else \[m\].
+/// Width of the border beyond everything else in which obstacles are shown \[m\].
 const AROUND_M: f64 = 0.12;
 
 /// Sine of the angle to the vertical up to which a plate lies level.
@@ -32,7 +32,7 @@ const LEVEL: f64 = 1e-6;
 /// Height of a row of the table of plates, at most \[px\].
 const ROW: f64 = 32.0;
 
-/// The colour of the arm, and of what stands around.
+/// The colour of the arm, and of the bodies around it.
 const ARM: &str = "#f8c89f";
 const OBSTACLE: &str = "#d5d8df";
 
@@ -60,7 +60,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     drawing
 }
 
-/// How it is looked at: where the arm is not turned, from behind it.
+/// Caption on the view: from above, and from behind the arm if the arm is not turned.
 fn caption(subject: &Subject<'_>) -> String {
     let from = if subject.mount().rotation == UnitQuaternion::identity() {
         "Seen from above, from behind the arm: x leads away from it, y to its left."
@@ -89,7 +89,7 @@ fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
         let most = |k: usize| all.iter().map(|(at, r)| at[k] + r).fold(f64::NEG_INFINITY, f64::max);
         [[least(0), least(1)], [most(0), most(1)]]
     };
-    // Of what stands around, what is near to all that.
+    // Bodies around widen the view by a border at most.
     let [low, high] = bounds(&all);
     let near = |corner: [f64; 2]| [0, 1].map(|k| corner[k].clamp(low[k] - AROUND_M, high[k] + AROUND_M));
     let obstacles = outline::obstacles(&subject.plan.job.workcell);
@@ -97,7 +97,7 @@ fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
     bounds(&all)
 }
 
-/// The region of the plates, the circle about the base, what stands around, the plates and the arm at home.
+/// Draws the region of the plates, the circle about the base, the bodies around, the plates and the arm at home.
 fn ground(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     let (job, region) = (&subject.plan.job, &subject.region);
     if let Some(polygon) = &region.polygon_m {
@@ -199,7 +199,7 @@ fn numbers(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     }
 }
 
-/// The way that was followed, where it can be told from the planned one.
+/// Returns the executed path, where it differs visibly from the planned one.
 fn seen_apart<'s>(subject: &'s Subject<'_>) -> Option<(&'s Track, &'s SimulationReport)> {
     let both = subject.followed.as_ref().zip(subject.report);
     both.filter(|(_, report)| report.tracking.tip_m.max > APART_M)

@@ -6,7 +6,7 @@ use super::svg::{Drawing, Rect, Spot};
 /// White between the outermost thing and the frame \[m\].
 const WHITE_M: f64 = 0.05;
 
-/// Width of what stands beside a map \[px\].
+/// Width of the texts beside a map \[px\].
 const BESIDE: f64 = 430.0;
 
 /// A map of a part of the workcell.
@@ -32,22 +32,22 @@ impl Map {
         )
     }
 
-    /// Where a place is.
+    /// Position of a place on the page.
     pub fn spot(&self, [x, y]: [f64; 2]) -> Spot {
         self.0.at(y, x)
     }
 
-    /// Where places are.
+    /// Positions of places on the page.
     pub fn spots<'p>(&self, places: impl IntoIterator<Item = &'p [f64; 2]>) -> Vec<Spot> {
         places.into_iter().map(|place| self.spot(*place)).collect()
     }
 
-    /// How long a length is \[px\].
+    /// Length on the page \[px\] of a length in metres.
     pub fn pixels(&self, length_m: f64) -> f64 {
         (self.0.up.at(length_m) - self.0.up.at(0.0)).abs()
     }
 
-    /// The map with its numbers, and what `draw` adds.
+    /// Draws the map with its numbers, and the drawing of `draw`.
     pub fn draw(&self, drawing: &mut Drawing, draw: impl FnOnce(&mut Drawing)) {
         self.0.draw(drawing, [8, 7], [Some("y [m]"), Some("x [m]")], draw);
     }

@@ -5,12 +5,12 @@
 //! | concept | file |
 //! | --- | --- |
 //! | the figures by name | `names.rs` |
-//! | what they are drawn of | `subject.rs` |
+//! | their data | `subject.rs` |
 //! | from above, with paths and ways (the paper's Fig. 2) | `layout.rs` |
 //! | joints and tip over time | `joints.rs` |
 //! | ideal and executed path | `spiral.rs` |
-//! | what is swept, and for how long | `coverage.rs` |
-//! | where an arm washes plates | `region.rs` |
+//! | swept area and dwell time | `coverage.rs` |
+//! | region in which an arm washes plates | `region.rs` |
 //! | maps from above, outlines of bodies, fields of equal size | `map.rs`, `outline.rs`, `fields.rs` |
 //! | shapes and texts, diagrams, the sheet with its words and legends | `svg.rs`, `axes.rs`, `page.rs` |
 

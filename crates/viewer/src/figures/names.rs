@@ -6,11 +6,11 @@
 pub struct UnknownFigure {
     /// The name.
     found: String,
-    /// What shows it now, where it once was a figure.
+    /// Replacement of a figure that no longer exists.
     instead: String,
 }
 
-/// Names of figures that are gone, and what shows the same.
+/// Names of removed figures, with their replacements.
 const REMOVED: [(&str, &str); 7] = [
     ("cleaning", PAGE),
     ("transit", PAGE),
@@ -28,13 +28,13 @@ const PAGE: &str = "the page of `platewash view` shows the arm at every moment, 
 /// A figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Figure {
-    /// The workcell from above with what is washed, in which order, and the ways between.
+    /// The workcell from above with the washed areas, their order, and the paths between.
     Layout,
     /// Joints and tip over time.
     Joints,
-    /// What is swept of each plate.
+    /// Swept area of each plate.
     Coverage,
-    /// What the tip was to follow on each plate, and what it followed.
+    /// Commanded and executed path of the tip on each plate.
     Spiral,
 }
 

@@ -13,7 +13,7 @@ pub(super) type Outline = Vec<[f64; 2]>;
 /// Directions in which the farthest point of a body is a corner of its outline.
 const DIRECTIONS: u32 = 96;
 
-/// The links of an arm at `q` \[rad\]; of a description without looks, what can touch.
+/// The links of an arm at `q` \[rad\]; its collision shapes for a description without visual ones.
 pub(super) fn arm(arm: &RobotModel, mount: &Pose, q: &JointVector) -> Vec<Outline> {
     let (poses, mut all) = (arm.fk(q), Vec::new());
     for link in arm.links() {

@@ -1,4 +1,4 @@
-//! The sheet of a figure: its words, and what lines and colours mean. As large as a slide.
+//! The sheet of a figure: its words, and the key of its lines and colours. It has the size of a slide.
 
 use super::svg::{Drawing, END, GREY, INK, LINE, Rect, SMALL, Spot, WORDS, lines, stroke, width};
 use platewash_workcell::words::shortened;
@@ -12,13 +12,13 @@ const MARGIN: f64 = 50.0;
 /// The words around a figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Words {
-    /// What it shows.
+    /// Title of the figure.
     pub title: String,
     /// More of it, smaller.
     pub subtitle: String,
-    /// How it is to be read: one or two lines at the foot.
+    /// Caption that explains it: one or two lines at the foot.
     pub caption: String,
-    /// Where it comes from, at the foot on the right.
+    /// Source of the data, at the foot on the right.
     pub source: String,
 }
 
@@ -45,7 +45,7 @@ pub fn begin(words: &Words) -> (Drawing, Rect) {
     (drawing, Rect::new(MARGIN, top, right - MARGIN, foot - 18.0 - top))
 }
 
-/// What a look means.
+/// Entry of a legend: a sign with its meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
     sign: Sign,
@@ -53,7 +53,7 @@ pub struct Entry {
     words: String,
 }
 
-/// What stands before the words.
+/// Sign in front of the words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sign {
     Line,

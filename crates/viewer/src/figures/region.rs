@@ -8,13 +8,13 @@ use platewash_kinematics::trig::sin_cos;
 /// Corners of a sector's arc in a turn.
 const CORNERS: f64 = 144.0;
 
-/// The colour of what can be washed.
+/// The colour of washable squares.
 const WASHABLE: &str = "#74c2b4";
 
-/// What is drawn of a region: base frame.
+/// Region to draw: base frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionMap {
-    /// What the arm is called, and the plate's size, in words.
+    /// Name of the arm and size of the plate, in words.
     pub subtitle: String,
     /// Squares: middle \[m\], edge \[m\], whether the plate can be washed with its centre there.
     pub squares: Vec<([f64; 2], f64, bool)>,

@@ -1,4 +1,4 @@
-//! What the tip was to follow on each plate, and what it followed: both from above, plate by plate.
+//! Commanded and executed path of the tip on each plate: both from above, plate by plate.
 
 use super::axes::{Axes, ROOM};
 use super::error::FigureError;
@@ -17,14 +17,14 @@ const MOST: usize = 24;
 /// Most plates that have room for their errors below.
 const FEW: usize = 4;
 
-/// Cells along an edge of what is reached of a plate.
+/// Number of cells along an edge of the reached area of a plate.
 const CELLS: usize = 150;
 
 /// Room for words under a plate, and for its errors \[px\].
 const UNDER: f64 = 78.0;
 const ERRORS: f64 = 290.0;
 
-/// The colour of what is swept or pressed, and of what was to be followed.
+/// The colour of swept or pressed area, and of the commanded path.
 const BAND: &str = "#fbe3d3";
 const IDEAL: &str = "#e27fbb";
 
@@ -92,7 +92,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     ]
 }
 
-/// What the coloured part of a plate is.
+/// Describes the coloured part of a plate.
 fn reached(subject: &Subject<'_>) -> String {
     let job = &subject.plan.job;
     let sponge = format!("a sponge of {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
@@ -134,7 +134,7 @@ impl<'a> Panel<'a> {
     fn draw(&self, drawing: &mut Drawing, cell: Rect) {
         let job = &self.subject.plan.job;
         let (rim, sponge) = (self.plate.rim_m(), job.workcell.tool.sponge.radius_m);
-        // A sponge on the rim is in the frame; what goes farther is cut, and its distance stated.
+        // A sponge on the rim is in the frame; a path that goes farther is cut, and its distance stated.
         let half = 1.03 * (rim + sponge);
         let axes = Axes::new(cell, [-half, half], [-half, half]);
         let pixels = |length: f64| length * cell.size[0] / (2.0 * half);

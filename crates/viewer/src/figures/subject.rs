@@ -1,4 +1,4 @@
-//! What figures are drawn of: a plan with its arm, and what is known of them; words that figures share.
+//! Subject of figures: a plan with its arm, and the further data on them; words that figures share.
 
 use super::error::{FARTHEST_M, FigureError};
 use super::page::Words;
@@ -14,7 +14,7 @@ use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use platewash_workcell::words::quoted;
 
-/// Most samples of an execution that are looked at, and the time between two of them where there are not too many \[s\].
+/// Greatest number of samples of an execution that are read, and the time between two of them where there are fewer \[s\].
 const MOST_SAMPLES: f64 = 20_000.0;
 const STEP_S: f64 = 0.01;
 
@@ -24,7 +24,7 @@ const CHORD_M: f64 = 1e-4;
 /// Letters of a hash that are shown.
 const HASH: usize = 12;
 
-/// What the tip is to follow on a plate.
+/// Path that the tip is to follow on a plate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ideal {
     /// Index of the plate.
@@ -36,20 +36,20 @@ pub struct Ideal {
 /// The way of the tip, segment by segment.
 pub(super) type Track = Vec<Vec<Tip>>;
 
-/// A plan with its arm, and what is known of them. What is not known is not drawn.
+/// A plan with its arm, and the further data on them. Data that are not there are not drawn.
 #[derive(Debug, Clone)]
 pub struct Subject<'a> {
     /// The plan.
     pub plan: &'a Plan,
     /// Its arm.
     pub arm: &'a RobotModel,
-    /// What is proved of it.
+    /// Certificate of the plan.
     pub certificate: Option<&'a Certificate>,
-    /// Where plates were drawn.
+    /// Region in which plates were drawn at random.
     pub region: TaskRegion,
-    /// What the tip is to follow on each plate: by default the plan's wash paths.
+    /// Path that the tip is to follow on each plate: by default the plan's wash paths.
     pub ideal: Vec<Ideal>,
-    /// What an arm made of it, judged.
+    /// Report on the executed motion.
     pub(super) report: Option<&'a SimulationReport>,
     pub(super) motion: Trajectory,
     pub(super) planned: Track,
@@ -97,7 +97,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The same with what an arm made of it.
+    /// The same subject with the executed motion of an arm.
     ///
     /// # Errors
     /// [`FigureError::Nowhere`].
@@ -116,7 +116,7 @@ impl<'a> Subject<'a> {
         Ok(self)
     }
 
-    /// Whether it is a run of the paper's program.
+    /// Returns true where it is a run of the paper's program.
     pub(super) fn is_paper(&self) -> bool {
         self.plan.process == Process::Paper
     }
@@ -139,7 +139,7 @@ impl<'a> Subject<'a> {
         all.filter(|(_, segment)| segment.kind == SegmentKind::Wash)
     }
 
-    /// Whether there is a segment of a kind.
+    /// Checks for a segment of a kind.
     pub(super) fn has(&self, kind: SegmentKind) -> bool {
         self.plan.segments.iter().any(|segment| segment.kind == kind)
     }
@@ -156,7 +156,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// What the plan is: how many plates, how long, what is known of it.
+    /// Describes the plan: number of plates, duration, verdict.
     fn about(&self) -> String {
         let job = &self.plan.job;
         let dry_run = job.dry_run.as_ref();
@@ -221,7 +221,7 @@ fn wash_curves(plan: &Plan) -> Vec<Ideal> {
     ideal.collect()
 }
 
-/// Whether a curve has a length that can be gone along.
+/// Checks that a curve has a length that can be followed.
 fn can_be_drawn(curve: &WashCurve) -> bool {
     (LEAST_RADIUS_M..=LONGEST_M).contains(&curve.radius_m)
         && (LEAST_TURNS..=MOST_TURNS).contains(&curve.turns)

@@ -16,24 +16,24 @@ pub const LINE: &str = "#8c959f";
 pub const GROUND: &str = "#f6f8fa";
 /// White.
 pub const PAPER: &str = "#ffffff";
-/// The path on a plate, magenta as in the paper. Colours are told apart by those who do not see all of them, too (after Okabe and Ito).
+/// The path on a plate, magenta as in the paper. The colours also differ for readers with colour blindness (after Okabe and Ito).
 pub const WASH: &str = "#c2187f";
 /// The way between plates.
 pub const TRANSIT: &str = "#0072b2";
 /// Down to a plate and up from it.
 pub const LIFT: &str = "#56b4e9";
-/// What an arm made of it; what was not reached.
+/// Colour of the executed motion, and of places that were not reached.
 pub const EXECUTED: &str = "#d55e00";
-/// What is kept.
+/// Colour of requirements that are kept.
 pub const GOOD: &str = "#00795a";
-/// What is not kept, and limits.
+/// Colour of requirements that are not kept, and of limits.
 pub const BAD: &str = "#c0392b";
 
 /// Looks of texts: size, weight and colour.
 pub const WORDS: &str = "font-size=\"18\" fill=\"#1b1f24\"";
 pub const BOLD: &str = "font-size=\"18\" fill=\"#1b1f24\" font-weight=\"bold\"";
 pub const SMALL: &str = "font-size=\"16\" fill=\"#57606a\"";
-/// Which part of a text is at its place, where that is not its beginning.
+/// Anchor of a text that does not begin at its place.
 pub const MIDDLE: &str = "text-anchor=\"middle\"";
 pub const END: &str = "text-anchor=\"end\"";
 /// Dashes of a line.
@@ -140,7 +140,7 @@ impl Drawing {
         self.0 += &format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\" {look}/>\n", number(radius));
     }
 
-    /// What `draw` adds, seen within a rectangle alone.
+    /// Draws what `draw` adds, clipped to a rectangle.
     pub fn within(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
         let ([x, y], [width, height]) = (rect.at.map(number), rect.size.map(number));
         let attributes = rect.attributes();
@@ -149,7 +149,7 @@ impl Drawing {
         self.0 += "</svg>\n";
     }
 
-    /// What `draw` adds, as a group with attributes.
+    /// Draws what `draw` adds, as a group with attributes.
     pub fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
         self.0 += &format!("<g {attributes}>\n");
         draw(self);
@@ -212,13 +212,13 @@ fn thinned(line: &[Spot]) -> Vec<Spot> {
     places.filter_map(|(at, is_kept)| is_kept.then_some(*at)).collect()
 }
 
-/// A number to a tenth of a pixel; what is not finite is 0, as SVG knows no other.
+/// A number to a tenth of a pixel; numbers that are not finite become 0, as SVG has no others.
 fn number(value: f64) -> f64 {
     let tenths = (10.0 * value).round() / 10.0;
     if tenths.is_finite() { tenths + 0.0 } else { 0.0 }
 }
 
-/// A text as XML has it between tags and in attributes; what XML cannot say is left out.
+/// A text as XML has it between tags and in attributes; characters that XML cannot hold are left out.
 fn escaped(text: &str) -> String {
     let is_said = |c: &char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
     let said: String = text.chars().filter(is_said).collect();

@@ -1,4 +1,4 @@
-//! Tests of what could be wrong with a figure: texts that are cut or lie on each other, paths that are not the plan's, bytes that differ.
+//! Tests against faults of figures: texts that are cut or lie on each other, paths that are not the plan's, bytes that differ.
 
 use super::page::SIZE;
 use super::svg::{Rect, width};
@@ -14,7 +14,7 @@ use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::WashPath;
 use std::sync::LazyLock;
 
-/// A washing with all that is known of it.
+/// A washing with all data on it.
 struct Known {
     job: WashJob,
     plan: Plan,

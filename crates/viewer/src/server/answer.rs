@@ -1,9 +1,10 @@
-//! What is answered: the page, events, lines, and refusals.
+//! Answers: the page, events, lines, and refusals.
 
 use std::fmt::Write as _;
 use std::io::{Result, Write};
 
-/// What a page may do and load: what stands in it, pictures that it draws itself, and events from here; nobody frames it.
+/// Content security policy of the page: it may use its own text, pictures that it draws itself, and events from here; nobody
+/// frames it.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
      base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -13,25 +14,26 @@ pub const HTML: &str = "text/html; charset=utf-8";
 pub const EVENTS: &str = "text/event-stream; charset=utf-8";
 /// JSON Lines.
 pub const LINES: &str = "application/x-ndjson; charset=utf-8";
-/// Words: text, whatever is in them.
+/// Type of answers in plain text.
 const TEXT: &str = "text/plain; charset=utf-8";
 
-/// Why a request is refused.
+/// Reason that a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// It is no HTTP, or says something twice that can be said once.
+    /// The request is no HTTP, or repeats a header that may stand only once.
     Garbled,
-    /// It names a host that is not this server: a page elsewhere may have had its name changed to this machine's address.
+    /// The request names a host that is not this server: a page elsewhere may have had its name changed to this machine's
+    /// address.
     ForeignHost,
     /// A page of another origin asks.
     ForeignOrigin,
-    /// Nothing is here.
+    /// There is nothing at this path.
     NotFound,
     /// Neither GET nor HEAD.
     Method,
     /// Something else than POST, where questions are answered.
     QuestionMethod,
-    /// It carries contents.
+    /// The request carries contents.
     Contents,
     /// A question in another form than JSON.
     Form,
@@ -41,22 +43,22 @@ pub enum Refusal {
     LongQuestion,
     /// A question without the token of this server: its page was loaded from another one.
     ForeignToken,
-    /// It did not come in time.
+    /// The request did not come in time.
     Late,
-    /// Its first line or its headers are too long or too many.
+    /// The first line or the headers of the request are too long or too many.
     TooLong,
-    /// Another version of HTTP than 1.0 and 1.1.
+    /// The request has another version of HTTP than 1.0 and 1.1.
     Version,
-    /// As many follow the run as can.
+    /// The greatest number of pages follows the run already.
     Followed,
-    /// As many questions are worked on as can be.
+    /// The greatest number of questions is under work already.
     Busy,
-    /// As many clients are being answered as can.
+    /// The greatest number of clients is being answered already.
     Full,
 }
 
 impl Refusal {
-    /// Status, and what a person who sees it can do.
+    /// Status, and advice for a person who sees it.
     fn parts(self) -> (&'static str, &'static str) {
         const OPEN: &str = "403 Forbidden";
         const FULL: &str = "503 Service Unavailable";

@@ -15,25 +15,25 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{Builder, scope};
 use std::time::{Duration, Instant};
 
-/// How much of what a client goes on sending is read before its connection is closed \[bytes\], and for how long: closed at once, the
-/// system would tell the client of a reset in place of the answer.
+/// Amount of further data from a client that is read before its connection is closed \[bytes\], and the time for it. A connection
+/// that is closed at once makes the system send a reset in place of the answer.
 const LINGER_BYTES: usize = 64 << 10;
 const LINGER: Duration = Duration::from_millis(500);
 
-/// What all connections of a server share.
+/// State that all connections of a server share.
 #[derive(Debug)]
 pub struct Served {
-    /// What is served.
+    /// The site that is served.
     pub site: Site,
-    /// By which names.
+    /// Names of the server that requests may use.
     pub names: Names,
-    /// How much is worked on at a time.
+    /// Limit on simultaneous work.
     pub turns: Turns,
 }
 
 /// Reads a request and answers it.
 pub fn serve(stream: &TcpStream, served: &Served, place: &Place) {
-    // Whoever leaves before the end of the answer has no use for it.
+    // A client that leaves before the end of the answer does not need it.
     let head = request::read_head(Deadline::after(stream, SHORT));
     place.set_answered(true);
     let _ = match head {
@@ -78,7 +78,7 @@ fn answer(stream: &TcpStream, served: &Served, place: &Place, head: &[u8]) -> Re
     }
 }
 
-/// Closes a connection so that the answer arrives, whatever else the client goes on sending.
+/// Closes a connection so that the answer arrives, even if the client goes on sending.
 fn close(stream: &TcpStream) {
     if stream.shutdown(Shutdown::Write).is_err() {
         return;
@@ -154,7 +154,7 @@ impl Drop for Done<'_> {
 /// The lines of an answer. Each has its own deadline, and is on its way when it is written.
 struct Lines<'a> {
     stream: &'a TcpStream,
-    /// When the last one was written; `None` before the headers are.
+    /// Time at which the last one was written; `None` before the headers are.
     last: Mutex<Option<Instant>>,
     /// The client has left, or is too slow.
     gone: CancelToken,

@@ -13,7 +13,7 @@ const CONNECTIONS: usize = 64;
 /// Most questions that are being worked on at a time.
 const WORK: usize = 2;
 
-/// For how long a question waits for its turn.
+/// Longest time that a question waits for its turn.
 const TO_WAIT: Duration = Duration::from_secs(10);
 
 /// All connections, oldest first.
@@ -45,7 +45,8 @@ pub struct Place {
 }
 
 impl Connections {
-    /// A place for one more. Where there is none, the oldest one that is not being answered has to go; where all are, there is none.
+    /// Makes a place for one more connection. Where there is none, the oldest one that is not being answered is closed; where all
+    /// are being answered, it returns `None`.
     pub fn enter(self: &Arc<Self>, stream: &TcpStream) -> Option<Place> {
         let stream = stream.try_clone().ok()?;
         let mut open = self.lock();
@@ -54,7 +55,7 @@ impl Connections {
         }
         if open.streams.len() >= CONNECTIONS {
             let oldest = *open.streams.iter().find(|(_, connected)| !connected.is_answered)?.0;
-            // Its thread finds it closed and ends. One that is closed already needs nothing.
+            // The thread of the closed connection notices and ends. A connection that is closed already needs no action.
             let _ = open.streams.remove(&oldest)?.stream.shutdown(Shutdown::Both);
         }
         let number = open.next;

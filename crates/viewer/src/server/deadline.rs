@@ -4,16 +4,16 @@ use std::io::{ErrorKind, Read, Result, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// For how long a client may take to ask, to send its question, or to receive one line or event.
+/// Longest time for a client to ask, to send its question, or to receive one line or event.
 pub const SHORT: Duration = Duration::from_secs(5);
 
-/// For how long a client may take to receive the page.
+/// Longest time for a client to receive the page.
 pub const LONG: Duration = Duration::from_secs(60);
 
-/// Time to the next sign of life where there is nothing to tell.
+/// Time to the next sign of life where there is no event to send.
 pub const HEARTBEAT: Duration = Duration::from_secs(2);
 
-/// Time between two looks at whether whoever waits gives up, or is gone.
+/// Time between two checks that the waiting client gives up, or is gone.
 pub const LOOK: Duration = Duration::from_millis(50);
 
 /// A stream, to be used until a moment.

@@ -2,16 +2,16 @@
 
 use std::net::SocketAddr;
 
-/// Why nothing can be served.
+/// Reason that nothing can be served.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ServerError {
     /// The address is taken, is none of this machine, or may not be used.
     #[error("cannot listen on {address}")]
     Bind {
-        /// What was asked for.
+        /// Address asked for.
         address: SocketAddr,
-        /// What the system says.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// The system gives no thread.

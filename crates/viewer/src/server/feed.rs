@@ -8,16 +8,16 @@ use platewash_workcell::plan::Plan;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Least time between two samples that are told \[s\].
+/// Least time between two samples that are sent \[s\].
 const STEP_S: f64 = 0.02;
 
 /// Most rows of a live run that are kept.
 const ROWS: usize = 60_000;
 
-/// Time between two looks at whether whoever waits gives up.
+/// Time between two checks that the waiting caller gives up.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Takes the samples of a simulation as they are computed, holds it back to real time, and tells a live run of some of them.
+/// Takes the samples of a simulation as they are computed, slows it down to real time, and sends some of them to a live run.
 #[derive(Debug)]
 pub struct Feed<'a> {
     live: &'a Live,
@@ -25,16 +25,16 @@ pub struct Feed<'a> {
     token: &'a CancelToken,
     tip: Frame,
     step_s: f64,
-    /// When the simulation's clock was at 0 s.
+    /// Time at which the simulation's clock was at 0 s.
     start: Option<Instant>,
     told: usize,
-    /// The last sample, where it was not told.
+    /// The last sample, where it was not sent.
     left_out: Option<Sample>,
     late_s: f64,
 }
 
 impl<'a> Feed<'a> {
-    /// For the simulation of a plan on its arm; it begins with its first sample. `token` ends all waiting.
+    /// Feed for the simulation of a plan on its arm; it begins with its first sample. `token` ends all waiting.
     #[must_use]
     pub fn new(live: &'a Live, plan: &Plan, arm: &'a RobotModel, token: &'a CancelToken) -> Self {
         Self {
@@ -67,8 +67,8 @@ impl<'a> Feed<'a> {
         self.tell(sample);
     }
 
-    /// Tells the last sample, whenever it comes. How far the simulation was behind real time when it ended \[s\]: zero, but where it could
-    /// not keep up.
+    /// Sends the last sample. Returns the delay of the simulation behind real time at its end \[s\]: zero, unless it was too
+    /// slow.
     pub fn end(mut self) -> f64 {
         if let Some(sample) = self.left_out.take() {
             self.tell(&sample);
@@ -114,7 +114,7 @@ mod tests {
     use platewash_simulator::{SimulationReport, simulate};
     use platewash_workcell::fixtures::kitchen;
 
-    /// All that a run tells of samples, fed without waiting.
+    /// All rows that a run sends of samples, fed without waiting.
     fn rows(plan: &Plan, arm: &RobotModel, samples: &[Sample]) -> Vec<Row> {
         let (live, token) = (Live::new(""), CancelToken::new());
         token.cancel();

@@ -16,10 +16,10 @@ use std::time::{Duration, Instant};
 /// Rest after the system has given no connection, as where there are too many open files.
 const AFTER_A_FAULT: Duration = Duration::from_millis(50);
 
-/// For how long a client that is turned away may take to ask, so that it reads the answer before the connection is closed.
+/// Longest time for a client that is turned away to ask, so that it reads the answer before the connection is closed.
 const TO_BE_TURNED_AWAY: Duration = Duration::from_millis(10);
 
-/// For how long the end of the server waits for threads whose connections are closed.
+/// Longest time that the end of the server waits for threads whose connections are closed.
 const TO_END: Duration = Duration::from_secs(1);
 
 /// A port that is taken, on which nothing is answered yet: who connects waits.
@@ -51,7 +51,7 @@ impl Listener {
         Ok(Self { listener, address })
     }
 
-    /// What a browser on this machine opens.
+    /// Address that a browser on this machine opens.
     #[must_use]
     pub fn url(&self) -> String {
         url(self.address)
@@ -79,7 +79,7 @@ impl Listener {
 }
 
 impl Server {
-    /// What a browser on this machine opens.
+    /// Address that a browser on this machine opens.
     #[must_use]
     pub fn url(&self) -> String {
         url(self.address)
@@ -87,10 +87,11 @@ impl Server {
 }
 
 impl Drop for Server {
-    /// Closes the port and all connections, within seconds whatever clients do.
+    /// Closes the port and all connections, within seconds for any behaviour of the clients.
     fn drop(&mut self) {
         self.ends.store(true, Ordering::Relaxed);
-        // The thread waits for a connection; here is one. Where none can be made, it is busy with others and looks by itself.
+        // The thread waits for a connection; this is one. Where none can be made, the thread is busy with others and checks by
+        // itself.
         let woken = TcpStream::connect_timeout(&reachable(self.address), TO_END);
         let begin = Instant::now();
         if let Some(accepting) = self.accepting.take() {
@@ -116,7 +117,7 @@ fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<Served>, all: 
     }
 }
 
-/// Gives a connection a thread. One for which there is no place is told so, one for which there is no thread is closed.
+/// Gives a connection a thread. A connection without a place gets an answer that says so; one without a thread is closed.
 fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>) {
     let Some(place) = all.enter(&stream) else {
         return turn_away(stream);
@@ -132,7 +133,7 @@ fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>) {
 
 /// Tells a client that all places are taken.
 fn turn_away(mut stream: TcpStream) {
-    // The little that is said finds room in what the system holds for a new connection.
+    // The short answer fits into the system's buffer for a new connection.
     let _ = stream.set_read_timeout(Some(TO_BE_TURNED_AWAY));
     let _ = stream.read(&mut [0; 1 << 14]);
     let _ = stream.set_nonblocking(true);

@@ -1,4 +1,4 @@
-//! A live run as those who watch it share it: one tells, many follow, each from where it is, by server-sent events.
+//! A live run that several pages follow: one sender, many followers, each from its own position, by server-sent events.
 
 use super::answer::{self, Refusal};
 use super::deadline::{Deadline, HEARTBEAT, LOOK, SHORT};
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// A sample as the page takes it: t \[s\], six q \[rad\], six q̇ \[rad/s\], six torques \[N·m\], distance of the tip from the planned one \[m\].
 pub type Row = [f64; 20];
 
-/// Where the events of a live run are.
+/// Path of the events of a live run.
 pub const EVENTS: &str = "/events";
 
 /// Most pages that follow a run.
@@ -25,24 +25,24 @@ const ROWS_AN_EVENT: usize = 500;
 /// Time after which a page that has lost the connection comes again \[ms\].
 const RETRY_MS: u32 = 500;
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum LiveState {
-    /// It has not begun.
+    /// The run has not begun.
     Waiting,
-    /// It is under way.
+    /// The run is under way.
     Running,
-    /// It has ended.
+    /// The run has ended.
     Done,
 }
 
-/// What came of a run.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LiveEnd {
     /// The report's first line, or why there is none.
     pub headline: String,
-    /// Whether every plate is washed; `None` where that is not judged.
+    /// True where every plate is washed; `None` where that is not judged.
     pub washed: Option<bool>,
 }
 
@@ -67,8 +67,8 @@ struct Told {
 }
 
 impl Live {
-    /// A run that has not begun. `tag` tells runs apart, as a plan's hash does: a page of one is not told of another. Its letters and
-    /// digits count.
+    /// A run that has not begun. `tag` distinguishes runs, as a plan's hash does: a page of one run gets no events of another
+    /// one. Its letters and digits count.
     #[must_use]
     pub fn new(tag: &str) -> Arc<Self> {
         Arc::new(Self {
@@ -86,13 +86,13 @@ impl Live {
         })
     }
 
-    /// Where the page of this run finds its events.
+    /// Path at which the page of this run finds its events.
     #[must_use]
     pub fn events(&self) -> String {
         format!("{EVENTS}?run={}", self.tag)
     }
 
-    /// Whether the query of a request is that of this run.
+    /// Checks that the query of a request is the one of this run.
     pub(super) fn is_asked_for(&self, query: &str) -> bool {
         query.strip_prefix("run=") == Some(&self.tag)
     }
@@ -125,16 +125,16 @@ impl Live {
         self.wait(patience, token, |told| told.ever > 0)
     }
 
-    /// Once the run has ended, waits until all pages that follow know, for so long at most and no longer than `token` allows. One that has
-    /// lost its connection gets the time to come back. Where no page ever followed, there is nothing to wait for.
+    /// Once the run has ended, waits until all pages that follow have its end, at most for `patience` and as long as `token`
+    /// allows. A page that has lost its connection gets the time to come back. Without followers there is nothing to wait for.
     pub fn wait_until_told(&self, patience: Duration, token: &CancelToken) -> bool {
         self.wait(patience, token, |told| {
             told.ever == 0 || (told.followers == 0 && told.know_the_end > 0)
         })
     }
 
-    /// Sends the run as events, from behind the one of that id or from the beginning, to its end. Each event has its own deadline: a client
-    /// that is too slow for one is left, comes again, and is told what it missed.
+    /// Sends the run as events to its end, from behind the event with the given id or from the beginning. Each event has its own
+    /// deadline: a client that is too slow for one is dropped; when it connects again it gets the events that it missed.
     pub(super) fn send(&self, stream: &TcpStream, last_event_id: Option<&str>) -> Result<()> {
         let out = || Deadline::after(stream, SHORT);
         let Some(_follower) = self.enter() else {
@@ -158,7 +158,7 @@ impl Live {
             if is_closed {
                 return Ok(());
             }
-            // That it is done is told behind all samples.
+            // The end is sent after all samples.
             let is_due = known != Some(state) && (state != LiveState::Done || rows.is_empty());
             if is_due {
                 known = Some(state);
@@ -172,7 +172,7 @@ impl Live {
                 self.tell(|told| told.know_the_end += 1);
                 return Ok(());
             } else if !is_due {
-                // Whether the client is still there shows when it is written to.
+                // A write shows if the client is still there.
                 write(&mut out(), ":\n\n")?;
             }
         }

@@ -1,15 +1,15 @@
 //! A page on the loopback: one HTML file and, of a live run, its events.
 //!
 //! [`Listener::bind`] takes a port before any long work, [`Listener::serve`] answers on it until the [`Server`] is dropped. What it serves
-//! lives in memory; it reads no file, whatever is asked for. Where the page has questions, a [`Service`] answers them.
+//! lives in memory; it reads no file for any request. Where the page has questions, a [`Service`] answers them.
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | a request: its head, who may ask, and the question that may follow it | `request.rs` |
-//! | which addresses and origins requests may name; the token of the page | `names.rs`, `token.rs` |
-//! | who answers questions of the page | `service.rs` |
-//! | what is answered, and why a request is refused | `answer.rs` |
-//! | what is served; one connection from request to answer | `site.rs`, `connection.rs` |
+//! | a request: its head, the origins that may ask, and the question that may follow it | `request.rs` |
+//! | the addresses and origins that requests may name; the token of the page | `names.rs`, `token.rs` |
+//! | the service that answers questions of the page | `service.rs` |
+//! | answers, and the reasons that a request is refused | `answer.rs` |
+//! | the contents served; one connection from request to answer | `site.rs`, `connection.rs` |
 //! | a stream with a deadline | `deadline.rs` |
 //! | who is connected, who has to go for another, how much is worked on at a time | `connections.rs` |
 //! | the port, and the thread that accepts | `listener.rs` |

@@ -1,4 +1,4 @@
-//! Which addresses and origins requests may name.
+//! Addresses and origins that requests may name.
 //!
 //! A page of another site cannot read what this server answers, unless its own name is made to mean this machine once it is open (DNS
 //! rebinding). Its requests then still carry its name as Host. So a Host has to be an address, which nobody can give a new meaning,
@@ -16,12 +16,12 @@ pub struct Names {
 }
 
 impl Names {
-    /// Those of a server that listens there.
+    /// Names of a server that listens there.
     pub fn of(bound: SocketAddr) -> Self {
         Self { bound }
     }
 
-    /// Whether a Host header names this server.
+    /// Checks that a Host header names this server.
     pub fn is_host(&self, host: &str) -> bool {
         let Some((name, port)) = split(host) else {
             return false;
@@ -30,7 +30,7 @@ impl Names {
             && (name.eq_ignore_ascii_case("localhost") || address(name).is_some_and(|a| self.is_own(a)))
     }
 
-    /// Whether an Origin header names this server's page.
+    /// Checks that an Origin header names this server's page.
     pub fn is_origin(&self, origin: &str) -> bool {
         origin.strip_prefix("http://").is_some_and(|host| self.is_host(host))
     }

@@ -13,7 +13,7 @@ const HEAD_BYTES: usize = 16 << 10;
 /// Most headers of a request.
 const HEADERS: usize = 64;
 
-/// Bytes that are read at a time. Room is made for what comes, not for what is announced.
+/// Number of bytes that are read at a time. Memory is allocated for the bytes that come, not for an announced length.
 const CHUNK: usize = 4096;
 
 /// The header that carries the token. A page of another origin cannot send it without a preflight request, which is refused.
@@ -22,7 +22,7 @@ const TOKEN: &str = "x-platewash-token";
 /// A request that may be answered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
-    /// What it is to get.
+    /// Kind of answer that is asked for.
     pub wants: Wants,
     /// From `/` to `?`.
     pub path: String,
@@ -34,12 +34,12 @@ pub struct Request {
     pub head_bytes: usize,
 }
 
-/// What a request is to get.
+/// Kind of answer that a request asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wants {
-    /// What is here.
+    /// Headers and contents.
     Contents,
-    /// The headers of that alone.
+    /// The headers alone.
     Headers,
     /// The answer to a question, which follows.
     Answer(Question),
@@ -54,7 +54,8 @@ pub struct Question {
     pub length: usize,
 }
 
-/// Reads the head of a request, up to the first empty line, and what came with it; `None` where the client left without a word.
+/// Reads the head of a request, up to the first empty line, and the bytes that came with it; `None` where the client left without
+/// a word.
 pub fn read_head(mut source: impl Read) -> Result<Option<Vec<u8>>, Refusal> {
     let mut head = Vec::new();
     let mut chunk = [0; CHUNK];
@@ -64,7 +65,7 @@ pub fn read_head(mut source: impl Read) -> Result<Option<Vec<u8>>, Refusal> {
             Ok(0) if head.is_empty() => return Ok(None),
             Ok(0) => return Err(Refusal::Garbled),
             Ok(read) => {
-                // The empty line may have begun in what was read before.
+                // The empty line may have begun in the bytes read before.
                 let from = head.len().saturating_sub(3);
                 head.extend_from_slice(&chunk[..read]);
                 let bytes = &head[from..];
@@ -76,14 +77,14 @@ pub fn read_head(mut source: impl Read) -> Result<Option<Vec<u8>>, Refusal> {
                 }
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            // Browsers connect before they know what to ask: that nothing came needs no answer.
+            // Browsers connect before they have a request: an empty one needs no answer.
             Err(_) if head.is_empty() => return Ok(None),
             Err(_) => return Err(Refusal::Late),
         }
     }
 }
 
-/// Reads a question of `length` bytes, of which some may have come with the head. What stands behind it is left.
+/// Reads a question of `length` bytes, of which some may have come with the head. Bytes behind it are left.
 pub fn read_question(mut source: impl Read, with_head: &[u8], length: usize) -> Result<Vec<u8>, Refusal> {
     let mut body = with_head[..with_head.len().min(length)].to_vec();
     let mut chunk = [0; CHUNK];
@@ -166,13 +167,13 @@ impl<'a> Headers<'a> {
         }
     }
 
-    /// Whether a page of another site asks, as browsers say of their own accord.
+    /// Checks for a request from a page of another site, as browsers state of their own accord.
     fn are_of_a_foreign_page(&self) -> Result<bool, Refusal> {
         let site = self.one("sec-fetch-site")?;
         Ok(site.is_some_and(|site| !["same-origin", "none"].contains(&site)))
     }
 
-    /// Whether a link is followed: who follows it sees the page, and the other site does not.
+    /// Checks for a link that is followed: the person who follows it sees the page, and the other site does not.
     fn are_of_a_link(&self) -> Result<bool, Refusal> {
         Ok(self.one("sec-fetch-mode")? == Some("navigate") && self.one("sec-fetch-dest")? == Some("document"))
     }

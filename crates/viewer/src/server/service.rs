@@ -5,24 +5,25 @@ use std::fmt::Debug;
 
 /// Answers questions of the page.
 ///
-/// A question is a POST of JSON. It comes here when it is known to be the page's own, is no longer than it may be, and its turn has come.
+/// A question is a POST of JSON. It comes here once it is known to be the page's own and short enough, and its turn has come.
 pub trait Service: Debug + Send + Sync {
-    /// What is asked under this path, from `/` to `?`; `None` where no question is.
+    /// Returns the limits of the question under this path, from `/` to `?`; `None` where there is no question.
     fn knows(&self, path: &str) -> Option<Asked>;
 
-    /// Answers a question, each on its own thread; of those that are work as many at a time as there are turns. Each line goes to `tell`
-    /// when it is known: JSON without a line break, as an empty line says nothing. `tell` returns when the system has taken all of it. `gone`
-    /// is cancelled when the client has left, is too slow, or the server ends: then this is to return soon, as its turn lasts until it does.
+    /// Answers a question, each on its own thread; the number of questions of long work at a time is limited. Each line goes to
+    /// `tell` when it is known: JSON without a line break, as an empty line has no meaning. `tell` returns when the system has
+    /// taken all of it. `gone` is cancelled when the client has left, is too slow, or the server ends: then this must return
+    /// soon, as its turn lasts until it does.
     fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> Result<(), Gone>, gone: &CancelToken);
 
-    /// What the page sends with its questions, so that others cannot ask: see [`token`](super::token()).
+    /// Token that the page sends with its questions, so that others cannot ask: see [`token`](super::token()).
     fn token(&self) -> &str;
 }
 
-/// What is to be known of a question before it is read.
+/// Facts about a question that are known before it is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Asked {
-    /// Whether it is long work, of which there is only so much at a time.
+    /// True for long work, of which only a limited number runs at a time.
     pub is_work: bool,
     /// Longest question \[bytes\].
     pub most_bytes: usize,

@@ -1,4 +1,4 @@
-//! What is served.
+//! Contents that are served.
 
 use super::answer::Refusal;
 use super::live::{EVENTS, Live};
@@ -9,25 +9,25 @@ use std::error::Error;
 use std::fmt;
 use std::sync::Arc;
 
-/// Where the page is.
+/// Path of the page.
 const PAGE: &str = "/";
-/// What browsers ask for beside every page.
+/// Path that browsers ask for beside every page.
 const ICON: &str = "/favicon.ico";
 
-/// What is served.
+/// Contents that are served.
 #[derive(Debug)]
 pub struct Site {
     /// The page.
     pub page: Page,
-    /// The run whose events it shows; `None` where it shows what is done.
+    /// The run whose events it shows; `None` for a page of a finished result.
     pub live: Option<Arc<Live>>,
-    /// Who answers its questions; `None` where it has none, and nothing but reading is allowed.
+    /// Service that answers its questions; `None` where it has none, and nothing but reading is allowed.
     pub service: Option<Arc<dyn Service>>,
 }
 
 /// A page, as HTML.
 pub enum Page {
-    /// The same each time.
+    /// The same text each time.
     Fixed(String),
     /// Made anew each time; or why it cannot be, which is shown as text.
     Made(Box<MakePage>),
@@ -36,15 +36,15 @@ pub enum Page {
 /// Makes a page.
 pub type MakePage = dyn Fn() -> Result<String, Box<dyn Error + Send + Sync>> + Send + Sync;
 
-/// What a request gets.
+/// Answer to a request.
 pub enum Found<'a> {
     /// The page.
     Page(Cow<'a, str>),
-    /// Why there is no page.
+    /// Reason that there is no page.
     NoPage(String),
     /// Events as they come.
     Events(&'a Arc<Live>),
-    /// That there is nothing.
+    /// Empty answer.
     Nothing,
 }
 
@@ -56,7 +56,7 @@ impl Site {
         Self { page, live, service }
     }
 
-    /// What a request gets.
+    /// Finds the answer to a request.
     pub fn find(&self, request: &Request) -> Result<Found<'_>, Refusal> {
         match (request.path.as_str(), &self.live) {
             (PAGE, _) => Ok(self.page.found()),

@@ -1,4 +1,4 @@
-//! What a page shows to be of this server.
+//! Token with which a page proves that it is from this server.
 
 use super::error::ServerError;
 use rand::TryRng;
@@ -27,7 +27,7 @@ pub fn token() -> Result<String, ServerError> {
     Ok(digits)
 }
 
-/// Whether a token is the one that is expected, in a time that says nothing of where they differ. No token is like none.
+/// Compares a token with the expected one, in a time that does not depend on their differences. No token equals an empty one.
 pub fn is_token(token: &str, expected: &str) -> bool {
     let pairs = token.bytes().zip(expected.bytes());
     let differences = pairs.fold(0, |differences, (a, b)| black_box(differences | (a ^ b)));

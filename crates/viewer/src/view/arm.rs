@@ -1,4 +1,4 @@
-//! The arm: joints, links, what they look like and what counts for the proof.
+//! The arm: joints, links, their visual shapes, and the shapes that count for the proof.
 
 use super::body::{Body, Shape};
 use platewash_kinematics::{AXES, Frame, Link as ModelLink, Pose, RobotModel};
@@ -13,7 +13,7 @@ pub struct Arm {
     /// `T_world_base`.
     #[serde(serialize_with = "pose::serialize")]
     pub mount: Pose,
-    /// From the base to the tip.
+    /// The joints from the base to the tip.
     pub joints: Vec<Joint>,
     /// All links.
     pub links: Vec<Link>,
@@ -41,12 +41,12 @@ pub struct Joint {
 /// A link, fixed to the frame behind some joints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Link {
-    /// How many joints are between it and the base.
+    /// Number of joints between it and the base.
     pub joints: usize,
     /// `T_frame_link`.
     #[serde(serialize_with = "pose::serialize")]
     pub pose: Pose,
-    /// What it looks like, link frame; where nothing is known, the page shows the shapes that count for the proof.
+    /// Visual bodies, link frame; where none are known, the page shows the shapes that count for the proof.
     pub visuals: Vec<Body>,
     /// The shapes that count for the proof, link frame.
     pub collision: Vec<Body>,

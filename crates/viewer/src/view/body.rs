@@ -38,7 +38,7 @@ impl From<&VisualShape> for Shape {
 pub struct Body {
     /// Its shape.
     pub shape: Shape,
-    /// Where it is.
+    /// Pose of the body.
     #[serde(serialize_with = "pose::serialize")]
     pub pose: Pose,
     /// Red, green, blue and alpha, from 0 to 1, where they are stated.

@@ -1,4 +1,4 @@
-//! What is proved, in the words of the certificate.
+//! The proof, in the words of the certificate.
 
 use platewash_certificate::{self as proved, Status, Worst};
 use platewash_workcell::job::ContactRequirements;
@@ -8,30 +8,30 @@ use serde::Serialize;
 /// The proof.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certificate {
-    /// Whether every requirement is kept, and the hash is that of the contents.
+    /// True where every requirement is kept, and the hash is that of the contents.
     pub passes: bool,
     /// Its first line.
     pub headline: String,
-    /// Of the hash in the file.
+    /// State of the hash in the file.
     pub hash: Status,
     /// The requirements, in the certificate's order.
     pub checks: Vec<Check>,
-    /// What is proved of the contact with each plate; `None` where none is asked for.
+    /// Proof of the contact with each plate; `None` where the job requires no contact.
     pub contact: Option<Contact>,
-    /// What the verdict rests on, a line each.
+    /// Assumptions of the verdict, one line each.
     pub rests_on: Vec<String>,
 }
 
-/// What is asked of the contact with plates, and what is proved of it.
+/// Requirements on the contact with plates, and the proof of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contact {
-    /// What is asked.
+    /// Requirements.
     pub asked: ContactRequirements,
     /// In the order of washing.
     pub plates: Vec<proved::PlateContact>,
 }
 
-/// A requirement and what came of it.
+/// A requirement and its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
     /// The certificate's.
@@ -39,9 +39,9 @@ pub struct Check {
     pub check: proved::Check,
     /// The requirement in words.
     pub words: String,
-    /// Bound, limit, what was found, and what does not agree; empty where there is nothing to add.
+    /// Bound, limit, value found, and discrepancies; empty where there is nothing to add.
     pub detail: String,
-    /// Where it is worst: pair, joint, segment and plate in words; empty where nothing is said.
+    /// Worst place: pair, joint, segment and plate in words; empty where none is known.
     pub place: String,
 }
 

@@ -10,7 +10,7 @@ use platewash_workcell::trajectory::Trajectory;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Moments that are looked at, besides the boundaries of segments and the proof's worst one.
+/// Number of moments that are sampled, besides the boundaries of segments and the proof's worst one.
 const MOMENTS: usize = 400;
 
 /// Time between two moments at least \[s\].
@@ -19,7 +19,7 @@ const LEAST_STEP_S: f64 = 0.02;
 /// The smallest distance over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Clearance {
-    /// What is required \[m\].
+    /// Clearance required \[m\].
     pub margin_m: f64,
     /// \[n\] \[s\].
     pub t_s: Numbers,
@@ -34,7 +34,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Along a plan, by the rule of its certificate. `None` where no pair counts or the job is none that distances can be told of.
+    /// Clearance along a plan, by the rule of its certificate. `None` where no pair counts or the job has no distances.
     pub(super) fn new(
         plan: &Plan,
         robot: &RobotModel,

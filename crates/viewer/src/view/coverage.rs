@@ -1,9 +1,9 @@
-//! How plates get swept, or pressed: sampled to look at, not the proof.
+//! Swept or pressed area of the plates: sampled for display, not the proof.
 //!
-//! Where a job says what counts as contact, and on every profile, a place counts as long as the foam presses it (`pressed.rs`). On a
-//! disc without such a job, a sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at that moment:
-//! tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as the sponge touches
-//! ([`platewash_workcell::tool::Tool::touch`]).
+//! Where a job states what counts as contact, and on every profile, a place counts as long as the foam presses it (`pressed.rs`).
+//! On a disc without such a job, a sponge counts as a disc about its tip, seen along the plate's axis, of the radius s cos τ at
+//! that moment: tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as
+//! the sponge touches ([`platewash_workcell::tool::Tool::touch`]).
 
 use super::pressed::Counted;
 use super::raster::{Disc, Marks, Raster};
@@ -24,24 +24,24 @@ const EDGE: [usize; 2] = [24, 88];
 /// Longest stroke that is made of several moments \[m\].
 const STROKE_M: f64 = 4e-3;
 
-/// How a plate gets swept.
+/// Swept area of a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,
     /// Half of the square's edge: the rim's radius \[m\].
     pub half_m: f64,
-    /// What counts; `None` where the sponge has but to be over a place.
+    /// Contact that counts; `None` where the sponge only has to be over a place.
     pub counted: Option<Counted>,
-    /// When and for how long.
+    /// Times at which each place counts, and for how long.
     #[serde(flatten)]
     pub marks: Marks,
-    /// The least share of what counts that the certificate proves; `None` without one.
+    /// The least share of the counted area that the certificate proves; `None` without one.
     pub proved: Option<f64>,
 }
 
 impl PlateCoverage {
-    /// The least share of what counts that a certificate proves; `None` where it says nothing of the plate.
+    /// The least share of the counted area that a certificate proves; `None` where it has no entry for the plate.
     #[must_use]
     pub fn proved_by(&self, certificate: &proved::Certificate) -> Option<f64> {
         proved_share(certificate, self.plate, self.counted)
@@ -95,7 +95,7 @@ pub(crate) fn proved_share(certificate: &proved::Certificate, plate: usize, coun
     of.map(|swept| swept.at_least)
 }
 
-/// What of a plate counts on some ways of the sponge's tip.
+/// Computes the counted area of a plate on some paths of the sponge's tip.
 pub(crate) fn swept(
     plate: &Plate,
     tool: &Tool,
@@ -145,7 +145,7 @@ pub(crate) fn swept(
     raster
 }
 
-/// Whether the way between two moments is longer than a stroke that is taken for straight.
+/// Checks that the path between two moments is too long for one straight stroke.
 fn is_long(from: &Disc, to: &Disc) -> bool {
     let [x, y] = [to.at[0] - from.at[0], to.at[1] - from.at[1]];
     x * x + y * y > STROKE_M * STROKE_M

@@ -3,7 +3,7 @@
 use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
 
-/// Why there is nothing to show.
+/// Reason that there is nothing to show.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -25,7 +25,7 @@ pub enum ViewError {
         end_s: f64,
         /// The plan's \[s\].
         plan_s: f64,
-        /// By how much it may be later \[s\].
+        /// Largest delay allowed \[s\].
         slack_s: f64,
     },
 }

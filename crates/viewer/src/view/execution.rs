@@ -1,4 +1,4 @@
-//! What an arm did with a plan, however that is known: simulated, followed without a plant, recorded, or still to come.
+//! Execution of a plan by an arm: simulated, followed without a plant, recorded, or still to come.
 
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
@@ -22,10 +22,10 @@ const MOST_SAMPLES: [usize; 2] = [1500, 250];
 /// Time between two moments of a wash at least \[s\].
 const WASH_STEP_S: f64 = 4e-3;
 
-/// How much later than the plan a motion may end \[s\].
+/// Largest delay of the end of a motion after the plan's end \[s\].
 const SLACK_S: f64 = 1.0;
 
-/// Where an execution comes from.
+/// Source of an execution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
@@ -37,23 +37,23 @@ pub enum Source {
     Live,
 }
 
-/// What is known of an execution beside its samples.
+/// Facts about an execution besides its samples.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Told {
-    /// Where it comes from.
+    /// Source of the execution.
     pub source: Source,
     /// The control law, where it is known.
     pub law: Option<ControlLawName>,
     /// First line of its report, where there is one.
     pub headline: Option<String>,
-    /// Whether every plate is washed, where that is judged.
+    /// True where every plate is washed; `None` where that is not judged.
     pub washed: Option<bool>,
     /// Six limits \[N·m\]; `None` where not all are known.
     pub torque_limit_n_m: Option<[f64; 6]>,
 }
 
 impl Told {
-    /// Of an execution of which nothing is known but where it comes from.
+    /// Facts about an execution of which only the source is known.
     fn new(source: Source, law: Option<ControlLawName>) -> Self {
         Self {
             source,
@@ -65,7 +65,7 @@ impl Told {
     }
 }
 
-/// What an arm did, sample by sample.
+/// Executed motion, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Executed {
     told: Told,
@@ -87,7 +87,7 @@ impl Executed {
         });
         let told = Told {
             headline: Some(report.headline.clone()),
-            // Nothing is asked of a dry run that could be washed.
+            // A dry run has no requirements on washing.
             washed: report.dry_run.is_none().then_some(report.verdict.is_done()),
             torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
             ..Told::new(Source::Simulated, Some(report.law))
@@ -117,7 +117,7 @@ impl Executed {
         Self { told, samples }
     }
 
-    /// A recorded motion: nothing but its samples is known.
+    /// A recorded motion: only its samples are known.
     #[must_use]
     pub fn recorded(motion: &RecordedMotion) -> Self {
         Self {
@@ -144,10 +144,10 @@ fn all(limits: [Option<f64>; 6]) -> Option<[f64; 6]> {
     known.and_then(|known| known.try_into().ok())
 }
 
-/// What an arm did, as it is shown.
+/// Executed motion, as it is shown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Execution {
-    /// What is known of it.
+    /// Facts about it.
     #[serde(flatten)]
     pub told: Told,
     /// \[n\] \[s\].
@@ -162,7 +162,7 @@ pub struct Execution {
     pub torque_n_m: Option<Numbers>,
     /// \[n\]: distance of the tip from where the plan has it at that time \[m\].
     pub error_m: Numbers,
-    /// What was swept.
+    /// Swept area.
     pub coverage: Vec<PlateCoverage>,
 }
 

@@ -1,11 +1,11 @@
-//! What a page is about.
+//! Heading of a page.
 
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Treatment, WashJob};
 use platewash_workcell::plan::{Plan, Process};
 use serde::Serialize;
 
-/// What a page is about.
+/// Heading of a page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Heading {
     /// Name of the scenario; the arm's for one configuration.
@@ -14,11 +14,11 @@ pub struct Heading {
     pub seed: u64,
     /// SHA-256 that the plan states; `None` where there is no plan.
     pub hash: Option<String>,
-    /// What kind of motion it is, or will be; `None` for one configuration.
+    /// Process of the motion, planned or to come; `None` for one configuration.
     pub process: Option<Process>,
-    /// What must be read first of a dry run: of which plan it is one, and that nothing is washed; `None` for everything else.
+    /// Notice on a dry run, to be read first: the plan that it repeats, and that nothing is washed; `None` for everything else.
     pub dry_run: Option<String>,
-    /// What the job does to its plates.
+    /// Treatment of the plates by the job.
     pub treatment: Treatment,
     /// Name of the arm.
     pub robot: String,

@@ -1,18 +1,18 @@
-//! What a page shows: the document `platewash-view/2`. `page/src/view.ts` states the same for those who read it.
+//! Contents of a page: the document `platewash-view/2`. `page/src/view.ts` states the same for its readers.
 //!
-//! Units are SI and radians. What is drawn is in the world frame unless it says otherwise. Nothing in a document is a proof but what it
-//! repeats of the certificate: distances and swept areas over time are sampled to look at.
+//! Units are SI and radians. Data are in the world frame unless stated otherwise. Only the parts of a document that repeat the
+//! certificate are proved: distances and swept areas over time are sampled for display.
 //!
 //! | concept | file |
 //! | --- | --- |
 //! | arrays as text | `numbers.rs` |
 //! | shapes of links | `body.rs` |
-//! | what the page is about; what is proved | `heading.rs`, `certificate.rs` |
+//! | heading of the page; proof | `heading.rs`, `certificate.rs` |
 //! | arm; plates and paths | `arm.rs`; `plates.rs` |
 //! | the tip along the planned motion | `tips.rs` |
 //! | smallest distance over time | `clearance.rs` |
 //! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
-//! | what an arm did: as it is known, as it is shown | `execution.rs` |
+//! | executed motion: its data, its display | `execution.rs` |
 //!
 //! Tool, obstacles, plates, segments and checks are as plan files and certificates state them.
 
@@ -57,49 +57,49 @@ use tips::Tips;
 /// The format of the document.
 pub const FORMAT: &str = "platewash-view/2";
 
-/// What a page shows.
+/// Contents of a page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
     /// [`FORMAT`].
     pub format: &'static str,
     /// Version of the program that wrote it.
     pub version: &'static str,
-    /// What it is about.
+    /// Heading of the page.
     pub heading: Heading,
     /// The proof; `None` where nothing was proved.
     pub certificate: Option<Certificate>,
     /// The arm.
     pub arm: Arm,
-    /// What it holds.
+    /// Tool that it holds.
     pub tool: Option<Tool>,
-    /// What stands around it.
+    /// Bodies around it.
     pub surroundings: Surroundings,
     /// The plates, by their index.
     pub plates: Vec<Plate>,
-    /// What the tip follows, in the order of washing.
+    /// Paths that the tip follows, in the order of washing.
     pub paths: Vec<WashPath>,
     /// The stretches of the motion.
     pub segments: Vec<PlanSegment>,
     /// The planned motion; `None` for one configuration.
     pub motion: Option<Motion>,
-    /// What the arm shows where there is no motion \[rad\].
+    /// Configuration that the arm shows where there is no motion \[rad\].
     pub pose_rad: [f64; 6],
     /// The smallest distance over time; `None` where there is nothing to keep clear of.
     pub clearance: Option<Clearance>,
-    /// How the planned motion sweeps the plates.
+    /// Coverage of the plates by the planned motion.
     pub coverage: Vec<PlateCoverage>,
-    /// What an arm did.
+    /// Executed motion.
     pub execution: Option<Execution>,
     /// Address of a live run's events, beside that of the page.
     pub live: Option<String>,
 }
 
-/// What stands around an arm, and where plates may lie.
+/// Bodies around an arm, and the region in which plates may lie.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Surroundings {
     /// World frame.
     pub obstacles: Vec<Obstacle>,
-    /// Where the centres of plates are drawn.
+    /// Region in which the centres of plates are drawn at random.
     #[serde(flatten)]
     pub region: TaskRegion,
 }
@@ -126,16 +126,16 @@ impl From<&Trajectory> for Motion {
     }
 }
 
-/// What is shown beside a plan.
+/// Data shown beside a plan.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Beside<'a> {
     /// Its proof.
     pub certificate: Option<&'a proved::Certificate>,
-    /// What an arm did with it.
+    /// Executed motion of the plan.
     pub executed: Option<&'a Executed>,
-    /// Where its scenario draws plates.
+    /// Region in which its scenario draws plates at random.
     pub region: Option<&'a TaskRegion>,
-    /// Where the events of a live run come from.
+    /// Path of the events of a live run.
     pub events: Option<&'a str>,
 }
 
@@ -177,7 +177,7 @@ impl View {
         }
     }
 
-    /// The arm of a job in a configuration \[rad\], among the plates and whatever stands around.
+    /// The arm of a job in a configuration \[rad\], among the plates and the bodies around.
     fn of_terms(terms: &JobTerms, robot: &RobotModel, region: &TaskRegion, q: &JointVector) -> Self {
         let workcell = &terms.workcell;
         let flange = workcell.tool.mounting_frame(robot);

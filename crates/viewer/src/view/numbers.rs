@@ -25,18 +25,18 @@ pub enum Data {
     F32(String),
     /// Whole numbers of 16 bits without sign.
     U16(String),
-    /// Of 8 bits.
+    /// Unsigned numbers of 8 bits.
     U8(String),
 }
 
 impl Numbers {
-    /// In double precision.
+    /// Numbers in double precision.
     #[must_use]
     pub fn f64(shape: impl Into<Vec<usize>>, values: impl Iterator<Item = f64>) -> Self {
         Self::new(shape, Data::F64(base64(values.flat_map(f64::to_le_bytes))))
     }
 
-    /// In single precision.
+    /// Numbers in single precision.
     #[must_use]
     pub fn f32(shape: impl Into<Vec<usize>>, values: impl Iterator<Item = f32>) -> Self {
         Self::new(shape, Data::F32(base64(values.flat_map(f32::to_le_bytes))))

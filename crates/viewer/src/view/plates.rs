@@ -1,4 +1,4 @@
-//! Plates, and what the tip follows on them.
+//! Plates, and the paths that the tip follows on them.
 
 use super::numbers::Numbers;
 use super::tips::{Tips, washes};
@@ -8,7 +8,7 @@ use platewash_workcell::plate;
 use platewash_workcell::wash_path::{self, WashCurve};
 use serde::Serialize;
 
-/// How far a chord of a wash path may be from it \[m\].
+/// Largest deviation of a chord from a wash path \[m\].
 const CHORD_M: f64 = 5e-5;
 
 /// Turns of a spiral that are drawn at most.
@@ -17,7 +17,7 @@ const MOST_TURNS: f64 = 1000.0;
 /// Radius of a spiral that is drawn at most, as a multiple of the plate's.
 const MOST_RIMS: f64 = 10.0;
 
-/// How far a face turns between two points of its meridian, at most \[rad\].
+/// Largest turn of a face between two points of its meridian \[rad\].
 const TURN_RAD: f64 = 0.06;
 
 /// A plate.
@@ -32,7 +32,7 @@ pub struct Plate {
     pub plate: plate::Plate,
 }
 
-/// What the tip follows on a plate.
+/// Path that the tip follows on a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WashPath {
     /// Index of the plate.
@@ -53,7 +53,7 @@ impl Plate {
     }
 }
 
-/// The wash paths that a plan states, in the order of washing; where it states none, what the tip does while it washes.
+/// The wash paths that a plan states, in the order of washing; where it states none, the paths of the tip while it washes.
 pub(super) fn paths(plan: &Plan, tips: &Tips<'_>) -> Vec<WashPath> {
     let path = |plate, points: Vec<Vector3<f64>>| WashPath {
         plate,
@@ -72,7 +72,7 @@ pub(super) fn paths(plan: &Plan, tips: &Tips<'_>) -> Vec<WashPath> {
         .collect()
 }
 
-/// Whether a curve has some turns on a plate, and not so many that nobody could draw them. Whether it is the right one is for the proof.
+/// Checks that a curve has some turns on a plate, and few enough to draw. The proof checks that it is the right curve.
 fn can_be_drawn(curve: &WashCurve, plate: &plate::Plate) -> bool {
     (0.5..=MOST_TURNS).contains(&curve.turns) && curve.radius_m > 0.0 && curve.radius_m <= MOST_RIMS * plate.rim_m()
 }

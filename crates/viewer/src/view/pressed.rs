@@ -1,8 +1,7 @@
-//! Where the foam presses a plate, and when: sampled to look at, not the proof.
+//! Area of a plate that the foam presses, over time: sampled for display, not the proof.
 //!
 //! The sponge is the elastic foundation of [`platewash_workcell::contact`]. A place of the face counts as long as the foam over it is
-//! compressed by what is asked for, wherever within the stated error of its height the plate lies; between two moments by the lines
-//! through both.
+//! compressed as required, for every height of the plate within the stated error; between two moments by the lines through both.
 
 use super::raster::Raster;
 use super::tips::Tip;
@@ -13,20 +12,20 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use serde::Serialize;
 
-/// What counts as pressed.
+/// Contact that counts as pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Counted {
     /// Least compression of the foam \[m\].
     pub compression_m: f64,
-    /// By how much the plate may lie higher or lower \[m\].
+    /// Error of the plate's height, up or down, within which it must hold \[m\].
     pub height_error_m: f64,
-    /// Whether the job asks for it; otherwise it is that the foam touches.
+    /// True where the job asks for it; otherwise any touch of the foam counts.
     pub is_promised: bool,
 }
 
 impl Counted {
-    /// What counts on a plate of a job; `None` where the sponge, or what stands for it, has but to be over a place: on a disc of which
-    /// no contact is asked, and without a tool.
+    /// Contact that counts on a plate of a job; `None` where the sponge only has to be over a place: on a flat face without a
+    /// promise of contact, and without a tool.
     #[must_use]
     pub fn on(plate: &Plate, job: &JobTerms) -> Option<Self> {
         if !job.workcell.tool.is_present() {
@@ -45,9 +44,10 @@ impl Counted {
         promised.or_else(|| (!plate.surface.is_flat()).then_some(touched))
     }
 
-    /// Adds what of a plate is pressed on a way of the tip. Where the sponge is pressed in farther than it can be, nothing counts.
+    /// Adds the pressed area of a plate on a path of the tip. Where the sponge is pressed in farther than it can be, nothing
+    /// counts.
     pub(crate) fn add(&self, raster: &mut Raster, plate: &Plate, tool: &Tool, way: &[Tip]) {
-        // Whatever its stiffness: no force is asked for.
+        // The stiffness does not matter: no force is computed.
         let foundation = Foundation::stiff(&tool.sponge, [0.0; 2]);
         let wanted = Wanted {
             compression_m: self.compression_m,

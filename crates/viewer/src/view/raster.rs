@@ -15,7 +15,7 @@ const MOST_STEPS: f64 = 65_533.0;
 /// A moment of a disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Disc {
-    /// When \[s\].
+    /// Time \[s\].
     pub t_s: f64,
     /// Its centre, from that of the square \[m\].
     pub at: [f64; 2],
@@ -95,7 +95,7 @@ impl Raster {
         }
     }
 
-    /// For how long the sponge was on each cell \[s\], row by row, y and x ascending; `None` outside the rim.
+    /// Time for which the sponge was on each cell \[s\], row by row, y and x ascending; `None` outside the rim.
     pub fn dwell_s(&self) -> Vec<Option<f64>> {
         let dwell = self.dwell_s.iter().enumerate();
         dwell
@@ -159,7 +159,7 @@ impl Raster {
     }
 }
 
-/// From and to which share of a straight way a point that starts at `off` from another one is within `radius_m` of it.
+/// Range of shares of a straight path within which a point that starts at `off` from another one is within `radius_m` of it.
 fn within(off: [f64; 2], way: [f64; 2], radius_m: f64) -> Option<[f64; 2]> {
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
     // |off + u way|² ≤ r²: a u² + 2 b u + c ≤ 0.
@@ -262,7 +262,7 @@ mod tests {
         assert!((255.0 * marks.dwell_step_s - 2.0).abs() < 1e-12);
     }
 
-    /// Of five by five cells the corners' middles are 1.13 from the centre.
+    /// In a raster of five by five cells the middles of the corners are 1.13 from the centre.
     #[test]
     fn cells_beyond_the_rim_are_marked_and_far_ways_harmless() {
         let mut raster = Raster::new(1.0, 5);

@@ -6,7 +6,7 @@ use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::{SegmentKind, Trajectory};
 
-/// How far the tip moves between two moments at most, but for very fast ones \[m\].
+/// Largest motion of the tip between two moments, except for very fast ones \[m\].
 const STEP_M: f64 = 4e-3;
 
 /// Moments between two knots at most.
@@ -15,9 +15,9 @@ const MOST_STEPS: usize = 64;
 /// The tip at a moment.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tip {
-    /// When \[s\].
+    /// Time \[s\].
     pub t_s: f64,
-    /// Where, world frame \[m\].
+    /// Position of the tip, world frame \[m\].
     pub at: Vector3<f64>,
     /// The way out of the tool, world frame.
     pub axis: Vector3<f64>,

@@ -1,6 +1,6 @@
 //! A program in the words of RAPID.
 //!
-//! What stands at the head of a module, as comments.
+//! Head of a module, as comments.
 //!
 //! Lines of a module: ASCII, line feeds, no blanks at the end.
 //!
@@ -89,13 +89,13 @@ fn shared_out(routines: &[Routine]) -> Vec<&[Routine]> {
     groups
 }
 
-/// What every module says of itself.
+/// Notes at the head of every module.
 const OWN: [&str; 2] = [
     "Units: mm, degrees, kg, kg*m^2; times after \\T in seconds at the plan's own speed, divided by the share of the run.",
     "Joints are the robot's own, 1 to 6; no external axes; no work object: MoveAbsJ needs none.",
 ];
 
-/// At the head of the module with `main`.
+/// Writes the head of the module with `main`.
 pub fn write(lines: &mut Lines, program: &Program<'_>, files: &[String]) {
     for entry in &program.header {
         lines.comment(1, entry);
@@ -121,7 +121,7 @@ pub fn write(lines: &mut Lines, program: &Program<'_>, files: &[String]) {
     }
 }
 
-/// At the head of a further module.
+/// Writes the head of a further module.
 pub fn write_part(lines: &mut Lines, files: &[String], part: usize) {
     let first = files.first().map_or("", String::as_str);
     let (number, count) = (part + 1, files.len());
@@ -158,7 +158,7 @@ impl Lines {
         self.text.push_str(&wrapped(&prefix, [sentence]));
     }
 
-    /// All lines.
+    /// Returns all lines.
     pub fn text(self) -> String {
         self.text
     }
@@ -182,7 +182,7 @@ pub const MOST: &str = "pwShareMost";
 /// The share of the speed of a run.
 pub const RUNNING: &str = "pwRunning";
 
-/// What all names begin with that the program gives.
+/// Prefix of all names that the program defines.
 pub const PREFIX: &str = "pw";
 
 /// Names of modules and data that controllers have already, and that of the routine that is started.

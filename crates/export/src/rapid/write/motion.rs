@@ -26,7 +26,7 @@ impl Routine {
         &self.name
     }
 
-    /// How many targets it has.
+    /// Number of targets.
     pub fn targets(&self) -> usize {
         self.lines.len()
     }
@@ -45,11 +45,11 @@ impl Routine {
 /// The zone at targets that are no stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Zone {
-    /// One that every controller has.
+    /// Zone that every controller has, by its name.
     Named(&'static str),
     /// One of that radius \[m\].
     Own(f64),
-    /// None: every target is a stop.
+    /// No zone: every target is a stop.
     Stops,
 }
 
@@ -87,7 +87,7 @@ pub fn target(q_rad: &JointVector) -> String {
     format!("[[{}],[9E9,9E9,9E9,9E9,9E9,9E9]]", degrees.join(","))
 }
 
-/// All motions after the one to the start, a routine a segment; one of more than `most` targets in several.
+/// Returns all motions after the one to the start, one routine per segment; a segment of more than `most` targets has several.
 pub fn routines(program: &Program<'_>, most: usize) -> Vec<Routine> {
     let Some((start, points)) = program.points.split_first() else {
         return Vec::new();
@@ -138,7 +138,7 @@ fn comment(segment: Option<&PlanSegment>, span_s: [f64; 2], targets: usize) -> S
     format!("{what}: {from} s to {to} s of the plan, targets: {targets}.")
 }
 
-/// The line for a point. Where the arm is there already it waits.
+/// Returns the line for a point. Where the arm is there already it waits.
 fn motion(program: &Program<'_>, clock: &mut Clock, from: &Point, point: &Point, next: Option<&Point>) -> String {
     let time = clock.up_to(point.t_s);
     let target_here = target(&point.q_rad);
@@ -155,7 +155,7 @@ fn motion(program: &Program<'_>, clock: &mut Clock, from: &Point, point: &Point,
 #[derive(Debug)]
 struct Clock {
     share: f64,
-    /// What the controller has come to \[s\].
+    /// Time that the controller has reached \[s\].
     passed_s: f64,
 }
 
@@ -164,7 +164,7 @@ impl Clock {
         Self { share, passed_s: 0.0 }
     }
 
-    /// From the point before to a moment of the plan \[s\], as it is written.
+    /// Time from the point before to a moment of the plan \[s\], as it is written.
     fn up_to(&mut self, t_s: f64) -> String {
         let written = fixed((t_s / self.share - self.passed_s) * self.share, TIME_DECIMALS);
         let read: f64 = written.parse().unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! Data of a program, its `main`, and what it checks before it moves.
+//! Data of a program, its `main`, and its checks before it moves.
 //!
 //! The tool as RAPID states it: tip frame and load, in mm, kg and kg·m².
 
@@ -17,7 +17,7 @@ pub fn data(lines: &mut Lines, program: &Program<'_>) {
         1,
         "Share of the plan's speed; every time is divided by it. It may be lowered here or on the pendant.",
     );
-    // The shortest decimal of a single: what the controller reads is what was meant.
+    // The shortest decimal of a single: the controller reads exactly the intended value.
     let share = program.speed_share as f32;
     lines.line(1, &format!("PERS num {SHARE}:={share};"));
     lines.comment(
@@ -62,7 +62,8 @@ pub fn main(lines: &mut Lines, routines: &[Routine]) {
     lines.line(1, "ENDPROC");
 }
 
-/// What is checked before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again, `Stop` can.
+/// Writes the checks before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again,
+/// `Stop` can.
 pub fn checks(lines: &mut Lines) {
     lines.blank();
     lines.line(1, "PROC pwCheckShare()");
@@ -124,7 +125,7 @@ pub fn tooldata(tool: &Tool) -> String {
 
 fn load(mass: Option<&ToolMass>) -> String {
     let Some(mass) = mass else {
-        // What a controller takes for nothing at all; such a tool is refused before.
+        // Load that a controller takes for no load at all; such a tool is refused earlier.
         return "[0.001,[0,0,0.001],[1,0,0,0],0,0,0]".to_owned();
     };
     let (axes, moments) = principal(mass.inertia_kg_m2);

@@ -1,4 +1,4 @@
-//! Leaning away from what stands beside the arm.
+//! Leaning away from obstacles beside the arm.
 
 use crate::redundancy::tests::*;
 use crate::scene::Stance;
@@ -55,7 +55,7 @@ fn the_tool_leans_away_from_a_wall_and_only_where_it_must() {
     assert!(upright > 0 && leant > 0 && failed > 0, "{upright} {leant} {failed}");
 }
 
-/// Whether neither a policy of tilts in the arm's plane nor the search among them finds anything.
+/// Checks that neither a policy of tilts in the arm's plane nor the search among them finds anything.
 fn is_blocked_upright(task: &Task<'_>) -> bool {
     by_policy(task, Width::Everywhere).unwrap().is_none() && by_search(task).is_err()
 }

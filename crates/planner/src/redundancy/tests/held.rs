@@ -5,7 +5,7 @@ use crate::scene::Stance;
 use platewash_kinematics::Pose;
 use platewash_workcell::tool_chain::{Handle, ToolChain};
 
-/// How far joint 5 keeps from 0 \[rad\]: 3°.
+/// Least distance of joint 5 from 0 \[rad\]: 3°.
 const WRIST_RAD: f64 = 0.0524;
 
 /// A tool 35 mm before the flange that leans by 30°.
@@ -70,7 +70,7 @@ fn the_wrist_is_held_on_the_lines_as_on_the_path() {
     assert!(washed >= 5 && refused >= 5, "{washed} {refused}");
 }
 
-/// The right way round, joint 5 is bent by what the tool leans more than that of a straight tool.
+/// On the correct side, joint 5 is bent by the lean of the tool more than with a straight tool.
 #[test]
 fn a_leaning_tool_bends_the_wrist() {
     let bend = |tool: &Tool| {

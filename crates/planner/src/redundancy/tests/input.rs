@@ -43,7 +43,7 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
     });
 }
 
-/// Extremes of what is allowed end with an answer or a reason.
+/// Extremes of the allowed ranges end with an answer or a reason.
 #[test]
 fn extremes_end() {
     for (x, y, z) in [

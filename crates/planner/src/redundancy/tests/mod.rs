@@ -27,7 +27,7 @@ use proptest::prelude::*;
 
 const RADIUS_M: f64 = 0.12385;
 const CLEARANCE_M: f64 = 0.01;
-/// What a distance that decides a quick answer may be wrong by \[m\].
+/// Largest error of a distance that decides a quick answer \[m\].
 const QUICK_ERROR_M: f64 = 1e-4;
 const HOME: JointVector = JointVector::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
@@ -122,7 +122,7 @@ fn spline_curvatures(x: &[f64], y: &[f64], ends: [f64; 2]) -> Vec<f64> {
     right
 }
 
-/// Everything that a washing promises, looked at from outside.
+/// Checks everything that a washing promises, from outside.
 fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
     let scene = &world.scene;
     let (plate, limits) = (&scene.plates[path.plate], scene.robot.limits());
@@ -229,7 +229,7 @@ proptest! {
         });
     }
 
-    /// What the last turn alone tells is what the whole search finds, on every branch.
+    /// The last turn alone gives the same answer as the whole search, on every branch.
     #[test]
     fn what_is_known_before_the_search_is_what_the_search_finds(
         places in prop::collection::vec((0.2..0.62f64, -170.0..170.0f64), 1..3),
@@ -265,8 +265,8 @@ proptest! {
         });
     }
 
-    /// The quick answer of the clearance model is that of all its distances, but where one is what is required to the quick routine's
-    /// error.
+    /// The quick answer of the clearance model equals that of all its distances, except where a distance is within the error of
+    /// the quick routine of the required one.
     #[test]
     fn the_quick_clearance_is_the_slow_one(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
         let plates = [plate_at(0.3, 10.0), plate_at(0.4, 60.0)];
@@ -330,7 +330,7 @@ proptest! {
     }
 }
 
-/// However long the wash path and however many the tilts: a few points of the last turn tell, and the search is not begun.
+/// A few points of the last turn decide for any length of the wash path and any number of tilts, and the search does not begin.
 #[test]
 fn a_long_path_out_of_reach_is_refused_before_it_is_searched() {
     let plates = [plate_at(0.62, 20.0)];
@@ -352,7 +352,7 @@ fn a_long_path_out_of_reach_is_refused_before_it_is_searched() {
     });
 }
 
-/// Plates too near, too far or behind are refused for what stands in the way, and where no other branch of the arm would do the
+/// Plates too near, too far or behind are refused with their obstruction, and where no other branch of the arm would do the
 /// exhaustive search agrees at every dead end.
 #[test]
 fn a_failure_is_the_arms_own() {
@@ -421,7 +421,7 @@ fn a_failure_is_the_arms_own() {
                     .unwrap()
             };
             for worst in filters.into_iter().map(worst_of) {
-                // The largest shortfall, not the least, which lies at the edge of what can be washed.
+                // The largest shortfall, not the least, which lies at the edge of the washable part.
                 let of_kind = ends.iter().flat_map(|end| &end.reasons);
                 let of_kind = of_kind.filter(|reason| reason.least.filter() == worst.filter());
                 assert!(of_kind.clone().next().is_none() || worst.shortfall() > 0.0);
@@ -511,7 +511,7 @@ fn a_plate_that_does_not_lie_level_is_washed_too() {
     }
 }
 
-/// Every search ends at once where it is told to, whatever it would find.
+/// Every search ends at once when it is cancelled, whether it would succeed or not.
 #[test]
 fn what_is_given_up_is_neither_found_nor_refused() {
     let cancel = CancelToken::new();

@@ -1,4 +1,4 @@
-//! Arms of other makers: branches that are searched for, and what follows where none is found.
+//! Arms of other makers: branches that are searched for, and the conclusion where none is found.
 
 use crate::redundancy::tests::*;
 use platewash_kinematics::urdf::MeshSource;
@@ -82,7 +82,7 @@ fn cannot_is_said_where_a_bound_or_every_branch_proves_it() {
     );
 }
 
-/// What is solved keeps off the largest tilt: the cubics between the points turn the tool a little further.
+/// The points that are solved keep below the largest tilt: the cubics between them turn the tool a little further.
 #[test]
 fn the_search_leaves_room_under_the_largest_tilt() {
     with(KR5, plate(0.55, 0.0, 0.2), |world| {

@@ -9,7 +9,7 @@ use platewash_workcell::surface::Surface;
 use rand::RngExt;
 use std::time::{Duration, Instant};
 
-/// What came out over many plates.
+/// Counts of results over many plates.
 #[derive(Debug, Default)]
 struct Tally {
     gentle: usize,
@@ -160,7 +160,7 @@ fn layouts_of_the_paper() {
     }
 }
 
-/// Plates and tools of all kinds, many of them beyond what the arm can do; failures judged by the exhaustive search.
+/// Plates and tools of all kinds, many of them beyond the arm's abilities; failures judged by the exhaustive search.
 #[test]
 #[ignore = "a measurement"]
 fn anything() {
