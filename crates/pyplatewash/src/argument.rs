@@ -1,10 +1,10 @@
 //! Arguments: the one place where what Python hands over becomes a number, a text, a path or an object of ours.
 //!
+//! Also here: numbers, integers, truth values and texts.
+//!
 //! Every public callable takes plain Python objects and reads them here (arrays in `arrays`, tables in `value`). What does not do
 //! is refused in one form: the argument's name, what is needed, what was found. A wrong type is an `InputTypeError`, a wrong
 //! value an `InputError`. What a foreign object raises itself, such as an iterator of the caller's, is passed on.
-//!
-//! Numbers, integers, truth values and texts.
 //!
 //! Arguments of the functions that are written in Python: read and refused as those of Rust's. `python/pyplatewash/_arguments.py` names
 //! these.

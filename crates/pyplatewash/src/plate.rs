@@ -1,8 +1,8 @@
 //! Python's `Plate`, read field by field, and plates as Python's.
 //!
-//! Python's `Tool`, read field by field.
+//! Also here: poses from 4 × 4 matrices.
 //!
-//! Poses from 4 × 4 matrices.
+//! Python's `Tool`, read field by field.
 //!
 //! Python's plain values are checked when they are made.
 

@@ -1,6 +1,6 @@
 //! Data as plain Python objects and back, by way of JSON's types.
 //!
-//! Values that were probably meant in another unit, as Python's warnings.
+//! Also here: values that were probably meant in another unit, as Python's warnings.
 
 use crate::{argument, errors};
 use platewash::scenario::Note;

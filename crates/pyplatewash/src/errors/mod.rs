@@ -1,15 +1,10 @@
 //! What goes wrong, as the exceptions of `pyplatewash`.
 //!
+//! Also here: files that the system does not give or take; unanswered inverse-kinematics calls; arms without dynamics, and plans
+//! that cannot be simulated; studies that are none, and folders that keep something else.
+//!
 //! The classes are Python's (`python/pyplatewash/_errors.py`), so that they pickle and can be subclassed; here they are given
 //! their fields.
-//!
-//! Files that the system does not give or take.
-//!
-//! Unanswered inverse-kinematics calls.
-//!
-//! Arms without dynamics, and plans that cannot be simulated.
-//!
-//! Studies that are none, and folders that keep something else.
 
 mod job;
 

@@ -1,8 +1,8 @@
 //! Inverse kinematics of many targets, straight into NumPy's arrays.
 //!
-//! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
+//! Also here: forward kinematics and Jacobians, one at a time or in batches.
 //!
-//! Forward kinematics and Jacobians, one at a time or in batches.
+//! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
 //!
 //! Inverse kinematics: one target, all branches, a path.
 

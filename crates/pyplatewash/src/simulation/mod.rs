@@ -1,8 +1,8 @@
 //! A plan under a control law: settings, execution, report, and many settings.
 //!
-//! What is simulated: a plan, its arm and the settings.
+//! Also here: many frequencies and dampings of a law.
 //!
-//! Many frequencies and dampings of a law.
+//! What is simulated: a plan, its arm and the settings.
 
 mod execution;
 mod settings;

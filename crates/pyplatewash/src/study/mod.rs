@@ -1,7 +1,7 @@
 //! `Study`: many scenarios as one value. Its rows are worked on by `journal` and `worker`, which Python's engines drive
 //! (`python/pyplatewash/_studies/`).
 //!
-//! The text of a study file out of what a call states.
+//! Also here: the text of a study file out of what a call states.
 //!
 //! What makes rows: on a thread of a worker, without any file of the study.
 
