@@ -55,23 +55,23 @@ pub struct AlignArguments {
     pub points: Option<PathBuf>,
 }
 
-/// What is said of the points.
+/// Answer of `align`.
 #[derive(Debug, Serialize)]
 struct Answer {
-    /// Whether every residual is within the tolerance.
+    /// True where every residual is within the tolerance.
     fits: bool,
     tolerance_m: f64,
     mount: FramePose,
     /// The mount as a scenario's keys in `[robot]` state it.
     robot: MountKeys,
-    /// Angle between the world's z and the base's.
+    /// Angle between the world's z axis and the base's.
     tilt_rad: f64,
-    /// Whether that is so small that plates may be taken to lie level without the keys of the mount.
+    /// True where that angle is so small that plates may be taken to lie level without the keys of the mount.
     level: bool,
     rms_m: f64,
     largest_m: f64,
     touches: Vec<Residual>,
-    /// How far the drawn points are spread along their longest direction and beside it, root mean square.
+    /// Spread of the drawn points about their middle, root mean square, along their longest direction and beside it.
     spread_m: [f64; 2],
     /// Lengths touched over lengths drawn.
     stretch: f64,
@@ -86,7 +86,7 @@ struct MountKeys {
     mount_rpy_deg: [f64; 3],
 }
 
-/// What is left of a touched point.
+/// Residual of a touched point under the fitted mount.
 #[derive(Debug, Serialize)]
 struct Residual {
     line: usize,
@@ -149,7 +149,7 @@ fn wanted(arguments: &AlignArguments) -> Result<Vec<DrawnPoint>> {
     Ok(given.chain(listed.transpose()?.into_iter().flatten()).collect())
 }
 
-/// That the points would fit in another order.
+/// Message that the points fit in another order.
 fn reordered(order: &str) -> String {
     format!("the touched points fit the drawn ones in another order, {order}")
 }
@@ -245,7 +245,7 @@ impl Answer {
     }
 }
 
-/// What is to be said of a mount.
+/// Notes on a fitted mount.
 fn notes(alignment: &Alignment, touched: &[TouchedPoint], order: Option<&str>, tolerance_m: f64) -> Vec<String> {
     let stretch = alignment.stretch - 1.0;
     let is_stretched = stretch.abs() > STRETCHED;

@@ -38,9 +38,9 @@ pub const REPORTS: [&str; 5] = [
 
 /// Files that are written to a folder, all or none, in place of all that belong to the verb there.
 pub struct Files<'a> {
-    /// Without one, nothing is written.
+    /// Folder of the files; where it is `None`, nothing is written.
     folder: Option<PathBuf>,
-    /// What stands before every name.
+    /// Prefix of every file name.
     prefix: OsString,
     /// Names that belong to the verb.
     owned: &'a [&'a str],
@@ -104,7 +104,7 @@ impl<'a> Files<'a> {
         self.files.iter().map(|(place, _)| place.as_path())
     }
 
-    /// How many files of an earlier call go without another one in their place.
+    /// Number of files of an earlier call that are removed and not replaced.
     pub fn stale(&self) -> usize {
         let is_stale = |path: &&PathBuf| path.is_file() && self.paths().all(|written| written != path.as_path());
         self.places(self.owned).iter().filter(is_stale).count()
@@ -249,7 +249,7 @@ fn refuse_one_place_for_two<'a>(files: impl Iterator<Item = &'a Path>) -> Result
     Ok(())
 }
 
-/// Where a file will be, links followed but for its own name, whether its folders exist yet or not.
+/// Absolute path of a file, with the links of its folders followed but not a link at its own name. The folders need not exist.
 pub fn place(path: &Path) -> std::io::Result<PathBuf> {
     let absolute = std::path::absolute(path)?;
     let mut place = PathBuf::new();

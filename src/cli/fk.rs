@@ -111,11 +111,11 @@ struct IkAnswer {
     orientation_error_deg: f64,
     /// `dls` or `qp`, when solved.
     method: Option<Method>,
-    /// Where the answer was found from, when solved.
+    /// Start from which the answer was found, when solved.
     start: Option<Start>,
     /// Every pair at that configuration, as `fk` has them.
     clearance: Vec<PairClearance>,
-    /// Why not, when not solved.
+    /// Cause of the failure, when not solved.
     cause: Option<IkCause>,
 }
 

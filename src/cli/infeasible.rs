@@ -15,7 +15,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What is being done.
+/// Work that the progress display names during the search.
 const LOOKING: &str = "searching for keys whose change helps";
 
 /// A scenario of which nothing can come.
@@ -26,7 +26,7 @@ struct NotValid {
     why: InfeasibleReport,
 }
 
-/// What is said of a job that cannot be done.
+/// Answer for a job that cannot be done.
 #[derive(Serialize)]
 struct Told {
     #[serde(flatten)]
@@ -41,7 +41,7 @@ impl fmt::Display for Told {
     }
 }
 
-/// Why there is no plan, where that is it; `None` where the input is at fault.
+/// Error that prevents a plan; `None` where the input is at fault.
 fn cause(failure: &Failure) -> Option<PlanError> {
     match failure {
         Failure::Plan(error) => Some(error.clone()),
@@ -50,7 +50,7 @@ fn cause(failure: &Failure) -> Option<PlanError> {
     }
 }
 
-/// What is to be said of a scenario that could not be carried out, with the keys that decide it; `None` where the input is at fault.
+/// Report on a scenario that could not be carried out, with the keys that decide it; `None` where the input is at fault.
 pub fn report(scenario: &Scenario, failure: &Failure) -> Option<InfeasibleReport> {
     let report = InfeasibleReport::new(&scenario.name, scenario.seed, &cause(failure)?)?;
     Some(report.explained(failure.to_string()))

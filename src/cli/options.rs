@@ -120,7 +120,8 @@ impl Options {
         }
     }
 
-    /// Why the scenario could not be carried out; what is wrong in it with the file that was given in place of its own name.
+    /// Error for a scenario that could not be carried out. An error in the scenario names the file that was given, not the
+    /// scenario's own name.
     pub fn failure(&self, error: platewash::Failure) -> Error {
         match error {
             platewash::Failure::Scenario(error) => self.of_file(error).into(),
@@ -143,7 +144,7 @@ impl Options {
         Progress::new(self.quiet, work)
     }
 
-    /// What some work comes to, with a sign of life while it goes on.
+    /// Returns the result of some work, and shows progress while it runs.
     pub fn during<T>(&self, work: &'static str, make: impl FnOnce() -> T) -> T {
         let _progress = self.progress(work);
         make()
@@ -166,7 +167,7 @@ impl Options {
         }
     }
 
-    /// What the scenario was called: a file, or a shipped name.
+    /// Name of the scenario as given: a file, or a shipped name.
     pub fn scenario_name(&self) -> &str {
         self.scenario.as_deref().unwrap_or(SHIPPED[0].name)
     }
@@ -180,7 +181,7 @@ impl Options {
     }
 }
 
-/// Whether a job was refused for what its scenario states, in a message that does not say which scenario that is.
+/// True where a job was refused because of its scenario, in a message that does not name the scenario.
 fn is_of_job(failure: &platewash::Failure) -> bool {
     use platewash::Failure::{Body, Job, NoContact, Plan, Tool};
     match failure {
@@ -199,7 +200,7 @@ const MOST_KEYS: usize = 3;
 /// Characters that an option begins with as the one that is suggested in its place, to be taken for it, dashes too.
 const NEAR: usize = 6;
 
-/// Of verbs of plan files.
+/// Reason why verbs on plan files do not take `--scenario`, `--seed` and `--tool-mount`.
 pub const PLAN_STATES: &str =
     "the plan file states its job and its seed; leave it out (verify --against compares them with a scenario)";
 

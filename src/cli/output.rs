@@ -16,7 +16,7 @@ use std::time::Duration;
 /// Last line of a report that leaves something out.
 const HINT: &str = "\nmore: --details\n";
 
-/// Whether anybody still reads standard output.
+/// State of the reader of standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reader {
     /// As far as is known.
@@ -108,7 +108,7 @@ const BETWEEN_LINES: Duration = Duration::from_secs(5);
 /// Time between two turns of the spinner.
 const TICK: Duration = Duration::from_millis(100);
 
-/// What is done, and what of it is tried at the moment; a spinner, and a bar once it is known how much there is to do. Goes when
+/// Progress display: the work and its present step, with a spinner, and a bar once the amount of work is known. It disappears when
 /// it is dropped.
 pub struct Progress {
     work: &'static str,
@@ -221,7 +221,7 @@ mod progress_tests {
     use super::*;
     use std::sync::{Arc, Mutex};
 
-    /// What was written, shared with the one who writes.
+    /// Written text, shared with the writer.
     #[derive(Clone, Default)]
     struct Written(Arc<Mutex<Vec<u8>>>);
 

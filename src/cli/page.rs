@@ -21,11 +21,11 @@ use std::sync::Arc;
 use std::time::Duration;
 use tempfile::NamedTempFile;
 
-/// What is wrong without a bundle, and what to do.
+/// Message for a missing bundle, with the remedy.
 const NO_BUNDLE: &str =
     "this program was built without it; `cargo xtask page` in its sources makes it, then build again";
 
-/// For how long what opens the browser is looked at; one that goes on is taken to have opened it.
+/// Longest time to watch the program that opens the browser; one that runs longer is taken to have opened it.
 const TO_OPEN: Duration = Duration::from_secs(3);
 
 /// The bundle that all pages share; none where there is none, which a line on standard error explains, even where quiet was asked for: a file
@@ -73,7 +73,7 @@ pub fn add(
     Ok(())
 }
 
-/// Where a shipped scenario draws its plates, if those of a plan of it lie where it lays them; of any other plan nothing is known.
+/// Region in which a shipped scenario draws its plates, for a plan whose plates lie as that scenario lays them; empty for any other plan.
 pub fn region_of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
     let name = plan.provenance.scenario.as_str();
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
@@ -86,7 +86,7 @@ pub fn region_of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
     region.unwrap_or_default()
 }
 
-/// Where a page is served.
+/// Arguments for serving a page.
 #[derive(Debug, Args, Default)]
 pub struct ServeArguments {
     /// Port of the page's address [default: any free port]
@@ -112,7 +112,7 @@ impl ServeArguments {
         given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
     }
 
-    /// Whether this machine alone reaches the page.
+    /// True where only this machine can reach the page.
     pub fn is_loopback(&self) -> bool {
         self.bind.is_none_or(|ip| ip.is_loopback())
     }

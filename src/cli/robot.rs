@@ -157,7 +157,7 @@ impl Answer {
     }
 }
 
-/// What is suggested.
+/// Suggestions for the arm.
 #[derive(Debug, Serialize)]
 struct Suggested {
     robot: String,
@@ -166,7 +166,7 @@ struct Suggested {
     start_deg: [f64; 6],
     /// The nearest bodies there, and their distance \[m\].
     nearest: Option<([String; 2], f64)>,
-    /// How far the joint nearest to a limit is from it \[deg\].
+    /// Distance from the limit of the joint that is nearest to one \[deg\].
     margin_deg: f64,
     /// The angle between the tool and the way straight onto the plates \[deg\].
     tilt_deg: f64,
@@ -178,7 +178,7 @@ struct Suggested {
     plate_height_m: f64,
     /// Distances from axis 1 at which the plate can be washed somewhere \[m\].
     washable_rho_m: Option<[f64; 2]>,
-    /// What centres of washable plates cover \[m²\].
+    /// Area that the centres of washable plates cover \[m²\].
     washable_area_m2: f64,
     /// Edge of the finest squares that were looked at \[m\].
     square_m: f64,

@@ -30,9 +30,9 @@ const LONGEST: Duration = Duration::from_secs(240);
 /// Which packages are fetched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Packages {
-    /// What the bundle is made of and with.
+    /// Packages that the bundle is made of and with.
     Bundled,
-    /// What checks it, too.
+    /// The bundled packages, and those that check the bundle.
     All,
 }
 
@@ -98,7 +98,7 @@ impl Node {
         }
     }
 
-    /// Why it cannot be used.
+    /// Reason why this Node cannot be used: it is missing, too old or without npm. `None` where it can be used.
     fn unfit(&self, oldest: (u32, u32)) -> Option<String> {
         let Some(found) = version(Command::new(&self.node)) else {
             return Some("there is no `node` on the PATH".to_owned());
@@ -115,7 +115,7 @@ impl Node {
     }
 }
 
-/// What a program says of its version.
+/// Version that a program prints for `--version`; `None` where the program cannot be run or fails.
 fn version(mut program: Command) -> Option<String> {
     let output = program.arg("--version").output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).trim().to_owned();

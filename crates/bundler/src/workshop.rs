@@ -31,7 +31,7 @@ impl Workshop {
         Ok(Self { what, folder })
     }
 
-    /// Where it is.
+    /// Path of the copied sources.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

@@ -18,7 +18,7 @@ use proc_macro::{Delimiter, Group, TokenStream, TokenTree};
 
 /// The keys and the defaults of a section: see the crate.
 ///
-/// What is no such struct is an error of the compiler at the derive.
+/// Any other item is a compile error at the derive.
 #[proc_macro_derive(Section, attributes(section, key))]
 pub fn section(input: TokenStream) -> TokenStream {
     let tokens: Vec<TokenTree> = input.into_iter().collect();

@@ -22,9 +22,9 @@ use std::path::PathBuf;
 const MOST_SHOWN: usize = 60;
 /// Most items of a sequence that is read one by one.
 const MOST_ITEMS: usize = 10_000_000;
-/// What a tool must be.
+/// Expected type of a tool, in messages.
 pub const TOOL: &str = "a Tool";
-/// What an arm must be.
+/// Expected type of an arm, in messages.
 pub const ROBOT: &str = "a Robot";
 
 static MASKED_ARRAY: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -73,7 +73,8 @@ pub fn wrong_value(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyErr 
     errors::input(value.py(), name, &format!("{needed} is needed; found {}", shown(value)))
 }
 
-/// What a conversion says, in our words; what is neither about type nor value is the object's own error.
+/// Exception for a value that a conversion refused, in the words of this package. Errors that concern neither type nor
+/// value pass unchanged.
 pub fn refused(name: &str, value: &Bound<'_, PyAny>, needed: &str, error: PyErr) -> PyErr {
     let py = value.py();
     if error.is_instance_of::<PyTypeError>(py) {
@@ -227,7 +228,7 @@ pub fn number_or(name: &str, value: Option<&Bound<'_, PyAny>>, otherwise: f64) -
     value.map_or(Ok(otherwise), |value| number(name, value))
 }
 
-/// Whether a value of NumPy's is an integer or a real number; true of anything else.
+/// True where a NumPy value is an integer or a real number; true for any value that is not NumPy's.
 fn real(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let py = value.py();
     let Some(dtype) = value.getattr_opt(intern!(py, "dtype"))? else {

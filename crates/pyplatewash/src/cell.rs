@@ -29,7 +29,7 @@ pub struct CellEditorObject {
     inner: Arc<Editor>,
 }
 
-/// Why there is nothing to edit.
+/// Exception for a scenario that cannot be edited.
 fn refused(py: Python<'_>, error: &EditorError) -> PyErr {
     match error {
         EditorError::Scenario(error) => errors::scenario(py, error),

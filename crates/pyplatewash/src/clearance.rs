@@ -31,7 +31,7 @@ pub struct ClearanceObject {
     made_of: MadeOf,
 }
 
-/// What a model was made of.
+/// Source of a clearance model.
 enum MadeOf {
     /// Robot, tool, plates.
     Arguments(Py<Robot>, Option<Py<PyAny>>, Py<PyTuple>),
@@ -260,7 +260,7 @@ impl ClearanceObject {
         matches!(self.made_of, MadeOf::Job(_))
     }
 
-    /// What it was made of, as arguments.
+    /// Arguments that make the same model again.
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         match &self.made_of {
             MadeOf::Arguments(robot, tool, plates) => (robot, tool, plates).into_pyobject(py),

@@ -24,7 +24,7 @@ use std::f64::consts::TAU;
 const MOST_POINTS: u64 = 10_000_000;
 /// Most turns of a spiral.
 const MOST_TURNS: f64 = 1000.0;
-/// How far the turns of a curve may be from those of its rings.
+/// Largest difference between the turns of a curve and those of its rings.
 const SAME_TURNS: f64 = 1e-9;
 /// Largest length that is believed \[m\].
 const LARGEST_M: f64 = 100.0;

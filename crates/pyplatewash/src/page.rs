@@ -65,7 +65,7 @@ fn html(py: Python<'_>, view: &View, bundle: &Bundle) -> PyResult<String> {
     page::html(view, bundle).map_err(|e| errors::internal(py, &e.to_string()))
 }
 
-/// What is proved of a plan and what an arm made of it, as they are given.
+/// Returns the certificate and the execution that are given, after a check that both belong to the plan.
 ///
 /// # Errors
 /// `InputError` for those of another plan.
@@ -87,7 +87,7 @@ pub fn of_the_plan(
     Ok((certificate, done))
 }
 
-/// What a page shows of a plan.
+/// Document that a page shows of a plan.
 fn view(
     py: Python<'_>,
     plan: &PlanObject,

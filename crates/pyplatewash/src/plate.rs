@@ -24,7 +24,7 @@ static FOOT: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 /// The radius that Python's `Plate` has where none is stated \[m\].
 const DEFAULT_RADIUS_M: f64 = 0.145;
 
-/// How far the stated radius of a plate with a profile may be from its rim \[m\].
+/// Largest difference between the stated radius of a plate with a profile and the radius of its rim \[m\].
 const SAME_M: f64 = 1e-12;
 
 /// The profile of a level disc, by its name.
@@ -33,7 +33,7 @@ const FLAT: &str = "flat";
 /// Profile, radius and quaternion of a plate, as Python's.
 type Made<'py> = (Option<Bound<'py, PyTuple>>, f64, (f64, f64, f64, f64));
 
-/// How far the length of a quaternion may be from 1.
+/// Largest difference of the length of a quaternion from 1.
 const UNIT: f64 = 1e-9;
 
 /// Knots as radius \[m\] and slope \[rad\].
@@ -390,7 +390,7 @@ const NO_POSE: Quaternion<f64> = Quaternion {
 /// A pose `T_base_frame` from a 4 × 4 matrix, row by row.
 ///
 /// # Errors
-/// What is wrong with it, in words.
+/// A matrix that is no pose; the error states the fault in words.
 pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
     let Ok(m) = <&[f64; 16]>::try_from(matrix) else {
         return Err(Input("16 numbers are needed".to_owned()));
@@ -430,7 +430,7 @@ fn multiple(m: &[f64; 16]) -> Result<Quaternion<f64>, Input> {
     Ok(quaternion(&nearest_rotation(&rows)?))
 }
 
-/// Whether three rows are a rotation to within [`EXACT`]: two unit rows at right angles, and their product.
+/// True where three rows are a rotation to within [`EXACT`]: two unit rows at right angles, and their product.
 fn surely_rotation(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> bool {
     let off = [
         a * a + b * b + c * c - 1.0,

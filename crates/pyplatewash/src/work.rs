@@ -83,7 +83,7 @@ pub fn aside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResu
 /// result nobody waits any more, is told to give up.
 ///
 /// # Errors
-/// What a signal handler raises (`KeyboardInterrupt`); `InternalError` in place of a panic.
+/// The exception of a signal handler (`KeyboardInterrupt`); `InternalError` in place of a panic.
 pub fn patiently<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&CancelToken) -> T + Send + 'static,
@@ -154,10 +154,10 @@ fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
     format!("a fault in platewash, please report it: {}", words.unwrap_or_default())
 }
 
-/// What a function of one of the package's modules answers.
+/// Calls a function in one of the package's Python modules and returns its result.
 ///
 /// # Errors
-/// What the function raises.
+/// The exception that the function raises.
 pub fn ask<'py>(
     py: Python<'py>,
     module: &str,

@@ -29,7 +29,7 @@ use pyo3::types::{PyDict, PyModule};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// What is wrong with an argument, in words that follow its name.
+/// Fault of an argument, in words that follow its name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Input(pub String);
@@ -139,7 +139,7 @@ pub fn internal(py: Python<'_>, message: &str) -> PyErr {
     raise(py, "InternalError", message, &[])
 }
 
-/// What a file is of; names the exceptions.
+/// Kind of a file; decides which exceptions its errors raise.
 #[derive(Debug, Clone, Copy)]
 pub enum FileOf {
     /// A description of an arm.
@@ -154,7 +154,7 @@ pub enum FileOf {
     Study,
 }
 
-/// What the system says of a file.
+/// Error of the operating system on a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SystemWord {
     /// It is not there, or the folder that it would be in.

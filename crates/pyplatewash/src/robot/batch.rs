@@ -153,18 +153,18 @@ pub enum Seeds<'a> {
     Each(&'a [JointVector]),
 }
 
-/// What is to be solved.
+/// Inverse kinematics problems of one call.
 #[derive(Clone, Copy)]
 pub struct Problems<'a> {
-    /// How.
+    /// Solver for every target.
     pub solver: &'a IkSolver<'a>,
     /// Targets `T_base_frame`, row by row.
     pub matrices: &'a [[f64; 16]],
-    /// From where.
+    /// Configurations from which the solver starts.
     pub seeds: Seeds<'a>,
 }
 
-/// What a thread works with, chunk after chunk.
+/// Buffers of a thread, used again for chunk after chunk.
 pub struct Desk {
     room: Vec<Quaternion<f64>>,
     targets: Vec<Pose>,
@@ -197,7 +197,7 @@ pub struct Rows<'a> {
     pub first: usize,
     /// Configurations \[rad\].
     pub q: &'a mut [JointVector],
-    /// Whether the target is reached.
+    /// True where the target is reached.
     pub solved: &'a mut [bool],
     /// Linear systems and quadratic programs.
     pub iterations: &'a mut [i64],
@@ -253,7 +253,7 @@ impl<'a> Rows<'a> {
     /// Solves these rows, a unit of work.
     ///
     /// # Errors
-    /// What must not happen, in words.
+    /// Buffers whose lengths do not match, which is a fault of this package.
     pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, BatchError> {
         let (first, n) = (self.first, self.q.len());
         let matrices = &problems.matrices[first..first + n];

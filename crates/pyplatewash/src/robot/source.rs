@@ -115,7 +115,7 @@ impl Source {
         robot.with_disabled_pairs(disabled).map_err(|e| wrong(&e))
     }
 
-    /// What pickle calls to make the arm again; meshes are read again from their files.
+    /// Returns the function, with its arguments, that pickle calls to make the arm again; meshes are read again from their files.
     ///
     /// # Errors
     /// Out of memory.

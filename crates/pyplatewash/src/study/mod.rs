@@ -24,7 +24,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a study that no file states is called in messages.
+/// Name, in messages, of a study that comes from no file.
 const UNSAVED: &str = "study";
 
 /// Many scenarios, each to be planned and proved: the rows of a study file (docs/studies.md), as a value that travels to whoever
@@ -244,7 +244,7 @@ fn restored(parts: &Bound<'_, PyBytes>) -> Result<Study, StudyError> {
 
 /// The keys of `plans`.
 const PLANS: [(&str, &str); 3] = [("none", "none"), ("failed", "failed"), ("all", "all")];
-/// What a scenario must be.
+/// Expected forms of a scenario, in messages.
 const SCENARIO: &str = "a Scenario, the name of a shipped one, the path of a file or a list of them";
 
 /// The TOML text of a study.

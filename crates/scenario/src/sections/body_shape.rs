@@ -69,7 +69,7 @@ pub struct StatedShape {
     /// File of a mesh.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
     pub mesh: Option<PathBuf>,
-    /// What its coordinates are multiplied by.
+    /// Factors of the mesh's coordinates along x, y, z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_scale: Option<[f64; 3]>,
 }
@@ -88,7 +88,7 @@ pub enum BodyShape {
     Sphere,
     /// All below its own z = 0; obstacles alone may be one.
     HalfSpace,
-    /// What a file holds.
+    /// A mesh, read from a file.
     Mesh,
 }
 
@@ -104,7 +104,7 @@ impl BodyShape {
         }
     }
 
-    /// Whether it has edges, a radius, a length.
+    /// True, in order, where the shape has edges, a radius, a length.
     fn sizes(self) -> [bool; 3] {
         match self {
             Self::Box => [true, false, false],
@@ -115,7 +115,7 @@ impl BodyShape {
     }
 }
 
-/// What a shape is, as far as its section says it.
+/// Shape as its section states it; a mesh is not read yet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Stated<'a> {
     HalfSpace,

@@ -90,7 +90,7 @@ pub struct JobSection {
     pub required_coverage: f64,
 }
 
-/// How a job is planned.
+/// Program that plans a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Program {
@@ -100,7 +100,7 @@ pub enum Program {
     Certified,
 }
 
-/// What a job that does not wash leads to.
+/// Outcome of a job that does not wash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OnFailure {

@@ -73,7 +73,7 @@ pub struct ToolSection {
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
-/// What a tool is held by.
+/// Kind of the tool's handle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HandleName {
@@ -161,11 +161,11 @@ pub struct ToolBodySection {
     /// Its shape.
     #[serde(flatten)]
     pub body: StatedShape,
-    /// In which frame it is placed.
+    /// Frame in which the body is placed.
     pub frame: BodyFrame,
-    /// Where its centre is, in that frame \[m\].
+    /// Position of the body's centre in that frame \[m\].
     pub at_m: [f64; 3],
-    /// How it is turned there: roll, pitch and yaw about the frame's axes x, y, z \[deg\].
+    /// Orientation in that frame: roll, pitch and yaw about the fixed axes x, y, z of the frame \[deg\].
     pub rpy_deg: [f64; 3],
     /// Its part of the tool's mass \[kg\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -176,7 +176,7 @@ pub struct ToolBodySection {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BodyFrame {
-    /// That of the tool: where it begins, z along the handle.
+    /// The tool's frame: its origin is where the tool begins, its z axis runs along the handle.
     #[default]
     Tool,
     /// The mounting frame of the flange.
