@@ -20,22 +20,22 @@ use std::path::{Path, PathBuf};
 /// Longest file that is read \[bytes\].
 const MAX_BYTES: u64 = 1 << 20;
 
-/// A stretch that is told \[share\]: 1 mm in 100.
+/// Smallest stretch that a note reports \[share\]: 1 mm in 100 mm.
 const STRETCHED: f64 = 0.01;
 
-/// A tilt that is told \[rad\]: 1 mm over the width of a plate of 290 mm.
+/// Smallest tilt that a note reports \[rad\]: 1 mm over the width of a plate of 290 mm.
 const TILTED_RAD: f64 = 0.0035;
 
-/// A tilt from which on it is told in degrees, and not as a slope \[rad\].
+/// Tilt above which a note gives degrees in place of a slope \[rad\].
 const STEEP_RAD: f64 = 0.1;
 
-/// A turn about the line through the points that an error of the tolerance may hide, and that is told \[rad\].
+/// Smallest turn that a note reports, about the line through the points, which an error of the tolerance may hide \[rad\].
 const HIDDEN_RAD: f64 = 0.02;
 
-/// Largest tolerance that is taken \[m\]: more is one in millimetres, and no fit of a table.
+/// Largest accepted tolerance \[m\]; a larger one is probably in millimetres, and too coarse for a table.
 const GREATEST_TOLERANCE_M: f64 = 0.05;
 
-/// A turn, or a place, that is none \[rad, m\].
+/// Largest turn or distance that counts as zero \[rad, m\].
 const NOTHING: f64 = 1e-9;
 
 /// Arguments of `align`.
@@ -73,7 +73,7 @@ struct Answer {
     touches: Vec<Residual>,
     /// Spread of the drawn points about their middle, root mean square, along their longest direction and beside it.
     spread_m: [f64; 2],
-    /// Lengths touched over lengths drawn.
+    /// Ratio of touched to drawn lengths.
     stretch: f64,
     notes: Vec<String>,
     points: Vec<Carried>,

@@ -43,7 +43,7 @@ struct Answer<'a> {
     file: String,
 }
 
-/// Serves the page of a scenario until it is told to end.
+/// Serves the page of a scenario until the command is cancelled.
 pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode> {
     ensure!(
         options.urdf.is_none(),

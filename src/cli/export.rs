@@ -27,7 +27,7 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Most files that are looked at beside those that are written.
+/// Largest number of files in the output folder that are examined.
 const MOST_FILES: usize = 10_000;
 
 /// Longest program file that is read \[bytes\].

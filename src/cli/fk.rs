@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Most random restarts: seconds of work.
+/// Largest number of random restarts: seconds of work.
 const MOST_RESTARTS: u64 = 10_000;
 
 /// Arguments of `fk`.
@@ -338,7 +338,7 @@ fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> Result<Frame> {
     }
 }
 
-/// As many numbers as are needed.
+/// The numbers as an array of length `N`; refuses any other count.
 fn array<const N: usize>(numbers: &[f64]) -> Result<[f64; N]> {
     <[f64; N]>::try_from(numbers).map_err(|_| anyhow!("{N} numbers are needed; found {}", numbers.len()))
 }

@@ -69,7 +69,7 @@ fn search_time(text: &str) -> Result<f64> {
 }
 
 impl MotionArguments {
-    /// Longest search for keys whose change helps; it may take as long again to find other causes.
+    /// Longest search for keys whose change helps: that of `--search-time`, or the default.
     pub fn search_time(&self) -> Duration {
         Duration::from_secs_f64(self.search_time.unwrap_or(SEARCH_S))
     }

@@ -61,7 +61,7 @@ struct Valid {
     findings: Vec<Finding>,
     /// Notes on values that were probably meant in another unit.
     notes: Vec<Note>,
-    /// Excess of the tool over the arm's payload, in words; `null` where the arm may carry the tool, or no payload is known.
+    /// Masses of a tool that is too heavy for the arm, in words; `null` where the arm may carry it, or no payload is known.
     overload: Option<String>,
     /// Result of placing the plates with the seed, where they are sampled.
     sampling: Option<Sampling>,
@@ -71,7 +71,7 @@ struct Valid {
 struct Sampling {
     seed: u64,
     layout_found: bool,
-    /// In words.
+    /// Outcome in words.
     outcome: String,
 }
 

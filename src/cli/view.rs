@@ -134,7 +134,7 @@ struct Drawn {
     left_out: Vec<LeftOut>,
 }
 
-/// A figure that the plan has nothing for, or a part of the others that is not known.
+/// A figure that the plan has no content for, or a part of the other figures that is not known.
 #[derive(Debug, Serialize)]
 struct LeftOut {
     what: String,

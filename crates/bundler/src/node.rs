@@ -24,10 +24,10 @@ windows = os.name == 'nt'
 print(os.path.join(root, 'node.exe') if windows else os.path.join(root, 'bin', 'node'))
 print(os.path.join(root, '' if windows else 'lib', 'node_modules', 'npm', 'bin', 'npm-cli.js'))";
 
-/// The longest that it may take to fetch the package, 60 MB.
+/// Longest time to fetch the package, 60 MB.
 const LONGEST: Duration = Duration::from_secs(240);
 
-/// Which packages are fetched.
+/// Set of packages to fetch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Packages {
     /// Packages that the bundle is made of and with.
@@ -40,7 +40,7 @@ pub enum Packages {
 #[derive(Debug)]
 pub struct Node {
     node: PathBuf,
-    /// The program, and what stands before its arguments.
+    /// Program of npm, and the script that comes before its arguments, if any.
     npm: (PathBuf, Option<PathBuf>),
 }
 

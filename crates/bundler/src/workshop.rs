@@ -9,7 +9,7 @@ use std::time::Duration;
 
 const PACKAGES: &str = "node_modules";
 
-/// The copy.
+/// A copy of the page's sources.
 #[derive(Debug)]
 pub struct Workshop {
     what: &'static str,
@@ -38,7 +38,7 @@ impl Workshop {
 
     /// Fetches the packages of the lock file, unless they are there; none of their own programs runs.
     pub fn fetch(&self, node: &Node, packages: Packages) -> Result<()> {
-        /// The longest that it may take.
+        /// Longest time to fetch the packages.
         const LONGEST: Duration = Duration::from_secs(180);
         let read = |name: &str| {
             let file = self.folder.join(name);

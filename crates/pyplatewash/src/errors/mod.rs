@@ -62,7 +62,7 @@ pub fn input(py: Python<'_>, argument: &str, problem: &str) -> PyErr {
     raise(py, "InputError", &format!("{argument}: {problem}"), &fields)
 }
 
-/// The same where the message already begins with the argument's name.
+/// An `InputError` whose message already begins with the argument's name.
 pub fn keyed(py: Python<'_>, argument: &str, message: &str) -> PyErr {
     raise(py, "InputError", message, &[("argument", any(py, argument))])
 }

@@ -9,16 +9,16 @@ use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
 
-/// A description.
+/// Source of an arm.
 #[derive(Debug, Clone)]
 pub enum Source {
     /// The embedded IRB 120.
     BuiltIn,
-    /// Texts, and where their meshes are.
+    /// An arm from URDF and SRDF texts.
     Described(Box<Description>),
 }
 
-/// Texts, and where their meshes are.
+/// URDF and SRDF texts, with the folders in which their meshes are found.
 #[derive(Debug, Clone)]
 pub struct Description {
     urdf: String,
