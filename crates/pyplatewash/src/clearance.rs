@@ -55,7 +55,7 @@ fn indices(working: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<usize>> {
     Ok(working.map(read).transpose()?.unwrap_or_default())
 }
 
-/// The arm and the terms of a job or a plan, and the object that is kept of it.
+/// Arm and terms of a job or a plan, and the object that the model keeps.
 fn terms_of<'py>(job: &Bound<'py, PyAny>) -> PyResult<(Arc<RobotModel>, JobTerms, Bound<'py, PyAny>)> {
     let py = job.py();
     if let Ok(wash) = job.cast::<WashJobObject>() {

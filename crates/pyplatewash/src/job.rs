@@ -1,4 +1,4 @@
-//! `WashJob` and `PaperJob`: what is asked, resolved.
+//! `WashJob` and `PaperJob`: resolved jobs.
 
 use crate::layout::LayoutObject;
 use crate::plate::{PlateFields, plates};

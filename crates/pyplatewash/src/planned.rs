@@ -1,4 +1,4 @@
-//! `Planned`: a washing, planned, and what is to be said of it.
+//! `Planned`: a planned washing, with facts about the plan.
 //!
 //! Many layouts of one scenario.
 

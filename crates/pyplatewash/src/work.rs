@@ -1,6 +1,6 @@
 //! Work without the interpreter lock: threads that survive a fork, Ctrl-C, no panic.
 //!
-//! What Python's side of the package does for methods of ours: figures, pages in cells.
+//! Calls of the package's Python functions from Rust methods: figures, pages in cells.
 //!
 //! The command `platewash`: the same code as the Rust program.
 
@@ -91,7 +91,7 @@ pub fn patiently<T: Send + 'static>(
     patiently_on(py, pool(py)?, &CancelToken::new(), work)
 }
 
-/// The same on so many threads of its own, with a token of the caller's, who may cancel it too.
+/// Runs work as [`patiently`] does, on a pool of `threads` threads of its own. The caller can cancel it by `cancel`.
 ///
 /// # Errors
 /// As [`patiently`]; `EngineError` where the system has not so many threads.

@@ -1,4 +1,4 @@
-//! What goes wrong, as the exceptions of `pyplatewash`.
+//! Errors as exceptions of `pyplatewash`.
 //!
 //! The classes are Python's (`python/pyplatewash/_errors.py`), so that they pickle and can be subclassed; here they are given
 //! their fields.
@@ -157,9 +157,9 @@ pub enum FileOf {
 /// Error of the operating system on a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SystemWord {
-    /// It is not there, or the folder that it would be in.
+    /// The file or its folder does not exist.
     NotFound,
-    /// Anything else, with its number where it has one.
+    /// Any other error, with its number where it has one.
     Refused(Option<i32>),
 }
 

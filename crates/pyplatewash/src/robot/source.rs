@@ -1,4 +1,4 @@
-//! Where an arm's description comes from: enough to make the arm again in another process.
+//! Source of an arm's description: enough to make the arm again in another process.
 
 use crate::errors::{self, FileOf};
 use platewash::kinematics::DisabledPairs;

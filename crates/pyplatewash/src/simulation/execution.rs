@@ -1,4 +1,4 @@
-//! `Execution`: what the arm did, sample by sample, and its report.
+//! `Execution`: the simulated motion of the arm, sample by sample, and its report.
 
 use crate::plan::PlanObject;
 use crate::robot::Robot;

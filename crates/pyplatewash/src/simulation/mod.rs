@@ -1,6 +1,6 @@
 //! A plan under a control law: settings, execution, report, and many settings.
 //!
-//! What is simulated: a plan, its arm and the settings.
+//! The question of a simulation: a plan, its arm and the settings.
 //!
 //! Many frequencies and dampings of a law.
 

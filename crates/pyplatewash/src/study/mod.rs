@@ -1,9 +1,9 @@
 //! `Study`: many scenarios as one value. Its rows are worked on by `journal` and `worker`, which Python's engines drive
 //! (`python/pyplatewash/_studies/`).
 //!
-//! The text of a study file out of what a call states.
+//! The text of a study file from the arguments of a call.
 //!
-//! What makes rows: on a thread of a worker, without any file of the study.
+//! The worker that makes rows, on a thread of its own and without any file of the study.
 
 mod journal;
 

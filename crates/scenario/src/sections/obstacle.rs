@@ -1,4 +1,4 @@
-//! The `[[obstacle]]` sections: what stands around the arm.
+//! The `[[obstacle]]` sections: obstacles around the arm.
 
 use crate::error::Problem;
 use crate::keys::key::Domain::{Number, Plates, Text, Triple, Word};

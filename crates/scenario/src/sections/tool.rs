@@ -1,6 +1,6 @@
 //! The `[tool]` section.
 //!
-//! The `[[tool_body]]` sections: what the tool has besides its handle and its sponge.
+//! The `[[tool_body]]` sections: bodies of the tool besides its handle and its sponge.
 
 use crate::error::{Problem, conflict};
 use crate::keys::key::Domain::{Number, Text, Triple, Word};
@@ -210,7 +210,7 @@ impl ToolBodySection {
     }
 }
 
-/// The keys that decide why bodies make no tool.
+/// Keys of scenarios that cause an error of the tool's bodies.
 pub(crate) fn tool_keys(error: &ToolError) -> &'static str {
     match error {
         ToolError::Bare => "tool.handle, [[tool_body]]",
