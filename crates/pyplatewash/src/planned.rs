@@ -1,4 +1,4 @@
-//! `Planned`: a washing, planned, and what is to be said of it.
+//! `Planned`: a planned washing, with facts about the plan.
 //!
 //! Also here: many layouts of one scenario.
 

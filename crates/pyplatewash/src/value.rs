@@ -27,7 +27,7 @@ pub fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound
     plain(py, &value)
 }
 
-/// The same as a `Record`, a dictionary whose keys are attributes too, with what `str` of it shall say.
+/// A value as a `Record`, a dictionary whose keys are attributes too; `text` is what `str` of it returns.
 ///
 /// # Errors
 /// As [`to_python`].

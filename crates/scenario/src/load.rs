@@ -287,7 +287,7 @@ pub struct ShippedScenario {
 }
 
 /// All shipped scenarios; the first is the default.
-pub const SHIPPED: &[ShippedScenario] = &[
+pub static SHIPPED: &[ShippedScenario] = &[
     ShippedScenario {
         name: "kitchen",
         text: include_str!("../../../scenarios/kitchen.toml"),
