@@ -21,7 +21,7 @@ pub struct WashReport {
     pub seed: u64,
     /// Name of the arm.
     pub robot: String,
-    /// How it ended.
+    /// Verdict on the washing.
     pub verdict: Verdict,
     /// The first line, that of the certificate.
     pub headline: String,
@@ -31,11 +31,11 @@ pub struct WashReport {
     pub visits: Vec<VisitSummary>,
     /// From home, between the plates, and home.
     pub transits: Vec<TransitSummary>,
-    /// What the order gains.
+    /// Estimated travel time of the order, compared with a simple one.
     pub tour: TourSummary,
     /// Largest jerk of each joint between knots \[rad/s³\]: reported, not judged. At knots the acceleration may jump.
     pub jerk_rad_s3: [f64; AXES],
-    /// What is to be said about the plates.
+    /// Findings about the plates.
     pub findings: Vec<Finding>,
     /// The proof.
     pub certificate: Certificate,
@@ -70,13 +70,13 @@ impl WashReport {
     }
 }
 
-/// The pattern of a wash, and where the sponge's axis points.
+/// Pattern of a wash, and direction of the sponge's axis.
 fn how(visit: &VisitSummary, certificate: &Certificate) -> String {
     format!("{}, {}", visit.pattern(), leaning(visit, certificate))
 }
 
-/// Where the sponge's axis points while a plate is washed. On a face that is not flat it takes a share of the slope, and what is proved of
-/// its angle from the normal is told; what it leans besides, only where it does.
+/// Direction of the sponge's axis while a plate is washed, in words. On a face that is not flat the axis takes a share of the slope; the
+/// words give the proved bound on its angle from the normal, and any further tilt.
 fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
     let plate = certificate.rests_on.plates.get(visit.plate);
     if plate.is_none_or(|plate| plate.surface.is_flat()) {
@@ -94,7 +94,7 @@ fn leaning(visit: &VisitSummary, certificate: &Certificate) -> String {
     format!("axis at a share of the slope{within}{besides}")
 }
 
-/// How the tool tilts in the arm's plane, and across it where it does.
+/// Tilt of the tool in the arm's plane, and across it where there is any, in words.
 fn tilt(visit: &VisitSummary) -> String {
     let aside = visit.aside_rad.abs().to_degrees();
     if aside == 0.0 {

@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct SweepRow {
     /// The scenario's seed.
     pub seed: u64,
-    /// How it ended.
+    /// Outcome of planning and proving.
     pub outcome: Outcome,
     /// Duration of the motion \[s\].
     pub duration_s: Option<f64>,
@@ -26,8 +26,7 @@ pub struct SweepRow {
     pub swept: Option<f64>,
     /// Smallest clearance of all pairs but the sponge and the plates while it works, guaranteed \[m\].
     pub clearance_m: Option<f64>,
-    /// Where nothing was planned: why. Where something is not proved: the requirements. Where it is proved but for what the scenario waives:
-    /// that.
+    /// Cause, where nothing was planned; otherwise the requirements that are not proved, or those that the scenario waives.
     pub reason: Option<String>,
 }
 
@@ -156,7 +155,7 @@ mod tests {
         assert_eq!(row.csv_line(), "7,error,,,,0.5,\"a \"\"b\"\"\"\n");
     }
 
-    /// Of more seeds than could ever be planned.
+    /// The range holds more seeds than could ever be planned.
     #[test]
     fn nothing_more_is_planned_once_nobody_wants_rows() {
         let mut told = Vec::new();

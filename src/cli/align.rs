@@ -20,22 +20,22 @@ use std::path::{Path, PathBuf};
 /// Longest file that is read \[bytes\].
 const MAX_BYTES: u64 = 1 << 20;
 
-/// A stretch that is told \[share\]: 1 mm in 100.
+/// Smallest stretch that a note reports \[share\]: 1 mm in 100 mm.
 const STRETCHED: f64 = 0.01;
 
-/// A tilt that is told \[rad\]: 1 mm over the width of a plate of 290 mm.
+/// Smallest tilt that a note reports \[rad\]: 1 mm over the width of a plate of 290 mm.
 const TILTED_RAD: f64 = 0.0035;
 
-/// A tilt from which on it is told in degrees, and not as a slope \[rad\].
+/// Tilt above which a note gives degrees in place of a slope \[rad\].
 const STEEP_RAD: f64 = 0.1;
 
-/// A turn about the line through the points that an error of the tolerance may hide, and that is told \[rad\].
+/// Smallest turn that a note reports, about the line through the points, which an error of the tolerance may hide \[rad\].
 const HIDDEN_RAD: f64 = 0.02;
 
-/// Largest tolerance that is taken \[m\]: more is one in millimetres, and no fit of a table.
+/// Largest accepted tolerance \[m\]; a larger one is probably in millimetres, and too coarse for a table.
 const GREATEST_TOLERANCE_M: f64 = 0.05;
 
-/// A turn, or a place, that is none \[rad, m\].
+/// Largest turn or distance that counts as zero \[rad, m\].
 const NOTHING: f64 = 1e-9;
 
 /// Arguments of `align`.
@@ -55,25 +55,25 @@ pub struct AlignArguments {
     pub points: Option<PathBuf>,
 }
 
-/// What is said of the points.
+/// Answer of `align`.
 #[derive(Debug, Serialize)]
 struct Answer {
-    /// Whether every residual is within the tolerance.
+    /// True where every residual is within the tolerance.
     fits: bool,
     tolerance_m: f64,
     mount: FramePose,
     /// The mount as a scenario's keys in `[robot]` state it.
     robot: MountKeys,
-    /// Angle between the world's z and the base's.
+    /// Angle between the world's z axis and the base's.
     tilt_rad: f64,
-    /// Whether that is so small that plates may be taken to lie level without the keys of the mount.
+    /// True where that angle is so small that plates may be taken to lie level without the keys of the mount.
     level: bool,
     rms_m: f64,
     largest_m: f64,
     touches: Vec<Residual>,
-    /// How far the drawn points are spread along their longest direction and beside it, root mean square.
+    /// Spread of the drawn points about their middle, root mean square, along their longest direction and beside it.
     spread_m: [f64; 2],
-    /// Lengths touched over lengths drawn.
+    /// Ratio of touched to drawn lengths.
     stretch: f64,
     notes: Vec<String>,
     points: Vec<Carried>,
@@ -86,7 +86,7 @@ struct MountKeys {
     mount_rpy_deg: [f64; 3],
 }
 
-/// What is left of a touched point.
+/// Residual of a touched point under the fitted mount.
 #[derive(Debug, Serialize)]
 struct Residual {
     line: usize,
@@ -149,7 +149,7 @@ fn wanted(arguments: &AlignArguments) -> Result<Vec<DrawnPoint>> {
     Ok(given.chain(listed.transpose()?.into_iter().flatten()).collect())
 }
 
-/// That the points would fit in another order.
+/// Message that the points fit in another order.
 fn reordered(order: &str) -> String {
     format!("the touched points fit the drawn ones in another order, {order}")
 }
@@ -245,7 +245,7 @@ impl Answer {
     }
 }
 
-/// What is to be said of a mount.
+/// Notes on a fitted mount.
 fn notes(alignment: &Alignment, touched: &[TouchedPoint], order: Option<&str>, tolerance_m: f64) -> Vec<String> {
     let stretch = alignment.stretch - 1.0;
     let is_stretched = stretch.abs() > STRETCHED;

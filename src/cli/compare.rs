@@ -230,7 +230,7 @@ impl Margins {
     }
 }
 
-/// How much longer a time is \[s\].
+/// Change from time `a` to time `b` \[s\] in words, with its share of `a`.
 fn change(a: f64, b: f64) -> String {
     let more = b - a;
     if more.abs() < 0.005 {

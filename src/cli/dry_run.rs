@@ -18,10 +18,10 @@ use serde::Serialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Lower heights that are tried where the one that was asked for is not found to work.
+/// Number of lower heights to try where the requested height is not found to work.
 const TRIES: u32 = 6;
 
-/// How much higher is tried where none of them does \[m\].
+/// Increments of the requested height to try where no lower height works \[m\].
 const HIGHER_M: [f64; 3] = [0.005, 0.02, 0.05];
 
 /// Arguments of `dry-run`.
@@ -39,14 +39,14 @@ pub struct DryRunArguments {
     pub details: DetailArguments,
 }
 
-/// What is said of a dry run.
+/// Report on a dry run.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
     /// Hash of the plan that is tried out.
     parent: &'a str,
     height_m: f64,
     tip_speed_m_s: f64,
-    /// Whether the motion in the air is proved. It says nothing about washing.
+    /// True where the motion in the air is proved. It says nothing about washing.
     proved: bool,
     headline: &'a str,
     duration_s: f64,
@@ -56,7 +56,7 @@ struct Report<'a> {
     certificate: &'a Certificate,
 }
 
-/// What is said where there is none.
+/// Report where there is no dry run.
 #[derive(Debug, Serialize)]
 struct NoReport<'a> {
     parent: &'a str,
@@ -127,7 +127,7 @@ fn job(file: &PlanFile<'_>, height_m: f64, speed_m_s: f64) -> Result<WashJob> {
     dry_run_job(&file.plan, &file.arm, height_m, speed_m_s).map_err(|error| refused(file, error))
 }
 
-/// Why a plan has no dry run.
+/// Error for a plan that has no dry run.
 fn refused(file: &PlanFile<'_>, error: DryRunError) -> Error {
     match error {
         DryRunError::NotSealed | DryRunError::OtherPaths => file.not_verified(error),

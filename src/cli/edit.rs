@@ -35,15 +35,15 @@ pub struct EditArguments {
     serve: ServeArguments,
 }
 
-/// Where the page is.
+/// Answer of `edit`.
 #[derive(Debug, Serialize)]
 struct Answer<'a> {
     url: &'a str,
-    /// Where Save writes.
+    /// File that Save writes.
     file: String,
 }
 
-/// Serves the page of a scenario until it is told to end.
+/// Serves the page of a scenario until the command is cancelled.
 pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode> {
     ensure!(
         options.urdf.is_none(),
@@ -120,11 +120,11 @@ fn refuse_other_folder(source: &ScenarioSource, save_as: Option<&Path>, editor: 
 #[derive(Debug)]
 struct ScenarioFile {
     file: PathBuf,
-    /// Whether what stands there is what is edited: no other file to write over, and nothing overridden.
+    /// True where that file is the scenario that is edited: Save writes over no other file, and no option overrides a key.
     is_scenario: bool,
-    /// Its folder or that of `--out`, and its name without an ending, with a dot: what comes of it is written there.
+    /// Folder of the reports, its own or that of `--out`, and the prefix of their names: its name without the extension, and a dot.
     beside: (PathBuf, OsString),
-    /// What a save has to know of how the command was called.
+    /// Options of the command, made quiet; a save plans with them.
     options: Options,
 }
 
@@ -166,7 +166,7 @@ impl ScenarioFile {
         Ok(kept)
     }
 
-    /// What is written beside it: nothing yet.
+    /// Set of the files beside the scenario; it is empty at first.
     fn files(&self) -> Files<'static> {
         let (folder, name) = self.beside.clone();
         Files::new(folder, &REPORTS).with_prefix(name)

@@ -27,7 +27,7 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Most files that are looked at beside those that are written.
+/// Largest number of files in the output folder that are examined.
 const MOST_FILES: usize = 10_000;
 
 /// Longest program file that is read \[bytes\].
@@ -85,14 +85,14 @@ fn frame(text: &str) -> Result<Pose> {
     Ok(Pose::from_parts(place.into(), turn))
 }
 
-/// What is proved of a program as it stands.
+/// Proof of a program as it stands.
 #[derive(Debug, Serialize)]
 struct Proved {
-    /// The worst over all assumptions about corners.
+    /// Worst result of each check, over all assumptions about corners.
     checks: Vec<Check>,
-    /// What it implies, which is not judged.
+    /// Speeds of the tip that the motion implies, which are not judged.
     implied: Vec<Check>,
-    /// What the plan promises of contact: of the program it is not judged.
+    /// Promises about contact that are proved for the plan, but not judged for the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     proved_of_the_plan_alone: Option<String>,
 }
@@ -106,7 +106,7 @@ impl Proved {
         }
     }
 
-    /// That contact is not judged, a line; nothing where the plan promises none.
+    /// One line that says that contact is not judged; empty where the plan promises none.
     fn not_judged(&self) -> String {
         let all = self.proved_of_the_plan_alone.iter();
         all.map(|all| format!("  proved for the plan, not for the program: {all}\n"))
@@ -114,11 +114,11 @@ impl Proved {
     }
 }
 
-/// What is said of a program that was written.
+/// Answer for a program that was written.
 #[derive(Debug, Serialize)]
 struct Answer<'a> {
     target: &'static str,
-    /// What must be read first where the plan is a dry run.
+    /// Warning to be read first, where the plan is a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
     dry_run: Option<String>,
     files: Vec<PathBuf>,
@@ -126,11 +126,11 @@ struct Answer<'a> {
     duration_s: f64,
     #[serde(flatten)]
     proved: Proved,
-    /// What the controller is asked for, by the size of the corners.
+    /// Demands on the controller, by the size of the corners.
     asked: &'a [Case],
 }
 
-/// What is said where there is none.
+/// Answer where no program is written.
 #[derive(Debug, Serialize)]
 struct Refused<'a> {
     refused: &'a str,
@@ -226,7 +226,7 @@ fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Export
     Ok(ExitCode::Done)
 }
 
-/// What stands before everything else that is said of a dry run's program.
+/// Beginning of the answer on a dry run's program; empty for any other program.
 fn before(dry_run: Option<String>) -> String {
     dry_run.map_or_else(String::new, |words| words + "; ")
 }
@@ -268,14 +268,14 @@ fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> 
     Ok(())
 }
 
-/// What is said of a program that was handed over.
+/// Answer for a program that was handed over.
 #[derive(Debug, Serialize)]
 struct HandedOver {
     headline: String,
     target: &'static str,
     holds: bool,
     unchanged: bool,
-    /// Whether the program refuses to start where the arm does not stand at the start.
+    /// True where the program refuses to start unless the arm stands at the start.
     checks_start: bool,
     /// The files that were read.
     files: Vec<String>,
@@ -283,7 +283,7 @@ struct HandedOver {
     more_changes: usize,
     #[serde(flatten)]
     proved: Proved,
-    /// That the tool of the program is not the plan's.
+    /// Note where the tool of the program is not the plan's.
     #[serde(skip_serializing_if = "Option::is_none")]
     tool: Option<String>,
 }

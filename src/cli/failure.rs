@@ -7,7 +7,7 @@ use platewash::workcell::cancel::Cancelled;
 use platewash::{SimulationVerdict, Verdict};
 use std::io::Write;
 
-/// How a verb ended.
+/// Exit code of a verb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitCode {
     /// As asked.

@@ -38,9 +38,9 @@ pub const REPORTS: [&str; 5] = [
 
 /// Files that are written to a folder, all or none, in place of all that belong to the verb there.
 pub struct Files<'a> {
-    /// Without one, nothing is written.
+    /// Folder of the files; where it is `None`, nothing is written.
     folder: Option<PathBuf>,
-    /// What stands before every name.
+    /// Prefix of every file name.
     prefix: OsString,
     /// Names that belong to the verb.
     owned: &'a [&'a str],
@@ -48,7 +48,7 @@ pub struct Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// None yet; `owned` are the names that belong to the verb in the folder.
+    /// An empty set of files; `owned` are the names that belong to the verb in the folder.
     pub fn new(folder: impl Into<Option<PathBuf>>, owned: &'a [&'a str]) -> Self {
         Self {
             folder: folder.into(),
@@ -58,19 +58,19 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The same with something before every name.
+    /// The same set with a prefix before every name.
     pub fn with_prefix(self, prefix: OsString) -> Self {
         Self { prefix, ..self }
     }
 
-    /// The place of a name; none where nothing is written.
+    /// Path of the file with this name; `None` where nothing is written.
     fn place(&self, name: &str) -> Option<PathBuf> {
         let mut file = self.prefix.clone();
         file.push(name);
         Some(self.folder.as_ref()?.join(file))
     }
 
-    /// The places of some names.
+    /// Paths of the files with these names; empty where nothing is written.
     pub fn places(&self, names: &[&str]) -> Vec<PathBuf> {
         names.iter().filter_map(|name| self.place(name)).collect()
     }
@@ -104,7 +104,7 @@ impl<'a> Files<'a> {
         self.files.iter().map(|(place, _)| place.as_path())
     }
 
-    /// How many files of an earlier call go without another one in their place.
+    /// Number of files of an earlier call that are removed and not replaced.
     pub fn stale(&self) -> usize {
         let is_stale = |path: &&PathBuf| path.is_file() && self.paths().all(|written| written != path.as_path());
         self.places(self.owned).iter().filter(is_stale).count()
@@ -121,13 +121,13 @@ impl<'a> Files<'a> {
         Ok(reader)
     }
 
-    /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. None where
-    /// `cancel` says so before that.
+    /// Writes all files or none: each goes to a temporary file beside its place, and they are renamed once all are complete. No file is
+    /// written where `cancel` is set before that.
     pub fn write(&self, cancel: &CancelToken) -> Result<()> {
         self.write_if(cancel, &|| true).map(|_| ())
     }
 
-    /// As [`Self::write`], unless `still` says no once all files are complete: then none is written. Whether they were.
+    /// Writes the files as [`Self::write`] does, unless `still` returns false once all are complete. Returns true where they were written.
     pub fn write_if(&self, cancel: &CancelToken, still: &dyn Fn() -> bool) -> Result<bool> {
         refuse_one_place_for_two(self.paths())?;
         let locks = self.locks()?;
@@ -249,7 +249,7 @@ fn refuse_one_place_for_two<'a>(files: impl Iterator<Item = &'a Path>) -> Result
     Ok(())
 }
 
-/// Where a file will be, links followed but for its own name, whether its folders exist yet or not.
+/// Absolute path of a file, with the links of its folders followed but not a link at its own name. The folders need not exist.
 pub fn place(path: &Path) -> std::io::Result<PathBuf> {
     let absolute = std::path::absolute(path)?;
     let mut place = PathBuf::new();

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Most random restarts: seconds of work.
+/// Largest number of random restarts: seconds of work.
 const MOST_RESTARTS: u64 = 10_000;
 
 /// Arguments of `fk`.
@@ -111,11 +111,11 @@ struct IkAnswer {
     orientation_error_deg: f64,
     /// `dls` or `qp`, when solved.
     method: Option<Method>,
-    /// Where the answer was found from, when solved.
+    /// Start from which the answer was found, when solved.
     start: Option<Start>,
     /// Every pair at that configuration, as `fk` has them.
     clearance: Vec<PairClearance>,
-    /// Why not, when not solved.
+    /// Cause of the failure, when not solved.
     cause: Option<IkCause>,
 }
 
@@ -338,7 +338,7 @@ fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> Result<Frame> {
     }
 }
 
-/// As many numbers as are needed.
+/// The numbers as an array of length `N`; refuses any other count.
 fn array<const N: usize>(numbers: &[f64]) -> Result<[f64; N]> {
     <[f64; N]>::try_from(numbers).map_err(|_| anyhow!("{N} numbers are needed; found {}", numbers.len()))
 }

@@ -15,10 +15,10 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What is being done.
+/// Work that the progress display names during the search.
 const LOOKING: &str = "searching for keys whose change helps";
 
-/// A scenario of which nothing can come.
+/// JSON answer for a scenario that cannot be carried out.
 #[derive(Serialize)]
 struct NotValid {
     valid: bool,
@@ -26,12 +26,12 @@ struct NotValid {
     why: InfeasibleReport,
 }
 
-/// What is said of a job that cannot be done.
+/// Answer for a job that cannot be done.
 #[derive(Serialize)]
 struct Told {
     #[serde(flatten)]
     why: InfeasibleReport,
-    /// Keys that were changed, each alone.
+    /// Changes that were tried as remedies, one key each.
     remedies: Remedies,
 }
 
@@ -41,7 +41,7 @@ impl fmt::Display for Told {
     }
 }
 
-/// Why there is no plan, where that is it; `None` where the input is at fault.
+/// Error that prevents a plan; `None` where the input is at fault.
 fn cause(failure: &Failure) -> Option<PlanError> {
     match failure {
         Failure::Plan(error) => Some(error.clone()),
@@ -50,13 +50,13 @@ fn cause(failure: &Failure) -> Option<PlanError> {
     }
 }
 
-/// What is to be said of a scenario that could not be carried out, with the keys that decide it; `None` where the input is at fault.
+/// Report on a scenario that could not be carried out, with the keys that decide it; `None` where the input is at fault.
 pub fn report(scenario: &Scenario, failure: &Failure) -> Option<InfeasibleReport> {
     let report = InfeasibleReport::new(&scenario.name, scenario.seed, &cause(failure)?)?;
     Some(report.explained(failure.to_string()))
 }
 
-/// The same with all plates that stand in the way, and the keys that would mend it.
+/// The report with all plates that cannot be washed, and with the keys whose change helps.
 fn in_full(
     options: &Options,
     scenario: &Scenario,
@@ -64,7 +64,7 @@ fn in_full(
     why: InfeasibleReport,
     search_time: Duration,
 ) -> Result<Told, Failure> {
-    // Of the paper's program no keys are tried.
+    // No keys are tried for the paper's program.
     let Some(error) = cause(failure).filter(|_| !matches!(failure, Failure::Paper(_))) else {
         let remedies = Remedies::default();
         return Ok(Told { why, remedies });
@@ -80,7 +80,7 @@ fn in_full(
         PlanError::Unwashable(first) => {
             let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
             let is_over = CancelToken::new();
-            // The other half is left for what would mend it.
+            // The other half of the time is left for the search for remedies.
             let _deadline = Deadline::following(search_time / 2, &is_over, watch.cancel);
             let others = Watch {
                 cancel: &is_over,
@@ -125,7 +125,7 @@ pub fn remedies_of_proof(
     )?))
 }
 
-/// The end of a job that was not carried out: where it cannot be done, that is reported in place of what earlier calls left.
+/// Ends a job that was not carried out. Where the job cannot be done, a report replaces the files of earlier calls.
 pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Duration) -> Result<ExitCode> {
     let failure: Failure = error.downcast()?;
     let Some(report) = report(scenario, &failure) else {
@@ -138,7 +138,7 @@ pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Du
     Ok(ExitCode::from(report.why.verdict).job(scenario.job.on_failure))
 }
 
-/// With `--json`, gives what stands against a scenario (exit code 3) as an answer on standard output too.
+/// Prints the report on a scenario that cannot be carried out (exit code 3) on standard output, with `--json` only.
 pub fn answer(options: &Options, scenario: &Scenario, error: &Error) -> Result<()> {
     let failure = error.downcast_ref().filter(|_| options.json);
     if let Some(why) = failure.and_then(|failure| report(scenario, failure)) {

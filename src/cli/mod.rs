@@ -242,7 +242,7 @@ fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result
 }
 
 impl Verb {
-    /// Whether it is done soon, and does not look at the token that tells it to give up: the system ends it.
+    /// True where the verb ends soon and does not check the cancel token: a signal ends the process.
     fn is_soon_done(&self) -> bool {
         match self {
             Self::Robot(arguments) => !arguments.suggest,

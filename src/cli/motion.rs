@@ -46,7 +46,7 @@ fn time_step(text: &str) -> Result<f64> {
     within(text, least..=most, &expected)
 }
 
-/// Where the planned motion goes, and in which steps.
+/// Arguments for the CSV file of the planned motion, its time step and the search for remedies.
 #[derive(Debug, Args, Default)]
 pub struct MotionArguments {
     /// CSV file for the planned motion [default: trajectory.csv in the output folder]
@@ -60,7 +60,7 @@ pub struct MotionArguments {
     search_time: Option<f64>,
 }
 
-/// How long is searched where nothing else is stated \[s\].
+/// Default search time \[s\].
 const SEARCH_S: f64 = 3.0;
 
 /// A time from 0 to a day \[s\].
@@ -69,12 +69,12 @@ fn search_time(text: &str) -> Result<f64> {
 }
 
 impl MotionArguments {
-    /// How long is looked for what would mend a job.
+    /// Longest search for keys whose change helps: that of `--search-time`, or the default.
     pub fn search_time(&self) -> Duration {
         Duration::from_secs_f64(self.search_time.unwrap_or(SEARCH_S))
     }
 
-    /// Where the planned motion's CSV goes.
+    /// Path of the CSV file of the planned motion.
     pub fn csv_file(&self, options: &Options) -> PathBuf {
         let default = || options.folder().join("trajectory.csv");
         self.csv.clone().unwrap_or_else(default)

@@ -16,10 +16,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Stack of a worker thread: what a main thread usually has.
+/// Stack of a worker thread: the usual size of a main thread's.
 const STACK_BYTES: usize = 8 << 20;
 
-/// Time between two looks at whether somebody ends it.
+/// Interval at which the cancel token is checked.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Options that every verb takes.
@@ -65,7 +65,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Starts logging, where it has not begun yet; the threads to work on.
+    /// Starts logging, unless it is on already, and returns the pool of worker threads.
     pub fn set_up(&self) -> Result<ThreadPool> {
         let level = match (self.quiet, self.verbose) {
             (true, _) => tracing::Level::ERROR,
@@ -113,14 +113,15 @@ impl Options {
         Ok(arm)
     }
 
-    /// Says on standard error what was probably meant in another unit.
+    /// Prints a warning for each value that was probably meant in another unit.
     pub fn warn(&self, notes: &[Note]) {
         for note in notes {
             self.say(&format!("warning: {note}"));
         }
     }
 
-    /// Why the scenario could not be carried out; what is wrong in it with the file that was given in place of its own name.
+    /// Error for a scenario that could not be carried out. An error in the scenario names the file that was given, not the
+    /// scenario's own name.
     pub fn failure(&self, error: platewash::Failure) -> Error {
         match error {
             platewash::Failure::Scenario(error) => self.of_file(error).into(),
@@ -128,7 +129,7 @@ impl Options {
         }
     }
 
-    /// The error with the scenario's file in front, where a file was given and the error is one of what it states.
+    /// The error with the name of the scenario in front, where `--scenario` is given and the error comes from that scenario.
     pub fn in_file(&self, error: Error) -> Error {
         match &self.scenario {
             Some(file) if error.downcast_ref().is_some_and(is_of_job) => {
@@ -138,12 +139,12 @@ impl Options {
         }
     }
 
-    /// A sign of life for work that may take long.
+    /// A progress display for work that may take long.
     pub fn progress(&self, work: &'static str) -> Progress {
         Progress::new(self.quiet, work)
     }
 
-    /// What some work comes to, with a sign of life while it goes on.
+    /// Returns the result of some work, and shows progress while it runs.
     pub fn during<T>(&self, work: &'static str, make: impl FnOnce() -> T) -> T {
         let _progress = self.progress(work);
         make()
@@ -159,14 +160,14 @@ impl Options {
         self.folder_or("out")
     }
 
-    /// Waits until it is told to end.
+    /// Waits until the cancel token is set.
     pub fn wait(&self) {
         while !self.cancel.is_cancelled() {
             std::thread::sleep(LOOK);
         }
     }
 
-    /// What the scenario was called: a file, or a shipped name.
+    /// Name of the scenario as given: a file, or a shipped name.
     pub fn scenario_name(&self) -> &str {
         self.scenario.as_deref().unwrap_or(SHIPPED[0].name)
     }
@@ -180,7 +181,7 @@ impl Options {
     }
 }
 
-/// Whether a job was refused for what its scenario states, in a message that does not say which scenario that is.
+/// True where a job was refused because of its scenario, in a message that does not name the scenario.
 fn is_of_job(failure: &platewash::Failure) -> bool {
     use platewash::Failure::{Body, Job, NoContact, Plan, Tool};
     match failure {
@@ -193,17 +194,17 @@ fn is_of_job(failure: &platewash::Failure) -> bool {
     }
 }
 
-/// Keys that a tip names at most.
+/// Largest number of keys that a tip names.
 const MOST_KEYS: usize = 3;
 
-/// Characters that an option begins with as the one that is suggested in its place, to be taken for it, dashes too.
+/// Least number of common first characters, dashes included, for which an unknown option counts as a misspelling of the suggested one.
 const NEAR: usize = 6;
 
-/// Of verbs of plan files.
+/// Reason why verbs on plan files do not take `--scenario`, `--seed` and `--tool-mount`.
 pub const PLAN_STATES: &str =
     "the plan file states its job and its seed; leave it out (verify --against compares them with a scenario)";
 
-/// Verbs, options that they do not take, and why.
+/// Verbs, the options that they do not take, and the reason.
 const REFUSED: [(&str, &str, &str); 7] = [
     (
         "verify simulate tune view figures export dry-run compare",

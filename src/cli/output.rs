@@ -16,12 +16,12 @@ use std::time::Duration;
 /// Last line of a report that leaves something out.
 const HINT: &str = "\nmore: --details\n";
 
-/// Whether anybody still reads standard output.
+/// State of the reader of standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reader {
-    /// As far as is known.
+    /// The reader has not closed its end, as far as is known.
     There,
-    /// It has closed its end: whatever else is printed goes nowhere.
+    /// The reader has closed its end; further output is lost.
     Gone,
 }
 
@@ -42,7 +42,7 @@ impl Options {
         print(&if self.json { json(answer)? } else { text(&words()) })
     }
 
-    /// Says something on standard error, unless quiet was asked for.
+    /// Prints a message on standard error, unless `--quiet` is given.
     pub fn say(&self, words: &str) {
         if !self.quiet {
             message(words);
@@ -68,7 +68,7 @@ pub fn text(value: &impl Display) -> String {
     escaped(&value.to_string(), |c| c.escape_default().to_string())
 }
 
-/// A text in which `escape` writes every control character but new lines.
+/// A text in which `escape` replaces every control character but new lines.
 fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
     let is_harmless = |c: char| !c.is_control() || c == '\n';
     let written = |c| if is_harmless(c) { c.to_string() } else { escape(c) };
@@ -99,16 +99,16 @@ impl DetailArguments {
     }
 }
 
-/// On a terminal, work shorter than this shows nothing.
+/// Shortest work that shows its progress on a terminal.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Elsewhere, the time to the first line, and between two.
+/// Time before the first progress line, and between two lines, where standard error is no terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
 /// Time between two turns of the spinner.
 const TICK: Duration = Duration::from_millis(100);
 
-/// What is done, and what of it is tried at the moment; a spinner, and a bar once it is known how much there is to do. Goes when
+/// Progress display: the work and its present step, with a spinner, and a bar once the amount of work is known. It disappears when
 /// it is dropped.
 pub struct Progress {
     work: &'static str,
@@ -117,7 +117,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Shows nothing yet; `work` is what is done. With `quiet` it stays silent.
+    /// A display of the work named `work`, which shows nothing yet. With `quiet` it stays silent.
     pub fn new(quiet: bool, work: &'static str) -> Self {
         let silent = Self::silent(work);
         if quiet {
@@ -140,7 +140,7 @@ impl Progress {
         Self { work, bar, timer }
     }
 
-    /// A line to `out` every so often, with what is tried at that moment.
+    /// Writes a line with the present step to `out` at the given interval.
     fn lines(self, every: Duration, mut out: impl Write + Send + 'static) -> Self {
         self.timed(every, move |bar| {
             // Nobody may be reading.
@@ -149,7 +149,7 @@ impl Progress {
         })
     }
 
-    /// Calls `show` every so often, until it says no.
+    /// Calls `show` at the given interval, until it returns false.
     fn timed(mut self, every: Duration, mut show: impl FnMut(&ProgressBar) -> bool + Send + 'static) -> Self {
         let ((over, waiting), bar) = (channel(), self.bar.clone());
         let timer = move || while waiting.recv_timeout(every) == Err(RecvTimeoutError::Timeout) && show(&bar) {};
@@ -157,19 +157,19 @@ impl Progress {
         self
     }
 
-    /// Notes what is tried now.
+    /// Shows the present step of the work.
     pub fn say(&self, what: &dyn Display) {
         self.bar.set_message(format!("{}: {what}", self.work));
     }
 
-    /// Notes how far a study is.
+    /// Shows the progress of a study.
     pub fn rows(&self, at: &platewash::study::Progress) {
         let (done, rows) = (at.done, at.rows);
         let words = format!("{done} of {rows} rows, {:.1} rows/s, {:.0} s left", at.per_s, at.left_s);
         self.counted(done, rows, "{bar:40} {msg}", words);
     }
 
-    /// Notes how many layouts are done.
+    /// Shows the number of layouts done.
     pub fn layouts(&self, done: usize, total: usize) {
         let words = format!("{done} of {total} layouts");
         self.counted(done as u64, total as u64, "{bar:40} {msg}, {eta} left", words);
@@ -221,7 +221,7 @@ mod progress_tests {
     use super::*;
     use std::sync::{Arc, Mutex};
 
-    /// What was written, shared with the one who writes.
+    /// Written text, shared with the writer.
     #[derive(Clone, Default)]
     struct Written(Arc<Mutex<Vec<u8>>>);
 

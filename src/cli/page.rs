@@ -21,15 +21,15 @@ use std::sync::Arc;
 use std::time::Duration;
 use tempfile::NamedTempFile;
 
-/// What is wrong without a bundle, and what to do.
+/// Message for a missing bundle, with the remedy.
 const NO_BUNDLE: &str =
     "this program was built without it; `cargo xtask page` in its sources makes it, then build again";
 
-/// For how long what opens the browser is looked at; one that goes on is taken to have opened it.
+/// Longest time to watch the program that opens the browser; one that runs longer is taken to have opened it.
 const TO_OPEN: Duration = Duration::from_secs(3);
 
-/// The bundle that all pages share; none where there is none, which a line on standard error explains, even where quiet was asked for: a file
-/// is missing.
+/// The bundle that all pages share. Without one, `None`, and a line on standard error says why, even with `--quiet`, as a file will be
+/// missing.
 pub fn bundle() -> Option<Bundle> {
     let found = Bundle::embedded();
     if found.is_none() {
@@ -73,7 +73,7 @@ pub fn add(
     Ok(())
 }
 
-/// Where a shipped scenario draws its plates, if those of a plan of it lie where it lays them; of any other plan nothing is known.
+/// Region in which a shipped scenario draws its plates, for a plan whose plates lie as that scenario lays them; empty for any other plan.
 pub fn region_of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
     let name = plan.provenance.scenario.as_str();
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
@@ -86,7 +86,7 @@ pub fn region_of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
     region.unwrap_or_default()
 }
 
-/// Where a page is served.
+/// Arguments for serving a page.
 #[derive(Debug, Args, Default)]
 pub struct ServeArguments {
     /// Port of the page's address [default: any free port]
@@ -102,7 +102,7 @@ pub struct ServeArguments {
 }
 
 impl ServeArguments {
-    /// The first of them that is given.
+    /// Name of the first of these options that is given.
     pub fn given(&self) -> Option<&'static str> {
         let given = [
             (self.port.is_some(), "--port"),
@@ -112,7 +112,7 @@ impl ServeArguments {
         given.into_iter().find_map(|(is_given, name)| is_given.then_some(name))
     }
 
-    /// Whether this machine alone reaches the page.
+    /// True where only this machine can reach the page.
     pub fn is_loopback(&self) -> bool {
         self.bind.is_none_or(|ip| ip.is_loopback())
     }
@@ -135,8 +135,8 @@ impl ServeArguments {
         Ok(listener)
     }
 
-    /// Opens an address that nobody else may see: by way of a file that only this user reads, as others see what programs are called with. The
-    /// file goes with what is returned.
+    /// Opens an address that nobody else may see. The browser gets a file that only this user can read, as other users can see the
+    /// arguments of programs. The file is removed when the returned value is dropped.
     pub fn open_privately(&self, options: &Options, url: &str) -> Result<Option<NamedTempFile>> {
         if self.no_open {
             return Ok(None);
@@ -166,13 +166,13 @@ impl ServeArguments {
     }
 }
 
-/// For how long the simulation waits for a page.
+/// Longest time that the simulation waits for a page to connect.
 const TO_COME: Duration = Duration::from_secs(30);
 
-/// For how long the command waits, at its end, until all pages know it.
+/// Longest time that the command waits at its end until all pages know about it.
 const TO_PART: Duration = Duration::from_secs(3);
 
-/// Less than this behind real time is rounding, or a busy machine \[s\].
+/// Shortest delay behind real time that is reported \[s\]; less is rounding, or a busy machine.
 const NOTICEABLE_S: f64 = 0.5;
 
 /// Arguments of `run` that show it live.
@@ -185,7 +185,7 @@ pub struct LiveArguments {
     serve: ServeArguments,
 }
 
-/// All that a live run needs before there is anything to show.
+/// Port, bundle and region of a live run, ready before there is anything to show.
 pub struct Stage<'a> {
     serve: &'a ServeArguments,
     listener: Listener,
@@ -196,12 +196,12 @@ pub struct Stage<'a> {
 /// A page that is served, of a run that has not ended.
 pub struct Show {
     live: Arc<Live>,
-    /// Serves until it is dropped.
+    /// Server of the page; it serves until it is dropped.
     _server: Server,
 }
 
 impl LiveArguments {
-    /// Takes the port and finds the page, where the run is to be shown: before any long work, and without a page as if it were not.
+    /// Takes the port and finds the bundle, before any long work. `None` where the run is not to be shown, or there is no bundle.
     pub fn prepare(&self, options: &Options, scenario: &Scenario) -> Result<Option<Stage<'_>>> {
         if !self.live {
             return match self.serve.given() {

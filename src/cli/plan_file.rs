@@ -54,7 +54,7 @@ impl<'a> PlanFile<'a> {
         not_verified(self.refused(error))
     }
 
-    /// Why the plan could not be judged or simulated.
+    /// Error for a plan that could not be judged or simulated; it names the file, unless the work was cancelled.
     pub fn failure(&self, error: Failure) -> Error {
         match error.is_cancelled() {
             true => error.into(),

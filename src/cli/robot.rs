@@ -157,7 +157,7 @@ impl Answer {
     }
 }
 
-/// What is suggested.
+/// Suggestions for the arm.
 #[derive(Debug, Serialize)]
 struct Suggested {
     robot: String,
@@ -166,11 +166,11 @@ struct Suggested {
     start_deg: [f64; 6],
     /// The nearest bodies there, and their distance \[m\].
     nearest: Option<([String; 2], f64)>,
-    /// How far the joint nearest to a limit is from it \[deg\].
+    /// Distance from the limit of the joint that is nearest to one \[deg\].
     margin_deg: f64,
-    /// The angle between the tool and the way straight onto the plates \[deg\].
+    /// Angle between the tool and the direction straight onto the plates \[deg\].
     tilt_deg: f64,
-    /// Clear configurations out of which home is the best.
+    /// Number of clear configurations from which the home was chosen.
     clear: usize,
     /// Radius of the plate \[m\].
     plate_radius_m: f64,
@@ -178,9 +178,9 @@ struct Suggested {
     plate_height_m: f64,
     /// Distances from axis 1 at which the plate can be washed somewhere \[m\].
     washable_rho_m: Option<[f64; 2]>,
-    /// What centres of washable plates cover \[m²\].
+    /// Area that the centres of washable plates cover \[m²\].
     washable_area_m2: f64,
-    /// Edge of the finest squares that were looked at \[m\].
+    /// Edge of the finest squares examined \[m\].
     square_m: f64,
     /// The largest sector of such centres, as `layout.rho_m` and `layout.azimuth_deg`.
     rho_m: Option<[f64; 2]>,
@@ -231,7 +231,7 @@ fn map(scenario: &Scenario, robot: &RobotModel, tool: &Tool, found: &Suggestion)
     }
 }
 
-/// The sector in whole centimetres and degrees, no larger than it is.
+/// The sector rounded inwards to whole centimetres and degrees.
 fn whole_units(sector: &Sector) -> ([f64; 2], [f64; 2]) {
     let within =
         |[from, to]: [f64; 2], unit: f64| [(from / unit - 1e-9).ceil() * unit, (to / unit + 1e-9).floor() * unit];

@@ -38,7 +38,7 @@ pub struct RunArguments {
 pub struct Washing {
     /// The arm.
     pub arm: Arc<RobotModel>,
-    /// What is to be said about the plates.
+    /// Findings about the plates.
     pub findings: Vec<Finding>,
     /// The plan.
     pub planned: Planned,
@@ -78,7 +78,7 @@ fn follow(options: &Options, scenario: &Scenario) -> Result<(PaperRun, PaperRepo
     Ok((run, report))
 }
 
-/// What `plan` says of a plan.
+/// Answer of `plan`.
 #[derive(Debug, Serialize)]
 struct Answer {
     /// Always false: proving is for `run` and `verify`.
@@ -91,11 +91,11 @@ struct Answer {
     waypoints: Option<Waypoints>,
 }
 
-/// What the paper's program makes of its waypoints.
+/// Result of the paper's program at its waypoints.
 #[derive(Debug, Serialize)]
 struct Waypoints {
     plates_washed: usize,
-    /// Waypoints solved and asked.
+    /// Number of waypoints solved, and of all waypoints.
     waypoints_reached: [usize; 2],
 }
 
@@ -234,7 +234,7 @@ impl Washing {
     }
 }
 
-/// What `run` says of a washing: the proof of the plan, and what a controlled arm makes of it.
+/// Report of `run` on a washing: the proof of the plan, and its simulation with a controlled arm.
 #[derive(Debug, Serialize)]
 struct RunReport {
     #[serde(flatten)]

@@ -57,13 +57,13 @@ struct Valid {
     valid: bool,
     scenario: String,
     robot: String,
-    /// What is to be said about the plates.
+    /// Findings about the plates.
     findings: Vec<Finding>,
-    /// What was probably meant in another unit.
+    /// Notes on values that were probably meant in another unit.
     notes: Vec<Note>,
-    /// That the arm may not carry the tool, by what; `null` where it may, or no payload is known.
+    /// Masses of a tool that is too heavy for the arm, in words; `null` where the arm may carry it, or no payload is known.
     overload: Option<String>,
-    /// What the seed gives, for plates that are sampled.
+    /// Result of placing the plates with the seed, where they are sampled.
     sampling: Option<Sampling>,
 }
 
@@ -71,7 +71,7 @@ struct Valid {
 struct Sampling {
     seed: u64,
     layout_found: bool,
-    /// In words.
+    /// Outcome in words.
     outcome: String,
 }
 
@@ -117,7 +117,8 @@ fn valid(options: &Options, scenario: &Scenario) -> Result<Valid> {
 }
 
 impl Sampling {
-    /// What placing the plates as `run` does gives. That another seed may do better is part of the answer; that none can is an error.
+    /// Result of placing the plates as `run` does. A search without success is a result, as another seed may succeed; a proof that no
+    /// layout exists is an error.
     fn of(scenario: &Scenario, placed: &Result<Layout, LayoutError>) -> Result<Self, Failure> {
         let outcome = match placed {
             Ok(layout) => format!("a layout of {} was found", counted(layout.plates.len(), "plate")),

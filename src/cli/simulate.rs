@@ -115,7 +115,7 @@ pub fn simulate(options: &Options, arguments: &SimulateArguments) -> Result<Exit
     Ok(report.verdict.into())
 }
 
-/// How long an execution of a plan lasts at most \[s\]: its last sample may come a period after the plan's end.
+/// Longest duration of an execution of a plan \[s\]: its last sample may come a period after the plan's end.
 pub fn lasts_at_most_s(plan: &Plan, settings: &SimulationSettings) -> f64 {
     plan.duration_s() + settings.period_s()
 }
@@ -134,7 +134,7 @@ fn carried_out(
     Ok((execution, report))
 }
 
-/// What an arm makes of a plan under the settings that it states itself.
+/// Result of simulating a plan with the settings that the plan states.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub enum Simulated {
@@ -143,13 +143,13 @@ pub enum Simulated {
         /// The execution.
         #[serde(skip)]
         execution: Execution,
-        /// How it went.
+        /// Report on the execution.
         #[serde(flatten)]
         report: Box<SimulationReport>,
     },
-    /// None: the arm's dynamics are not known, or the law was refused.
+    /// No execution: the arm's dynamics are not known, or the control law was refused.
     Refused {
-        /// Why.
+        /// Reason, in words.
         refused: String,
     },
 }
@@ -169,7 +169,7 @@ impl Simulated {
         }
     }
 
-    /// How it ended, for pages that show it live.
+    /// End of the simulation, for pages that show it live.
     pub fn live_end(&self) -> LiveEnd {
         let (headline, washed) = match self {
             Self::Done { report, .. } => (report.headline.clone(), Some(report.verdict.is_done())),
@@ -178,7 +178,7 @@ impl Simulated {
         LiveEnd { headline, washed }
     }
 
-    /// What the first line adds to what is proved: that nothing was simulated, or that the simulation fails.
+    /// Addition to the first line of the report: nothing was simulated, or the simulation fails. `None` where it succeeds.
     pub fn first_line(&self) -> Option<String> {
         let report = match self {
             Self::Done { report, .. } if report.verdict.is_done() => return None,
@@ -194,7 +194,7 @@ impl Simulated {
         Some(overload.into_iter().chain(not_done).collect::<Vec<_>>().join("; "))
     }
 
-    /// What a page shows of it.
+    /// Executed motion for a page; `None` where nothing was simulated.
     pub fn executed(&self) -> Option<Executed> {
         match self {
             Self::Done { execution, report } => Some(Executed::simulated(execution, report)),

@@ -135,7 +135,7 @@ fn export(folder: &Path, to: Option<&Path>, partial: bool) -> Result<()> {
     write_to(to, |out| Ok(study::export(folder, out, to).map(drop)?))
 }
 
-/// How the rows ended, a line.
+/// One line that counts the rows by outcome.
 fn outcomes(of: &Summary) -> String {
     let counts = Outcome::ALL.iter().filter_map(|outcome| {
         let count = of.outcomes.get(outcome.code())?;

@@ -39,7 +39,7 @@ pub struct VerifyArguments {
     details: DetailArguments,
 }
 
-/// What is said of a plan.
+/// Answer of `verify` on a plan.
 #[derive(Debug, Serialize)]
 struct Answer {
     #[serde(flatten)]
@@ -65,7 +65,7 @@ enum Judgement {
     },
 }
 
-/// Where a plan is another one than it should be.
+/// Comparison of a plan with the scenario or the parent that it should come from.
 #[derive(Debug, Serialize)]
 struct Against {
     #[serde(flatten)]
@@ -73,7 +73,7 @@ struct Against {
     differences: Vec<Difference>,
 }
 
-/// What a plan should be of.
+/// Scenario or parent that a plan should come from.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum Other {
@@ -147,7 +147,7 @@ fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(Again
     Ok((against, arm))
 }
 
-/// What a scenario asks for, resolved, its plates placed again.
+/// Resolved job of a scenario, with its plates placed again.
 fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Result<JobTerms, Failure> {
     let progress = options.progress("placing the plates");
     let watch = Watch {
@@ -234,12 +234,12 @@ impl Judgement {
 }
 
 impl Against {
-    /// Whether the plan is what it should be.
+    /// True where nothing differs.
     fn agrees(&self) -> bool {
         self.differences.is_empty()
     }
 
-    /// What stands before everything else; nothing where they agree.
+    /// Words that begin the answer; empty where nothing differs.
     fn first_words(&self) -> String {
         let count = fields_differ(self.differences.len());
         match &self.other {
@@ -287,7 +287,7 @@ impl fmt::Display for Against {
     }
 }
 
-/// How many fields of two jobs differ.
+/// Number of fields that differ between two jobs, in words.
 pub fn fields_differ(count: usize) -> String {
     match count {
         0 => "no field differs".to_owned(),

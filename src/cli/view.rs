@@ -36,7 +36,7 @@ pub struct ViewArguments {
     save: Option<PathBuf>,
 }
 
-/// Where the page is.
+/// Answer of `view`: the address of the page, or its file.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Shown<'a> {
@@ -125,7 +125,7 @@ pub struct FiguresArguments {
     only: Vec<Figure>,
 }
 
-/// What is written, and what is not.
+/// Answer of `figures`: the files written, and the parts left out.
 #[derive(Debug, Serialize)]
 struct Drawn {
     scenario: String,
@@ -134,7 +134,7 @@ struct Drawn {
     left_out: Vec<LeftOut>,
 }
 
-/// A figure that the plan has nothing for, or a part of the others that is not known.
+/// A figure that the plan has no content for, or a part of the other figures that is not known.
 #[derive(Debug, Serialize)]
 struct LeftOut {
     what: String,
@@ -193,11 +193,11 @@ impl Drawn {
     }
 }
 
-/// What is known of a plan beside itself.
+/// Results on a plan that figures need, as far as they are known.
 struct Known {
     certificate: Option<Certificate>,
     simulated: Option<Simulated>,
-    /// Of a plan of the paper's program, what the tip was to follow.
+    /// Curves that the tip should follow, for a plan of the paper's program.
     ideal: Option<Vec<platewash::viewer::figures::Ideal>>,
 }
 
@@ -245,7 +245,7 @@ impl Known {
     }
 }
 
-/// What was found out, or a note why it is not known; an error where the work was given up.
+/// Returns a result, or `None` with a note in `left_out` that says why it is missing. An error where the work was cancelled.
 fn known<T, E>(found: Result<T, E>, what: &str, left_out: &mut Vec<LeftOut>) -> Result<Option<T>>
 where
     Failure: From<E>,

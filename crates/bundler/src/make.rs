@@ -8,21 +8,21 @@ use anyhow::{Context, Result};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// What [`make`] did.
+/// Result of [`make`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// Nothing: the bundle was made from these sources before.
+    /// The bundle was up to date; nothing was made.
     Fresh,
-    /// It made the bundle.
+    /// The bundle was made.
     Made,
 }
 
-/// The page's sources.
+/// Folder of the page's sources.
 pub fn sources() -> PathBuf {
     root().join("crates/viewer/page")
 }
 
-/// Its bundle.
+/// Folder of the page's bundle.
 pub fn bundle() -> PathBuf {
     root().join("crates/viewer/dist")
 }

@@ -24,15 +24,15 @@ windows = os.name == 'nt'
 print(os.path.join(root, 'node.exe') if windows else os.path.join(root, 'bin', 'node'))
 print(os.path.join(root, '' if windows else 'lib', 'node_modules', 'npm', 'bin', 'npm-cli.js'))";
 
-/// The longest that it may take to fetch the package, 60 MB.
+/// Longest time to fetch the package, 60 MB.
 const LONGEST: Duration = Duration::from_secs(240);
 
-/// Which packages are fetched.
+/// Set of packages to fetch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Packages {
-    /// What the bundle is made of and with.
+    /// Packages that the bundle is made of and with.
     Bundled,
-    /// What checks it, too.
+    /// The bundled packages, and those that check the bundle.
     All,
 }
 
@@ -40,7 +40,7 @@ pub enum Packages {
 #[derive(Debug)]
 pub struct Node {
     node: PathBuf,
-    /// The program, and what stands before its arguments.
+    /// Program of npm, and the script that comes before its arguments, if any.
     npm: (PathBuf, Option<PathBuf>),
 }
 
@@ -98,7 +98,7 @@ impl Node {
         }
     }
 
-    /// Why it cannot be used.
+    /// Reason why this Node cannot be used: it is missing, too old or without npm. `None` where it can be used.
     fn unfit(&self, oldest: (u32, u32)) -> Option<String> {
         let Some(found) = version(Command::new(&self.node)) else {
             return Some("there is no `node` on the PATH".to_owned());
@@ -115,7 +115,7 @@ impl Node {
     }
 }
 
-/// What a program says of its version.
+/// Version that a program prints for `--version`; `None` where the program cannot be run or fails.
 fn version(mut program: Command) -> Option<String> {
     let output = program.arg("--version").output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).trim().to_owned();

@@ -1,4 +1,4 @@
-//! Where Python is.
+//! Finds the Python interpreter.
 
 use std::path::{Path, PathBuf};
 

@@ -15,7 +15,7 @@ pub const STAMP: &str = "stamp";
 /// Folders among the page's sources that the bundle does not depend on.
 const LEFT_OUT: [&str; 2] = ["node_modules", "test"];
 
-/// What of the page's folder its bundle is made from: names of files and folders in it, in order. Hidden ones are left out.
+/// Returns the names of the files and folders in the page's folder from which the bundle is made, sorted. Hidden ones are left out.
 ///
 /// # Errors
 /// A folder that cannot be read, or a name that is no Unicode.

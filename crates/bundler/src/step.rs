@@ -19,7 +19,7 @@ pub fn root() -> PathBuf {
     )
 }
 
-/// Where cargo builds, and where the virtual environment of the Python tests is.
+/// Folder in which cargo builds; it also holds the virtual environment of the Python tests.
 pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
 }

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 const PACKAGES: &str = "node_modules";
 
-/// The copy.
+/// A copy of the page's sources.
 #[derive(Debug)]
 pub struct Workshop {
     what: &'static str,
@@ -31,14 +31,14 @@ impl Workshop {
         Ok(Self { what, folder })
     }
 
-    /// Where it is.
+    /// Path of the copied sources.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
     /// Fetches the packages of the lock file, unless they are there; none of their own programs runs.
     pub fn fetch(&self, node: &Node, packages: Packages) -> Result<()> {
-        /// The longest that it may take.
+        /// Longest time to fetch the packages.
         const LONGEST: Duration = Duration::from_secs(180);
         let read = |name: &str| {
             let file = self.folder.join(name);

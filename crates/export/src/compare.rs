@@ -1,14 +1,11 @@
 //! Comparison of a program with the one that was handed over: the changes, and the judgement of the program as it stands.
 //!
+//! Also here: two texts, line by line; the share of the plan's speed that follows from a program's times, where it states none;
+//! the points of a program, by the lines that name them.
+//!
 //! The program is exported again from its plan with the settings that it states, and both texts are compared line by line. Spaces
 //! and the notation of numbers do not count: editors and controllers change them. For a changed line the differences of a point
 //! are listed in numbers.
-//!
-//! Two texts, line by line.
-//!
-//! The share of the plan's speed that follows from a program's times, where it states none.
-//!
-//! The points of a program, by the lines that name them.
 
 use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError};
 use crate::export::{self, ExportError};

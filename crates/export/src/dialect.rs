@@ -1,10 +1,8 @@
 //! A language of robot programs. Another one is one file, one fixture and one line in `dialect.rs`.
 //!
+//! Also here: a program in no dialect, as it is handed over; text files of a program, and lines in them.
+//!
 //! All dialects. Another one is a line here, beside its file and its fixture.
-//!
-//! A program in no dialect, as it is handed over.
-//!
-//! Text files of a program, and lines in them.
 
 use crate::csv::Csv;
 use crate::rapid::Rapid;

@@ -1,6 +1,6 @@
 //! Head of a program: its kind, its plan, its proof, and the assumptions of the proof. One statement per entry.
 //!
-//! Sentences as lines of a comment that every controller can show.
+//! Also here: sentences as lines of a comment that every controller can show.
 
 use crate::dialect::{Dialect, Point};
 use crate::judged::{Case, Judged};

@@ -16,9 +16,9 @@
 
 use proc_macro::{Delimiter, Group, TokenStream, TokenTree};
 
-/// The keys and the defaults of a section: see the crate.
+/// Derives the keys and the defaults of a section, a struct with named fields; see the crate.
 ///
-/// What is no such struct is an error of the compiler at the derive.
+/// Any other item is a compile error at the derive.
 #[proc_macro_derive(Section, attributes(section, key))]
 pub fn section(input: TokenStream) -> TokenStream {
     let tokens: Vec<TokenTree> = input.into_iter().collect();
@@ -48,7 +48,7 @@ pub fn section(input: TokenStream) -> TokenStream {
         .unwrap_or_else(|_| error("a key or a default is no expression"))
 }
 
-/// A field: its name, and what its attributes say.
+/// A field of a section, as its attributes describe it.
 struct Field {
     name: String,
     /// The lines of its doc comment, as string literals.
@@ -145,7 +145,7 @@ fn is(token: &TokenTree, sign: char) -> bool {
     matches!(token, TokenTree::Punct(found) if found.as_char() == sign)
 }
 
-/// An error of the compiler.
+/// A compile error with this message.
 fn error(words: &str) -> TokenStream {
     format!("compile_error!({words:?});").parse().unwrap_or_default()
 }

@@ -1,6 +1,6 @@
 //! Result of planning: the plan, and a summary of it.
 //!
-//! Time of a wash against the least time for its face, and the limits that hold it back.
+//! Also here: time of a wash against the least time for its face, and the limits that hold it back.
 //!
 //! A disc of radius s whose centre moves by L covers at most 2 s L + π s². A wash at the speed v or below that covers the area A
 //! therefore takes at least (A − π s²)/(2 s v).

@@ -1,6 +1,6 @@
 //! Watch: the caller that waits for planning.
 //!
-//! Activities of planning, for a caller that waits.
+//! Also here: activities of planning, for a caller that waits.
 
 use platewash_workcell::cancel::CancelToken;
 use std::fmt;

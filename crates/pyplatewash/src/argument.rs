@@ -1,8 +1,8 @@
-//! Arguments: the one place where what Python hands over becomes a number, a text, a path or an object of ours.
+//! Arguments: conversion of Python values to numbers, texts, paths and objects of this package, in one place.
 //!
-//! Every public callable takes plain Python objects and reads them here (arrays in `arrays`, tables in `value`). What does not do
-//! is refused in one form: the argument's name, what is needed, what was found. A wrong type is an `InputTypeError`, a wrong
-//! value an `InputError`. What a foreign object raises itself, such as an iterator of the caller's, is passed on.
+//! Every public callable takes plain Python objects and reads them here (arrays in `arrays`, tables in `value`). A value that does
+//! not fit is refused in one form: the argument's name, what is needed, what was found. A wrong type is an `InputTypeError`, a wrong
+//! value an `InputError`. Exceptions of foreign objects, such as an iterator of the caller, pass unchanged.
 //!
 //! Numbers, integers, truth values and texts.
 //!
@@ -18,13 +18,13 @@ use pyo3::types::{PyBool, PyBytes, PyComplex, PyFloat, PyInt, PyString, PyType};
 use pyo3::{PyClass, intern};
 use std::path::PathBuf;
 
-/// Most characters of a value that a message shows.
+/// Largest number of characters of a value that a message shows.
 const MOST_SHOWN: usize = 60;
-/// Most items of a sequence that is read one by one.
+/// Largest number of items of a sequence that is read one by one.
 const MOST_ITEMS: usize = 10_000_000;
-/// What a tool must be.
+/// Expected type of a tool, in messages.
 pub const TOOL: &str = "a Tool";
-/// What an arm must be.
+/// Expected type of an arm, in messages.
 pub const ROBOT: &str = "a Robot";
 
 static MASKED_ARRAY: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -73,7 +73,8 @@ pub fn wrong_value(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyErr 
     errors::input(value.py(), name, &format!("{needed} is needed; found {}", shown(value)))
 }
 
-/// What a conversion says, in our words; what is neither about type nor value is the object's own error.
+/// Exception for a value that a conversion refused, in the words of this package. Errors that concern neither type nor
+/// value pass unchanged.
 pub fn refused(name: &str, value: &Bound<'_, PyAny>, needed: &str, error: PyErr) -> PyErr {
     let py = value.py();
     if error.is_instance_of::<PyTypeError>(py) {
@@ -85,7 +86,7 @@ pub fn refused(name: &str, value: &Bound<'_, PyAny>, needed: &str, error: PyErr)
     }
 }
 
-/// Refuses a masked array of NumPy's with a masked value: what is masked is no number.
+/// Refuses a masked NumPy array in which a value is masked, as a masked value is no number.
 ///
 /// # Errors
 /// `InputError`, naming the argument.
@@ -170,7 +171,7 @@ pub fn object<'a, 'py, T: PyClass>(
     value.cast::<T>().map_err(|_| wrong_type(name, value, needed))
 }
 
-/// The same of an argument that may be left out.
+/// An object of one of our classes, for an argument that may be left out.
 ///
 /// # Errors
 /// As [`object`].
@@ -197,12 +198,12 @@ pub fn field<'py, T>(
     read(&format!("{class}.{field}"), &found)
 }
 
-/// Largest seed: beyond 2⁵³ − 1, neighbouring integers are one number in a plan file.
+/// Largest seed, 2⁵³ − 1: beyond it, a plan file cannot tell neighbouring integers apart.
 pub const LARGEST_SEED: u64 = platewash::workcell::job::MAX_SEED;
-/// Largest count that is passed on, to be judged by whoever counts.
+/// Range of counts whose upper bound the called function checks.
 pub const ANY_COUNT: [u64; 2] = [0, i64::MAX as u64];
 
-/// A number; NaN and infinities are judged by whoever uses it.
+/// A number; NaN and infinities pass, and the caller checks them.
 ///
 /// # Errors
 /// `InputTypeError` for what is no real number (a boolean is none), `InputError` for what no double can hold.
@@ -227,7 +228,7 @@ pub fn number_or(name: &str, value: Option<&Bound<'_, PyAny>>, otherwise: f64) -
     value.map_or(Ok(otherwise), |value| number(name, value))
 }
 
-/// Whether a value of NumPy's is an integer or a real number; true of anything else.
+/// True where a NumPy value is an integer or a real number; true for any value that is not NumPy's.
 fn real(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let py = value.py();
     let Some(dtype) = value.getattr_opt(intern!(py, "dtype"))? else {

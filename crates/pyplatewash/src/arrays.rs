@@ -1,9 +1,9 @@
 //! Array-likes in; NumPy arrays out are made in `made`.
 //!
+//! Also here: NumPy arrays out.
+//!
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.
-//!
-//! NumPy arrays out.
 
 use crate::{argument, errors};
 use numpy::{
@@ -20,11 +20,11 @@ use pyo3::{PyTypeInfo, intern};
 pub struct Wanted {
     /// Lengths of the trailing axes of one item, e.g. `[4, 4]`.
     pub item: &'static [usize],
-    /// Whether one item, a stack of them, or either is wanted.
+    /// Number of items wanted: one, a stack of them, or either.
     pub count: Count,
 }
 
-/// How many items an argument holds.
+/// Number of items that an argument may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Count {
     /// One item.
@@ -36,7 +36,8 @@ pub enum Count {
 }
 
 impl Wanted {
-    /// Whether a shape fits, and how many items it holds; `None` for one item without a leading axis.
+    /// Returns the length of the leading axis of a shape that fits, `Some(None)` for one item without that axis; `None`
+    /// where the shape does not fit.
     fn items(&self, shape: &[usize]) -> Option<Option<usize>> {
         match shape {
             item if item == self.item && self.count != Count::Stack => Some(None),
@@ -173,7 +174,7 @@ pub fn rows<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Ve
     Ok(rows.to_vec())
 }
 
-/// What NumPy makes of a value, as contiguous doubles.
+/// Converts a value with NumPy to an array of contiguous doubles.
 fn convert<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
     nothing_masked(name, value, 0)?;

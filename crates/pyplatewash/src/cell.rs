@@ -1,4 +1,4 @@
-//! The live cell: what answers a page in a notebook. Threads, messages and traits are Python's (`python/pyplatewash/_cell.py`).
+//! The live cell: the answers to a page in a notebook. Threads, messages and traits are Python's (`python/pyplatewash/_cell.py`).
 
 use crate::certificate::CertificateObject;
 use crate::page::{bundle, height_px};
@@ -29,7 +29,7 @@ pub struct CellEditorObject {
     inner: Arc<Editor>,
 }
 
-/// Why there is nothing to edit.
+/// Exception for a scenario that cannot be edited.
 fn refused(py: Python<'_>, error: &EditorError) -> PyErr {
     match error {
         EditorError::Scenario(error) => errors::scenario(py, error),
@@ -100,8 +100,8 @@ impl CellEditorObject {
     }
 }
 
-/// The arm of a scenario's files; `None` for the built-in one, and where the files are gone by now: then a plan asks for its arm, as one
-/// that was loaded does.
+/// The arm of a scenario's files; `None` for the built-in arm, and where the files no longer exist. In the latter case a plan asks for its
+/// arm, as a loaded plan does.
 fn own_robot(py: Python<'_>, scenario: &Scenario) -> PyResult<Option<Py<Robot>>> {
     if scenario.robot.urdf.is_none() {
         return Ok(None);
@@ -138,7 +138,7 @@ impl CellQuestionObject {
     }
 }
 
-/// Tells a line; a listener that raises has gone.
+/// Passes a line to the listener; false where it wants no more lines, or raises.
 fn listens(py: Python<'_>, tell: &Py<PyAny>, line: String) -> bool {
     let answer = tell.call1(py, (line,)).and_then(|answer| answer.extract(py));
     answer.unwrap_or_else(|error| {

@@ -1,4 +1,4 @@
-//! `Certificate`: what is proved about a plan.
+//! `Certificate`: the proof of a plan.
 
 use crate::job::PaperJobObject;
 use crate::plan::PlanObject;

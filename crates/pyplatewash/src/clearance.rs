@@ -31,7 +31,7 @@ pub struct ClearanceObject {
     made_of: MadeOf,
 }
 
-/// What a model was made of.
+/// Source of a clearance model.
 enum MadeOf {
     /// Robot, tool, plates.
     Arguments(Py<Robot>, Option<Py<PyAny>>, Py<PyTuple>),
@@ -55,7 +55,7 @@ fn indices(working: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<usize>> {
     Ok(working.map(read).transpose()?.unwrap_or_default())
 }
 
-/// The arm and the terms of a job or a plan, and the object that is kept of it.
+/// Arm and terms of a job or a plan, and the object that the model keeps.
 fn terms_of<'py>(job: &Bound<'py, PyAny>) -> PyResult<(Arc<RobotModel>, JobTerms, Bound<'py, PyAny>)> {
     let py = job.py();
     if let Ok(wash) = job.cast::<WashJobObject>() {
@@ -260,7 +260,7 @@ impl ClearanceObject {
         matches!(self.made_of, MadeOf::Job(_))
     }
 
-    /// What it was made of, as arguments.
+    /// Arguments that make the same model again.
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         match &self.made_of {
             MadeOf::Arguments(robot, tool, plates) => (robot, tool, plates).into_pyobject(py),

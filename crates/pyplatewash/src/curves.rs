@@ -1,6 +1,6 @@
 //! Generators of the tip's curves: wash curve, the paper's spiral, arc round the base, cubic.
 //!
-//! How much of a plate the sponge sweeps: as a number, and as a picture.
+//! Swept share of a plate: as a number, and as a raster.
 
 use crate::argument::{self, ANY_COUNT};
 use crate::arrays::{self, line};
@@ -20,13 +20,13 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 use std::f64::consts::TAU;
 
-/// Most points of a curve.
+/// Largest number of points of a curve.
 const MOST_POINTS: u64 = 10_000_000;
-/// Most turns of a spiral.
+/// Largest number of turns of a spiral.
 const MOST_TURNS: f64 = 1000.0;
-/// How far the turns of a curve may be from those of its rings.
+/// Largest difference between the turns of a curve and those of its rings.
 const SAME_TURNS: f64 = 1e-9;
-/// Largest length that is believed \[m\].
+/// Largest accepted length \[m\].
 const LARGEST_M: f64 = 100.0;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;

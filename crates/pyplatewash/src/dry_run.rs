@@ -9,10 +9,10 @@ use platewash::{CancelToken, Failure, Plan, RobotModel};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// What is asked of a dry run.
+/// Settings of a dry run.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked {
-    /// How far above the plates it is \[m\].
+    /// Height of the motion above the plates \[m\].
     pub height_m: f64,
     /// Largest speed of the tip \[m/s\].
     pub speed_m_s: f64,
@@ -37,7 +37,7 @@ pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: Aske
     patiently(py, work)?.map_err(|refused: Refused| refused.raised(py))
 }
 
-/// What stands against a dry run.
+/// Failure of a dry run: of its job, of its parent's certificate or of its plan.
 enum Refused {
     DryRun(DryRunError),
     Parent(CertifyError),

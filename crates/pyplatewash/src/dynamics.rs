@@ -15,7 +15,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyTuple, PyType};
 use rayon::prelude::*;
 
-/// States to a unit of work.
+/// Number of states in a unit of work.
 const CHUNK: usize = 512;
 
 static ENERGY: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -55,7 +55,7 @@ impl<'py, const K: usize> States<'py, K> {
 
     /// `of` every state.
     fn each<T: Send>(&self, py: Python<'py>, of: impl Fn([&JointVector; K]) -> T + Sync) -> PyResult<Vec<T>> {
-        // Where a row starts in its column: at its index, or at 0 for all.
+        // Each column with the step of its index: 1, or 0 where one row counts for all.
         let mut columns: [(&[JointVector], usize); K] = [(&[], 0); K];
         for (place, column) in columns.iter_mut().zip(&self.columns) {
             *place = (column.joints()?, usize::from(column.stacked.is_some()));
@@ -80,7 +80,7 @@ impl<'py, const K: usize> States<'py, K> {
         Ok(all)
     }
 
-    /// The same of joint vectors, as an array.
+    /// Joint vectors computed by `of` for each state, as an array of shape (6,) or (N, 6).
     fn vectors(
         &self,
         py: Python<'py>,

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Python's keywords of an export, as they are given.
 pub struct Given<'a, 'py> {
-    /// How far the tip may be from the plan \[m\].
+    /// Largest distance of the tip from the plan \[m\].
     pub tolerance_m: Option<&'a Bound<'py, PyAny>>,
     /// Share of the plan's speed.
     pub speed_share: Option<&'a Bound<'py, PyAny>>,
@@ -20,7 +20,7 @@ pub struct Given<'a, 'py> {
     pub corner_m: Option<&'a Bound<'py, PyAny>>,
     /// Requirements whose waiving is accepted.
     pub accept: Option<&'a Bound<'py, PyAny>>,
-    /// Where the arm stands \[rad\].
+    /// Configuration in which the arm stands now \[rad\].
     pub stands_rad: Option<&'a Bound<'py, PyAny>>,
     /// `T_flange_tip` as the controller has it.
     pub tip: Option<&'a Bound<'py, PyAny>>,
@@ -90,7 +90,7 @@ pub fn files(
     }
 }
 
-/// What stands against a plan, or against its program.
+/// Failure to certify a plan, or to write its program.
 enum Refused {
     Plan(CertifyError),
     Program(ExportError),

@@ -1,4 +1,4 @@
-//! `WashJob` and `PaperJob`: what is asked, resolved.
+//! `WashJob` and `PaperJob`: resolved jobs.
 
 use crate::layout::LayoutObject;
 use crate::plate::{PlateFields, plates};
@@ -29,7 +29,7 @@ impl PartialEq for WashJobObject {
     }
 }
 
-/// What a pickled job says; its arm is beside it.
+/// State of a pickled job without its arm, which is pickled beside it.
 #[derive(Serialize, Deserialize)]
 struct Pickled {
     name: String,
@@ -38,7 +38,7 @@ struct Pickled {
 }
 
 impl Pickled {
-    /// What restores a job: `_restore` of its class, this as text, and the arm.
+    /// Returns the call that restores a job: `_restore` of its class, with this state as text and the arm as its arguments.
     fn reduced<'py>(&self, job: &Bound<'py, PyAny>, robot: Py<Robot>) -> PyResult<Reduced<'py>> {
         let text = serde_json::to_string(self).map_err(|e| errors::internal(job.py(), &e.to_string()))?;
         Ok((
@@ -59,7 +59,7 @@ impl Pickled {
     }
 }
 
-/// What `__reduce__` gives.
+/// Return value of `__reduce__`: a callable and its arguments.
 type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 impl WashJobObject {

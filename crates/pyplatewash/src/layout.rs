@@ -1,4 +1,4 @@
-//! `Layout`: where the plates lie.
+//! `Layout`: the plates and their positions.
 
 use crate::plate::plates;
 use crate::value::to_record;

@@ -21,7 +21,7 @@ use platewash::{Certificate, Failure, JointVector, SimulationError, SimulationRe
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Heights of a page in a notebook that are believed \[px\].
+/// Least and largest accepted height of a page in a notebook \[px\].
 const HEIGHTS_PX: [u64; 2] = [100, 10_000];
 
 const MISSING: &str = "this build of pyplatewash is without the page that shows plans: where its sources are, `cargo xtask page` makes \
@@ -60,12 +60,12 @@ pub fn check(page: &Bound<'_, PyAny>) -> PyResult<()> {
     height_px(Some(&page.getattr("height")?)).map(|_| ())
 }
 
-/// A document as a page.
+/// HTML page of a view.
 fn html(py: Python<'_>, view: &View, bundle: &Bundle) -> PyResult<String> {
     page::html(view, bundle).map_err(|e| errors::internal(py, &e.to_string()))
 }
 
-/// What is proved of a plan and what an arm made of it, as they are given.
+/// Returns the certificate and the execution that are given, after a check that both belong to the plan.
 ///
 /// # Errors
 /// `InputError` for those of another plan.
@@ -87,7 +87,7 @@ pub fn of_the_plan(
     Ok((certificate, done))
 }
 
-/// What a page shows of a plan.
+/// Document that a page shows of a plan.
 fn view(
     py: Python<'_>,
     plan: &PlanObject,
@@ -113,7 +113,7 @@ fn view(
     made.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
 }
 
-/// An execution, judged.
+/// The executed motion with its report, for a page.
 fn executed(done: &Done) -> Result<Executed, SimulationError> {
     let Question { plan, arm, settings } = &done.question;
     let report = SimulationReport::new(plan, arm, settings, &done.execution)?;
@@ -253,7 +253,7 @@ pub fn _plan_figure<'py>(
         });
         let report = report.transpose()?;
         let ideal = match plan.process {
-            // Of a plan that the program would not make again, they are not known.
+            // The spirals are unknown for a plan that the program would not make again.
             Process::Paper => paper_spirals(&plan, &arm, cancel).ok(),
             Process::Wash => None,
         };

@@ -1,6 +1,6 @@
 //! `PaperRun`: the paper's program, planned and followed.
 //!
-//! The paper's program re-measured.
+//! Also here: the paper's program re-measured.
 
 use crate::job::PaperJobObject;
 use crate::plan::PlanObject;

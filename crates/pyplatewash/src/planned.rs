@@ -1,6 +1,6 @@
-//! `Planned`: a washing, planned, and what is to be said of it.
+//! `Planned`: a planned washing, with facts about the plan.
 //!
-//! Many layouts of one scenario.
+//! Also here: many layouts of one scenario.
 
 use crate::job::WashJobObject;
 use crate::plan::PlanObject;

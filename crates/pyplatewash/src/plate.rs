@@ -1,10 +1,10 @@
 //! Python's `Plate`, read field by field, and plates as Python's.
 //!
+//! Also here: poses from 4 × 4 matrices.
+//!
 //! Python's `Tool`, read field by field.
 //!
-//! Poses from 4 × 4 matrices.
-//!
-//! Python's plain values are checked when they are made.
+//! Checks of Python's plain values at their construction.
 
 use crate::argument::{self, TOOL};
 use crate::errors::{self, Input};
@@ -24,7 +24,7 @@ static FOOT: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 /// The radius that Python's `Plate` has where none is stated \[m\].
 const DEFAULT_RADIUS_M: f64 = 0.145;
 
-/// How far the stated radius of a plate with a profile may be from its rim \[m\].
+/// Largest difference between the stated radius of a plate with a profile and the radius of its rim \[m\].
 const SAME_M: f64 = 1e-12;
 
 /// The profile of a level disc, by its name.
@@ -33,7 +33,7 @@ const FLAT: &str = "flat";
 /// Profile, radius and quaternion of a plate, as Python's.
 type Made<'py> = (Option<Bound<'py, PyTuple>>, f64, (f64, f64, f64, f64));
 
-/// How far the length of a quaternion may be from 1.
+/// Largest difference of the length of a quaternion from 1.
 const UNIT: f64 = 1e-9;
 
 /// Knots as radius \[m\] and slope \[rad\].
@@ -237,13 +237,13 @@ fn foot_object<'py>(py: Python<'py>, foot: &Foot) -> PyResult<Bound<'py, PyAny>>
     FOOT.import(py, "pyplatewash._values", "Foot")?.call((), Some(&fields))
 }
 
-/// Largest length that is believed \[m\].
+/// Largest accepted length \[m\].
 pub const LARGEST_M: f64 = 100.0;
 
-/// Largest stiffness that is believed \[Pa\].
+/// Largest accepted stiffness \[Pa\].
 const LARGEST_PA: f64 = 1e9;
 
-/// Largest mass that is believed \[kg\], and largest entry of an inertia \[kg·m²\].
+/// Largest accepted mass \[kg\], and largest accepted entry of an inertia \[kg·m²\].
 const LARGEST_KG: f64 = 1e4;
 
 /// Fields of Python's `Tool`.
@@ -375,14 +375,14 @@ pub fn check_length(py: Python<'_>, name: &str, length_m: f64) -> PyResult<()> {
     Err(errors::input(py, name, &problem))
 }
 
-/// Entries of RᵀR − I may be this large: entries of R that are rounded to six decimals come to 2e-6. What is that near a rotation
-/// stands for the nearest one.
+/// Largest accepted entry of RᵀR − I; entries of R rounded to six decimals give 2e-6. A matrix within this bound is replaced by the nearest
+/// rotation.
 const ROUNDED: f64 = 1e-5;
 
-/// Entries that small need no nearest rotation: they are below the tolerance of any solver.
+/// Largest entry of RᵀR − I that needs no nearest rotation, as it is below the tolerance of any solver.
 const EXACT: f64 = 1e-7;
 
-/// Stands for a matrix that is no pose.
+/// Quaternion of NaN, in place of that of a matrix that is no pose.
 const NO_POSE: Quaternion<f64> = Quaternion {
     coords: nalgebra::Vector4::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN),
 };
@@ -390,7 +390,7 @@ const NO_POSE: Quaternion<f64> = Quaternion {
 /// A pose `T_base_frame` from a 4 × 4 matrix, row by row.
 ///
 /// # Errors
-/// What is wrong with it, in words.
+/// A matrix that is no pose; the error states the fault in words.
 pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
     let Ok(m) = <&[f64; 16]>::try_from(matrix) else {
         return Err(Input("16 numbers are needed".to_owned()));
@@ -398,9 +398,10 @@ pub fn pose(matrix: &[f64]) -> Result<Pose, Input> {
     Ok(scaled(m, multiple(m)?))
 }
 
-/// The same of many, into `poses` in place of what was there; `room` is scratch. A matrix that is no pose becomes one of NaN.
+/// Poses `T_base_frame` from many matrices; they replace the contents of `poses`, and `room` is scratch. A matrix that is no pose becomes
+/// a pose of NaN.
 ///
-/// Roots and divisions wait for each other within one pose, but not from pose to pose: they have a loop of their own.
+/// Roots and divisions have a loop of their own: they depend on each other within one pose, but not from pose to pose.
 pub fn poses(matrices: &[[f64; 16]], room: &mut Vec<Quaternion<f64>>, poses: &mut Vec<Pose>) {
     room.clear();
     room.extend(matrices.iter().map(|matrix| multiple(matrix).unwrap_or(NO_POSE)));
@@ -430,7 +431,7 @@ fn multiple(m: &[f64; 16]) -> Result<Quaternion<f64>, Input> {
     Ok(quaternion(&nearest_rotation(&rows)?))
 }
 
-/// Whether three rows are a rotation to within [`EXACT`]: two unit rows at right angles, and their product.
+/// True where three rows are a rotation to within [`EXACT`]: two unit rows at right angles, and their product.
 fn surely_rotation(&[a, b, c, d, e, f, g, h, i]: &[f64; 9]) -> bool {
     let off = [
         a * a + b * b + c * c - 1.0,

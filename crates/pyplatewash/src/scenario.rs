@@ -336,7 +336,7 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
     called("scenario", value, SCENARIO)
 }
 
-/// What a scenario is given as.
+/// Expected forms of a scenario, in messages.
 const SCENARIO: &str = "a Scenario, the name of a shipped one or the path of a file";
 
 /// [`given`], of an argument of another name, which may be something else besides.

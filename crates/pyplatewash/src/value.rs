@@ -1,6 +1,6 @@
 //! Data as plain Python objects and back, by way of JSON's types.
 //!
-//! Values that were probably meant in another unit, as Python's warnings.
+//! Also here: values that were probably meant in another unit, as Python's warnings.
 
 use crate::{argument, errors};
 use platewash::scenario::Note;
@@ -27,7 +27,7 @@ pub fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound
     plain(py, &value)
 }
 
-/// The same as a `Record`, a dictionary whose keys are attributes too, with what `str` of it shall say.
+/// A value as a `Record`, a dictionary whose keys are attributes too; `text` is what `str` of it returns.
 ///
 /// # Errors
 /// As [`to_python`].

@@ -1,6 +1,6 @@
 //! Work without the interpreter lock: threads that survive a fork, Ctrl-C, no panic.
 //!
-//! What Python's side of the package does for methods of ours: figures, pages in cells.
+//! Calls of the package's Python functions from Rust methods: figures, pages in cells.
 //!
 //! The command `platewash`: the same code as the Rust program.
 
@@ -83,7 +83,7 @@ pub fn aside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResu
 /// result nobody waits any more, is told to give up.
 ///
 /// # Errors
-/// What a signal handler raises (`KeyboardInterrupt`); `InternalError` in place of a panic.
+/// The exception of a signal handler (`KeyboardInterrupt`); `InternalError` in place of a panic.
 pub fn patiently<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&CancelToken) -> T + Send + 'static,
@@ -91,7 +91,7 @@ pub fn patiently<T: Send + 'static>(
     patiently_on(py, pool(py)?, &CancelToken::new(), work)
 }
 
-/// The same on so many threads of its own, with a token of the caller's, who may cancel it too.
+/// Runs work as [`patiently`] does, on a pool of `threads` threads of its own. The caller can cancel it by `cancel`.
 ///
 /// # Errors
 /// As [`patiently`]; `EngineError` where the system has not so many threads.
@@ -154,10 +154,10 @@ fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
     format!("a fault in platewash, please report it: {}", words.unwrap_or_default())
 }
 
-/// What a function of one of the package's modules answers.
+/// Calls a function in one of the package's Python modules and returns its result.
 ///
 /// # Errors
-/// What the function raises.
+/// The exception that the function raises.
 pub fn ask<'py>(
     py: Python<'py>,
     module: &str,

@@ -1,6 +1,6 @@
 //! Why a scenario was refused.
 //!
-//! Why a body that a section states could not be made.
+//! Also here: why a body that a section states could not be made.
 
 use crate::keys::fits::line_at;
 use platewash_kinematics::urdf::MeshError;

@@ -1,8 +1,8 @@
 //! From a file or a shipped name to a checked [`Scenario`].
 //!
-//! The text of a scenario: of a file, or of one that comes with the program.
+//! Also here: scenarios that come with the program, by name.
 //!
-//! Scenarios that come with the program, by name.
+//! The text of a scenario: of a file, or of one that comes with the program.
 //!
 //! Paths as text: TOML and JSON are UTF-8, the system's paths need not be.
 
@@ -287,7 +287,7 @@ pub struct ShippedScenario {
 }
 
 /// All shipped scenarios; the first is the default.
-pub const SHIPPED: &[ShippedScenario] = &[
+pub static SHIPPED: &[ShippedScenario] = &[
     ShippedScenario {
         name: "kitchen",
         text: include_str!("../../../scenarios/kitchen.toml"),

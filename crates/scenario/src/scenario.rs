@@ -1,6 +1,6 @@
 //! A scenario: everything that a file states, section by section.
 //!
-//! Seeds that a plan file can state.
+//! Also here: seeds that a plan file can state.
 
 use crate::error::Problem;
 use crate::resolve::solids::Solids;

@@ -17,6 +17,8 @@ pub struct Bundle {
 
 impl Bundle {
     /// The bundle in this program; none where there was none when it was compiled.
+    // Not inlined: each crate that calls it would hold its own copy of the page.
+    #[inline(never)]
     pub fn embedded() -> Option<Self> {
         #[cfg(embedded_page)]
         return Some(Self {

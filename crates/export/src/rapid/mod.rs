@@ -4,12 +4,8 @@
 //! | --- | --- |
 //! | a job that can be handed over in it | `accepts` |
 //! | a program's text | `write` |
-//! | modules into data and procedures; the motion of a program | `parse`, `read` |
-//! | joint targets, zones and tools; zones and speeds by name; names that are taken | `values`, `zone`, `names` |
-//!
-//! Names that RAPID or its controllers have given: a program must not name anything by them.
-//!
-//! Zones and speeds that every controller has by name.
+//! | modules into data and procedures, joint targets, zones and tools; the motion of a program | `parse`; `read` |
+//! | zones and speeds by name; names that are taken | here |
 
 mod accepts;
 mod parse;

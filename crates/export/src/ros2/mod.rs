@@ -5,13 +5,10 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | contents of a message; times in it | `message`, `timing` |
-//! | YAML and JSON; numbers in them | `language`, `number` |
-//! | messages as YAML and JSON | `write` |
-//! | YAML as a tree with lines; that as a reading | `node`, `read` |
-//! | the script that sends a goal | `player`, `play.py` |
-//!
-//! Contents of a message.
+//! | contents of a message | here |
+//! | messages as YAML and JSON; times in them; the script that sends a goal | `write`, `play.py` |
+//! | numbers in messages | `number` |
+//! | YAML as a tree with lines; that as a reading | `node`; `read` |
 
 mod node;
 mod number;

@@ -1,10 +1,10 @@
 //! Messages as a reading: each key known, each value of its type, each rule of the controller and of the proof kept.
 //!
+//! Also here: the languages of messages.
+//!
 //! The controller's own rules are those of its check of messages in ros2_controllers 2.54 (Humble) and 6.9, with the parameters that
 //! it has by default; they are the same in both, but that 6.9 takes effort where it commands effort. Those of 4.42 (Jazzy), between them, were
 //! not read.
-//!
-//! The languages of messages.
 
 use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::reading::{Between, ReadPoint, Reading};

@@ -1,10 +1,9 @@
 //! URDF text to [`RobotModel`]: everything a lenient parser lets through is caught here, by name.
 //!
 //! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
-//! `urdf-rs` reads the elements (where it refuses one, `culprit` finds which); `tree` checks the structure
-//! and orders the six joints; `limit` checks their limits; `collision` converts the geometry (recognising
-//! `capsule`s, finding meshes through `mesh` and reading their `vertices`); `visual` converts what is only looked at (reading the
-//! `triangles` of meshes), and what it cannot read is left out by name. Every file is read through `file`.
+//! `urdf-rs` reads the elements (where it refuses one, `error` finds which); `tree` checks the structure, orders the six
+//! joints and checks their limits; `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
+//! their vertices) and visual geometry (reading the `triangles` of meshes), which is left out by name where it cannot be read. Every file is read through `file`.
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 

@@ -1,6 +1,6 @@
 //! Promise of a wash: the contact that it must bring about on a face.
 //!
-//! Shortfall of a wash against its promise.
+//! Also here: shortfall of a wash against its promise.
 
 use crate::scene::Scene;
 use crate::trig::{acos, sin_cos};

@@ -1,8 +1,7 @@
 //! Motions one after the other as one trajectory, and the plan's segments in time.
 //!
-//! Transits between the plates, and from and to home.
-//!
-//! Check that the tool keeps its largest tilt between the points that were solved, too.
+//! Also here: transits between the plates, and from and to home; check that the tool keeps its largest tilt between the points
+//! that were solved, too.
 
 use crate::error::PlanError;
 use crate::pipeline::shared::Pipeline;

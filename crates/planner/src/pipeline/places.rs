@@ -1,8 +1,7 @@
 //! Search for another place of a plate at which the job can wash it.
 //!
-//! Map of the places at which a plate could be washed, with the others in place.
-//!
-//! Outlook on each plate, before anything is planned.
+//! Also here: map of the places at which a plate could be washed, with the others in place; outlook on each plate, before
+//! anything is planned.
 //!
 //! Layouts of which every plate can be washed whole.
 

@@ -1,6 +1,6 @@
 //! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
 //!
-//! The rule that says if these lines must be clear.
+//! Also here: the rule that says if these lines must be clear.
 
 use crate::redundancy::task::{Stop, Task};
 use crate::scene::{Contact, Hindrance, Start, Stretch};

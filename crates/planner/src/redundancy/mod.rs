@@ -17,11 +17,11 @@
 //! 1. `TiltPolicy` (`scene/stance.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
 //!    points.
 //! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that is possible, smoothed
-//!    (`tilt_spline`) as far as it stays possible.
+//!    by a B-spline (`samples`) as far as it stays possible.
 //!
-//! Before the second, a check of a few points of the last turn (`blocked`) shows if it can find anything at all.
+//! Before the second, a check of a few points of the last turn (`stuck`) shows if it can find anything at all.
 //!
-//! Where an obstacle stands in the way of both, they are tried again with the tool leaning across the arm's plane besides (`aside`).
+//! Where an obstacle stands in the way of both, they are tried again with the tool leaning across the arm's plane besides (`washing`).
 //!
 //! Each is tried on every branch of the arm, elbow up in front first; on arms without a closed form, on every branch that a
 //! search finds ([`platewash_kinematics::ik::spread`]). Every answer has been checked for limits and steps at every contact

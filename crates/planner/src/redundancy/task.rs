@@ -1,8 +1,6 @@
 //! Task of washing one plate: checks a contact point at a tilt, and a whole wash path at a profile of tilts.
 //!
-//! Bounds of planning on a plate.
-//!
-//! Errors of a search for configurations along a wash path.
+//! Also here: bounds of planning on a plate; errors of a search for configurations along a wash path.
 
 use crate::redundancy::lines::Lines;
 use crate::redundancy::samples::{Samples, TiltSpline};

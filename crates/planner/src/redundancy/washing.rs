@@ -1,6 +1,6 @@
 //! Washing of a plate: the policies in turn, then the search.
 //!
-//! Leaning across the arm's plane, away from obstacles beside the arm.
+//! Also here: leaning across the arm's plane, away from obstacles beside the arm.
 //!
 //! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along obstacles beside them. Where these are
 //! in the way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay

@@ -1,6 +1,6 @@
 //! The arm, its tool and the bodies around it; and the pose of the tool at a contact point.
 //!
-//! Bodies that the arm must keep clear of.
+//! Also here: bodies that the arm must keep clear of.
 
 mod hindrance;
 mod inverse;

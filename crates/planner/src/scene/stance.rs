@@ -1,8 +1,6 @@
 //! Stance: the rules for a tool on faces that are not flat, and for the wrist.
 //!
-//! A point at which the tip stands.
-//!
-//! The tilt as a function of the contact point's distance from axis 1 alone.
+//! Also here: a point at which the tip stands; the tilt as a function of the contact point's distance from axis 1 alone.
 //!
 //! With `S(x) = x³ (10 − 15 x + 6 x²)`, the quintic smoothstep clamped to [0, 1], and `x_n = (r − n₀) / (n₁ − n₀)`,
 //! `x_f = (r − f₀) / (f₁ − f₀)`:

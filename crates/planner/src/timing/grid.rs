@@ -1,8 +1,8 @@
 //! The knots on the path: where they are, and how the joints and the tip move there with the path's parameter.
 //!
-//! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 for any u.
+//! Also here: how the tip moves when the joints do, and bounds on how fast that changes.
 //!
-//! How the tip moves when the joints do, and bounds on how fast that changes.
+//! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 for any u.
 //!
 //! With c_k = z_k × (p − p_k), the columns of the geometric Jacobian, the tip's velocity is `ṗ = Σ c_k q̇_k`, and its
 //! acceleration `p̈ = Σ c_k q̈_k + b(q̇)`, `b = Σ_k q̇_k (2 Σ_{j<k} z_j q̇_j + z_k q̇_k) × c_k` (Siciliano et al.,

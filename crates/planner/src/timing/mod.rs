@@ -6,19 +6,13 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | limits | here |
+//! | [`time_optimal`]; limits; errors | here |
 //! | knots on the path, and where more are needed | `grid.rs`, `rounds.rs` |
 //! | how the tip moves | `grid.rs` |
 //! | constraints of an interval; linear program of an interval | `interval.rs` |
 //! | backward and forward pass; the rounds of all this | `rounds.rs` |
 //! | a piece of the motion | `hermite.rs` |
 //! | demand of a piece on its limits | `check.rs` |
-//!
-//! A path in time.
-//!
-//! Errors of timing.
-//!
-//! Limits of a timed motion.
 
 mod check;
 mod grid;

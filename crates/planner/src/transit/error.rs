@@ -1,6 +1,6 @@
 //! Why there is no transit.
 //!
-//! Two bodies nearer than a transit may bring them.
+//! Also here: two bodies nearer than a transit may bring them.
 
 use crate::joint_path::JointPathError;
 use crate::scene::{Stretch, Surroundings};

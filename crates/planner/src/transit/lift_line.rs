@@ -1,6 +1,6 @@
 //! Ends of a transit.
 //!
-//! The arc round the base, as a path of the joints.
+//! Also here: the arc round the base, as a path of the joints.
 //!
 //! A quintic from one state of the joints to another: C² where it joins the pieces before and after.
 

@@ -1,10 +1,7 @@
 //! Candidates of a transit, and the choice among them.
 //!
-//! Requirements of a transit, and the candidates that it may try.
-//!
-//! Kinds of transits.
-//!
-//! The free part of a transit, between two tops.
+//! Also here: requirements of a transit, and the candidates that it may try; kinds of transits; the free part of a transit,
+//! between two tops.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
 use crate::scene::{Scene, Stretch, TiltPolicy};

@@ -1,15 +1,10 @@
-//! What goes wrong, as the exceptions of `pyplatewash`.
+//! Errors as exceptions of `pyplatewash`.
+//!
+//! Also here: files that the system does not give or take; unanswered inverse-kinematics calls; arms without dynamics, and plans
+//! that cannot be simulated; studies that are none, and folders that keep something else.
 //!
 //! The classes are Python's (`python/pyplatewash/_errors.py`), so that they pickle and can be subclassed; here they are given
 //! their fields.
-//!
-//! Files that the system does not give or take.
-//!
-//! Unanswered inverse-kinematics calls.
-//!
-//! Arms without dynamics, and plans that cannot be simulated.
-//!
-//! Studies that are none, and folders that keep something else.
 
 mod job;
 
@@ -29,7 +24,7 @@ use pyo3::types::{PyDict, PyModule};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// What is wrong with an argument, in words that follow its name.
+/// Fault of an argument, in words that follow its name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Input(pub String);
@@ -62,7 +57,7 @@ pub fn input(py: Python<'_>, argument: &str, problem: &str) -> PyErr {
     raise(py, "InputError", &format!("{argument}: {problem}"), &fields)
 }
 
-/// The same where the message already begins with the argument's name.
+/// An `InputError` whose message already begins with the argument's name.
 pub fn keyed(py: Python<'_>, argument: &str, message: &str) -> PyErr {
     raise(py, "InputError", message, &[("argument", any(py, argument))])
 }
@@ -139,7 +134,7 @@ pub fn internal(py: Python<'_>, message: &str) -> PyErr {
     raise(py, "InternalError", message, &[])
 }
 
-/// What a file is of; names the exceptions.
+/// Kind of a file; decides which exceptions its errors raise.
 #[derive(Debug, Clone, Copy)]
 pub enum FileOf {
     /// A description of an arm.
@@ -154,12 +149,12 @@ pub enum FileOf {
     Study,
 }
 
-/// What the system says of a file.
+/// Error of the operating system on a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SystemWord {
-    /// It is not there, or the folder that it would be in.
+    /// The file or its folder does not exist.
     NotFound,
-    /// Anything else, with its number where it has one.
+    /// Any other error, with its number where it has one.
     Refused(Option<i32>),
 }
 

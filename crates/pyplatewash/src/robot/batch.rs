@@ -1,6 +1,6 @@
 //! Inverse kinematics of many targets, straight into NumPy's arrays.
 //!
-//! Neighbouring rows of a batch of inverse kinematics: the problems, a thread's desk, and the places for the answers.
+//! Neighbouring rows of a batch of inverse kinematics: the problems, the buffers of a thread, and the places for the answers.
 //!
 //! Forward kinematics and Jacobians, one at a time or in batches.
 //!
@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Rows between the first two looks for signals; doubled as long as they take less than [`PATIENCE`].
+/// Number of rows before the first check for signals; doubled as long as the rows take less than [`PATIENCE`].
 const FIRST_STRETCH: usize = 1 << 13;
 const PATIENCE: Duration = Duration::from_millis(20);
 
@@ -85,7 +85,7 @@ pub fn solve<'py>(
     ))
 }
 
-/// Fills the arrays, stretch by stretch, on all threads; Ctrl-C is looked for in between.
+/// Fills the arrays on all threads, one stretch of rows after the other, with a check for Ctrl-C in between.
 fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -> PyResult<Bound<'py, PyDict>> {
     let mut q: PyReadwriteArrayDyn<'_, f64> = columns.q.readwrite();
     let mut solved: PyReadwriteArrayDyn<'_, bool> = columns.solved.readwrite();
@@ -127,7 +127,7 @@ fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -
     Ok(all)
 }
 
-/// A seed for all targets must be one.
+/// Returns the seed for all targets; refuses one that is not finite.
 fn finite(py: Python<'_>, seed: JointVector) -> PyResult<JointVector> {
     match seed.iter().position(|v| !v.is_finite()) {
         None => Ok(seed),
@@ -138,33 +138,33 @@ fn finite(py: Python<'_>, seed: JointVector) -> PyResult<JointVector> {
     }
 }
 
-/// Rows to a unit of work: their poses and answers stay in a processor's cache.
+/// Number of rows in a unit of work; their poses and answers fit in a processor's cache.
 const CHUNK: usize = 512;
 
-/// Rows that are not solved, with the word for the cause.
+/// Indices of the rows that are not solved, each with the word for its cause.
 pub type Causes = Vec<(usize, &'static str)>;
 
 /// Seeds of a batch.
 #[derive(Clone, Copy)]
 pub enum Seeds<'a> {
-    /// One for all targets.
+    /// One seed for all targets.
     One(JointVector),
-    /// One a target.
+    /// One seed for each target.
     Each(&'a [JointVector]),
 }
 
-/// What is to be solved.
+/// Inverse kinematics problems of one call.
 #[derive(Clone, Copy)]
 pub struct Problems<'a> {
-    /// How.
+    /// Solver for every target.
     pub solver: &'a IkSolver<'a>,
     /// Targets `T_base_frame`, row by row.
     pub matrices: &'a [[f64; 16]],
-    /// From where.
+    /// Configurations from which the solver starts.
     pub seeds: Seeds<'a>,
 }
 
-/// What a thread works with, chunk after chunk.
+/// Buffers of a thread, used again for chunk after chunk.
 pub struct Desk {
     room: Vec<Quaternion<f64>>,
     targets: Vec<Pose>,
@@ -173,7 +173,7 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// A desk for the problems.
+    /// Buffers for the problems.
     #[must_use]
     pub fn new(problems: &Problems<'_>) -> Self {
         let not_yet = IkError::Target {
@@ -197,7 +197,7 @@ pub struct Rows<'a> {
     pub first: usize,
     /// Configurations \[rad\].
     pub q: &'a mut [JointVector],
-    /// Whether the target is reached.
+    /// True where the target is reached.
     pub solved: &'a mut [bool],
     /// Linear systems and quadratic programs.
     pub iterations: &'a mut [i64],
@@ -253,7 +253,7 @@ impl<'a> Rows<'a> {
     /// Solves these rows, a unit of work.
     ///
     /// # Errors
-    /// What must not happen, in words.
+    /// Buffers whose lengths do not match, which is a fault of this package.
     pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, BatchError> {
         let (first, n) = (self.first, self.q.len());
         let matrices = &problems.matrices[first..first + n];
@@ -400,13 +400,13 @@ fn seed(value: Option<&Bound<'_, PyAny>>, name: &'static str) -> PyResult<JointV
     value.map_or_else(|| Ok(JointVector::zeros()), |value| arrays::joint_vector(name, value))
 }
 
-/// Poses, shape (N, 4, 4); the first that is none is named.
+/// Poses from matrices, shape (N, 4, 4); the error has the index of a matrix that is no pose.
 fn poses(matrices: &[[f64; 16]]) -> Result<Vec<Pose>, (usize, Input)> {
     let all = matrices.par_iter().with_min_len(512).enumerate();
     all.map(|(k, m)| plate::pose(m).map_err(|e| (k, e))).collect()
 }
 
-/// A target that is no pose.
+/// Error for a target that is no pose.
 fn no_pose(py: Python<'_>, (k, e): (usize, Input)) -> PyErr {
     errors::input(py, "targets", &format!("in pose {k}: {e}"))
 }

@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Solvers that are kept; each holds a list of starts that costs some 100 µs to make.
+/// Number of solvers kept; each holds a list of starts that takes some 100 µs to make.
 const KEPT: usize = 8;
 
-/// Most iterations and restarts: more than anybody waits for.
+/// Largest number of iterations or restarts; nobody waits for more.
 const MOST_COUNT: u64 = 1_000_000_000;
 
 /// The solvers used last, the latest at the end.

@@ -1,4 +1,4 @@
-//! Where an arm's description comes from: enough to make the arm again in another process.
+//! Source of an arm's description: enough to make the arm again in another process.
 
 use crate::errors::{self, FileOf};
 use platewash::kinematics::DisabledPairs;
@@ -9,16 +9,16 @@ use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
 
-/// A description.
+/// Source of an arm.
 #[derive(Debug, Clone)]
 pub enum Source {
     /// The embedded IRB 120.
     BuiltIn,
-    /// Texts, and where their meshes are.
+    /// An arm from URDF and SRDF texts.
     Described(Box<Description>),
 }
 
-/// Texts, and where their meshes are.
+/// URDF and SRDF texts, with the folders in which their meshes are found.
 #[derive(Debug, Clone)]
 pub struct Description {
     urdf: String,
@@ -115,7 +115,7 @@ impl Source {
         robot.with_disabled_pairs(disabled).map_err(|e| wrong(&e))
     }
 
-    /// What pickle calls to make the arm again; meshes are read again from their files.
+    /// Returns the function, with its arguments, that pickle calls to make the arm again; meshes are read again from their files.
     ///
     /// # Errors
     /// Out of memory.

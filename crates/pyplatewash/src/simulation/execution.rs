@@ -1,4 +1,4 @@
-//! `Execution`: what the arm did, sample by sample, and its report.
+//! `Execution`: the simulated motion of the arm, sample by sample, and its report.
 
 use crate::plan::PlanObject;
 use crate::robot::Robot;
@@ -26,11 +26,11 @@ pub struct ExecutionObject {
     arguments: (Py<PlanObject>, Option<Py<Robot>>, Py<SettingsObject>),
 }
 
-/// An execution and what it is one of.
+/// An execution, with the plan, arm and settings that it belongs to.
 pub struct Done {
-    /// What was simulated.
+    /// Plan, arm and settings of the simulation.
     pub question: Question,
-    /// What came of it.
+    /// Result of the simulation.
     pub execution: Execution,
 }
 
@@ -43,7 +43,7 @@ impl ExecutionObject {
         argument::maybe("execution", value, "an Execution, as simulate gives it,")
     }
 
-    /// The execution, and what it is one of.
+    /// The execution, with the plan, arm and settings that it belongs to.
     #[must_use]
     pub fn done(&self) -> Arc<Done> {
         self.inner.clone()

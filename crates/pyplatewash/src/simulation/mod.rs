@@ -1,6 +1,6 @@
 //! A plan under a control law: settings, execution, report, and many settings.
 //!
-//! What is simulated: a plan, its arm and the settings.
+//! The question of a simulation: a plan, its arm and the settings.
 //!
 //! Many frequencies and dampings of a law.
 
@@ -58,7 +58,7 @@ impl Question {
     }
 }
 
-/// Most settings of one call.
+/// Largest number of settings of one call.
 const MOST_SETTINGS: usize = 10_000;
 
 const NUMBERS: Wanted = Wanted {
@@ -66,7 +66,7 @@ const NUMBERS: Wanted = Wanted {
     count: Count::Stack,
 };
 
-/// One setting.
+/// Outcome of one setting: a frequency and a damping ratio.
 #[derive(Debug, Serialize)]
 struct Row {
     frequency_rad_s: f64,

@@ -1,4 +1,4 @@
-//! `SimulationSettings`: under which law, with which gains and on which plant.
+//! `SimulationSettings`: control law, gains and plant of a simulation.
 
 use crate::plan::PlanObject;
 use crate::value::{from_mapping, to_python, to_record};

@@ -11,11 +11,11 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Least time between two calls of who is told.
+/// Least time between two calls of the progress callback.
 const TOLD_EVERY: Duration = Duration::from_millis(100);
-/// How long rows that were interrupted are waited for: they give up within milliseconds.
+/// Longest wait for interrupted rows; they give up within milliseconds.
 const LONGEST: Duration = Duration::from_secs(10);
-/// Why a row that killed its workers is not there.
+/// Reason recorded for a row that killed its workers.
 const KILLED: &str = "its worker process died twice while it worked on this row alone; it is not tried again";
 
 /// The rows of a study in a folder. Nobody else appends to it until it is closed.

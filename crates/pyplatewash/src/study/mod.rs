@@ -1,9 +1,9 @@
 //! `Study`: many scenarios as one value. Its rows are worked on by `journal` and `worker`, which Python's engines drive
 //! (`python/pyplatewash/_studies/`).
 //!
-//! The text of a study file out of what a call states.
+//! The text of a study file from the arguments of a call.
 //!
-//! What makes rows: on a thread of a worker, without any file of the study.
+//! The worker that makes rows, on a thread of its own and without any file of the study.
 
 mod journal;
 
@@ -24,7 +24,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a study that no file states is called in messages.
+/// Name, in messages, of a study that comes from no file.
 const UNSAVED: &str = "study";
 
 /// Many scenarios, each to be planned and proved: the rows of a study file (docs/studies.md), as a value that travels to whoever
@@ -244,7 +244,7 @@ fn restored(parts: &Bound<'_, PyBytes>) -> Result<Study, StudyError> {
 
 /// The keys of `plans`.
 const PLANS: [(&str, &str); 3] = [("none", "none"), ("failed", "failed"), ("all", "all")];
-/// What a scenario must be.
+/// Expected forms of a scenario, in messages.
 const SCENARIO: &str = "a Scenario, the name of a shipped one, the path of a file or a list of them";
 
 /// The TOML text of a study.

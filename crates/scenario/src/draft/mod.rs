@@ -1,10 +1,10 @@
 //! A scenario's text that is being changed: key by key, all else in it kept.
 //!
+//! Also here: why a change was refused.
+//!
 //! `toml_edit` keeps comments, order and layout.
 //!
 //! Which key of a text is changed: one of the table, as `wash.turns`, or one in a section of a list, as `plate[1].at_m`.
-//!
-//! Why a change was refused.
 
 mod change;
 mod elements;

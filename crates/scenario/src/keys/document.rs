@@ -1,6 +1,6 @@
 //! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
 //!
-//! The table of keys as data, for programs that draw a form of it.
+//! Also here: the table of keys as data, for programs that draw a form of it.
 
 use crate::keys::key::{Domain, Key};
 use crate::keys::value::{on_one_line, values_of};

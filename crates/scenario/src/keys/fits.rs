@@ -1,12 +1,7 @@
 //! Check that a value lies in a key's domain, and the message where it does not: the same for files and for edits.
 //!
-//! Keys that do not exist.
-//!
-//! The word that was probably intended.
-//!
-//! Checks of sections that a file states several times.
-//!
-//! Lines of a text by their numbers, and where a text states a key.
+//! Also here: keys that do not exist; the word that was probably intended; checks of sections that a file states several times;
+//! lines of a text by their numbers, and where a text states a key.
 
 use crate::error::Problem;
 use crate::keys::key::{Domain, Key};

@@ -1,8 +1,6 @@
 //! A value of a file or of an edit: as JSON, in words.
 //!
-//! A value as TOML writes it.
-//!
-//! Values in effect in a scenario, key by key.
+//! Also here: a value as TOML writes it; values in effect in a scenario, key by key.
 
 use crate::keys::KEYS;
 use crate::scenario::Scenario;

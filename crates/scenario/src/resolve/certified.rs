@@ -1,6 +1,6 @@
 //! Requirements of a certified job on keys whose ranges are wider for the paper's program, or for messages that name the key.
 //!
-//! Amount of work of a scenario, known before any of it is done.
+//! Also here: amount of work of a scenario, known before any of it is done.
 
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::resolve::placement::ShapeKeys;

@@ -1,4 +1,12 @@
 //! From a scenario to the job that it states.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | the arm; the tool on it | `arm`; `tool_on_arm` |
+//! | places of the plates | `placement` |
+//! | bodies around the arm; meshes as convex bodies | `surroundings`; `solids` |
+//! | requirements of contact, landing and lifting | `contact` |
+//! | keys with a narrower range in a certified job than in the paper's program; bounds on the amount of work | `certified` |
 
 pub(crate) mod arm;
 pub(crate) mod certified;

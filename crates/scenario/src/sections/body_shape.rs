@@ -10,8 +10,8 @@ use platewash_kinematics::rotation::{Rigid, from_rpy};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// The keys of a section with a shape: those before, those of the shape with the words it may be, the greatest edge and radius \[m\], and what else
-/// belongs to a mesh, those behind.
+/// The keys of a section with a shape: keys before the shape, keys of the shape (its words, greatest edge and greatest radius \[m\],
+/// further keys of a mesh), keys behind it.
 macro_rules! with_shape_keys {
     ($section:literal, [$($before:expr,)*], $words:expr, $meaning:literal, [$edge_m:literal, $radius_m:literal], [$($of_mesh:expr,)*], [$($behind:expr,)*]) => {
         &[
@@ -50,7 +50,7 @@ macro_rules! with_shape_keys {
 }
 pub(crate) use with_shape_keys;
 
-/// A shape, as far as a section states it.
+/// Keys of a shape, as a section states them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct StatedShape {
@@ -69,12 +69,12 @@ pub struct StatedShape {
     /// File of a mesh.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
     pub mesh: Option<PathBuf>,
-    /// What its coordinates are multiplied by.
+    /// Factors of the mesh's coordinates along x, y, z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_scale: Option<[f64; 3]>,
 }
 
-/// A shape by its word.
+/// Kind of a shape, by its word in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BodyShape {
@@ -88,7 +88,7 @@ pub enum BodyShape {
     Sphere,
     /// All below its own z = 0; obstacles alone may be one.
     HalfSpace,
-    /// What a file holds.
+    /// A mesh, read from a file.
     Mesh,
 }
 
@@ -104,7 +104,7 @@ impl BodyShape {
         }
     }
 
-    /// Whether it has edges, a radius, a length.
+    /// True, in order, where the shape has edges, a radius, a length.
     fn sizes(self) -> [bool; 3] {
         match self {
             Self::Box => [true, false, false],
@@ -115,7 +115,7 @@ impl BodyShape {
     }
 }
 
-/// What a shape is, as far as its section says it.
+/// Shape as its section states it; a mesh is not read yet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Stated<'a> {
     HalfSpace,
@@ -185,7 +185,7 @@ impl StatedShape {
     }
 }
 
-/// Refuses a key of the section called `at` that is for meshes where the shape is another one.
+/// Refuses a key for meshes, in the section called `at`, where the shape is no mesh.
 pub(crate) fn only_of_mesh(at: &str, key: &str, shape: Option<BodyShape>) -> Result<(), Problem> {
     if shape == Some(BodyShape::Mesh) {
         return Ok(());

@@ -235,7 +235,7 @@ pub enum Faces {
 }
 
 impl PlateSection {
-    /// Whether both of its faces are washed.
+    /// True where both faces of the plate are washed.
     pub(crate) fn has_both(&self) -> bool {
         self.faces == Some(Faces::Both)
     }

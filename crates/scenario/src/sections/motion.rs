@@ -1,10 +1,10 @@
 //! The `[ik]` section: inverse kinematics.
 //!
-//! The `[transition]` section: transits of the paper's program, and the arc of all.
+//! The `[transition]` section: transits of the paper's program, and the arc of all transits.
 //!
-//! The `[limits]` section: what joints and tip must not exceed.
+//! The `[limits]` section: limits of joints and tip.
 //!
-//! The `[job]` section: which program, what is required, what follows where it fails.
+//! The `[job]` section: the program, its requirements, and the outcome of a failure.
 
 use platewash_keys::Section;
 use platewash_paper::cubic::Interpolation;
@@ -90,7 +90,7 @@ pub struct JobSection {
     pub required_coverage: f64,
 }
 
-/// How a job is planned.
+/// Program that plans a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Program {
@@ -100,7 +100,7 @@ pub enum Program {
     Certified,
 }
 
-/// What a job that does not wash leads to.
+/// Outcome of a job that does not wash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OnFailure {

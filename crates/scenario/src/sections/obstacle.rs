@@ -1,4 +1,4 @@
-//! The `[[obstacle]]` sections: what stands around the arm.
+//! The `[[obstacle]]` sections: obstacles around the arm.
 
 use crate::error::Problem;
 use crate::keys::key::Domain::{Number, Plates, Text, Triple, Word};
@@ -64,22 +64,22 @@ pub struct ObstacleSection {
     /// Its shape.
     #[serde(flatten)]
     pub body: StatedShape,
-    /// What counts of a mesh.
+    /// Parts of a mesh that count as the obstacle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_parts: Option<MeshPartsName>,
-    /// Where its origin is \[m\]; every obstacle has one.
+    /// Position of its origin in the world frame \[m\]; every obstacle has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// How it is turned there: roll, pitch and yaw about fixed axes \[deg\].
+    /// Orientation: roll, pitch and yaw about the world's fixed axes x, y, z \[deg\].
     pub rpy_deg: [f64; 3],
-    /// How far it is grown \[m\].
+    /// Distance by which the obstacle is grown on all sides \[m\].
     pub margin_m: f64,
     /// The plates that it holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub holds_plates: Option<HeldPlates>,
 }
 
-/// What counts of a mesh.
+/// Parts of a mesh that count as the obstacle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshPartsName {

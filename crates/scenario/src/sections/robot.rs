@@ -1,4 +1,4 @@
-//! The `[robot]` section: which arm, and where it starts and ends.
+//! The `[robot]` section: the arm, its home and its mount.
 
 use crate::load;
 use crate::sections::body_shape::pose;

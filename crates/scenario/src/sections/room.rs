@@ -1,4 +1,4 @@
-//! The `[floor]` and `[table]` sections: what most cells stand on.
+//! The `[floor]` and `[table]` sections.
 
 use crate::error::{Problem, conflict};
 use crate::sections::body_shape::pose;
@@ -60,11 +60,11 @@ pub struct TableSection {
 /// Name of the table, in messages.
 pub(crate) const TABLE: &str = "table";
 
-/// Thickness of a table's top of which none is stated \[m\].
+/// Default thickness of a table's top \[m\].
 const TOP_M: f64 = 0.03;
 
 impl FloorSection {
-    /// Refuses where and how far a floor is that is not there.
+    /// Refuses a height or a margin of a floor that is not present.
     pub(crate) fn check(&self) -> Result<(), Problem> {
         let of_floor = [("height_m", self.height_m), ("margin_m", self.margin_m)];
         let stated = of_floor.into_iter().find(|(_, stated)| stated.is_some());

@@ -158,7 +158,7 @@ impl From<&PlantSettings> for PlantSection {
     }
 }
 
-/// The keys of `[plant]` that state all of a plant, with their values, for whoever has no file.
+/// All keys of `[plant]` with the values that state a plant, for callers without a scenario file.
 #[must_use]
 pub fn plant_keys(plant: &PlantSettings) -> impl Serialize + use<> {
     PlantSection::from(plant)

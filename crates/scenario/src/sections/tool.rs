@@ -1,6 +1,6 @@
 //! The `[tool]` section.
 //!
-//! The `[[tool_body]]` sections: what the tool has besides its handle and its sponge.
+//! The `[[tool_body]]` sections: bodies of the tool besides its handle and its sponge.
 
 use crate::error::{Problem, conflict};
 use crate::keys::key::Domain::{Number, Text, Triple, Word};
@@ -73,7 +73,7 @@ pub struct ToolSection {
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
-/// What a tool is held by.
+/// Kind of the tool's handle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HandleName {
@@ -161,11 +161,11 @@ pub struct ToolBodySection {
     /// Its shape.
     #[serde(flatten)]
     pub body: StatedShape,
-    /// In which frame it is placed.
+    /// Frame in which the body is placed.
     pub frame: BodyFrame,
-    /// Where its centre is, in that frame \[m\].
+    /// Position of the body's centre in that frame \[m\].
     pub at_m: [f64; 3],
-    /// How it is turned there: roll, pitch and yaw about the frame's axes x, y, z \[deg\].
+    /// Orientation in that frame: roll, pitch and yaw about the fixed axes x, y, z of the frame \[deg\].
     pub rpy_deg: [f64; 3],
     /// Its part of the tool's mass \[kg\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -176,7 +176,7 @@ pub struct ToolBodySection {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BodyFrame {
-    /// That of the tool: where it begins, z along the handle.
+    /// The tool's frame: its origin is where the tool begins, its z axis runs along the handle.
     #[default]
     Tool,
     /// The mounting frame of the flange.
@@ -210,7 +210,7 @@ impl ToolBodySection {
     }
 }
 
-/// The keys that decide why bodies make no tool.
+/// Keys of scenarios that cause an error of the tool's bodies.
 pub(crate) fn tool_keys(error: &ToolError) -> &'static str {
     match error {
         ToolError::Bare => "tool.handle, [[tool_body]]",

@@ -1,4 +1,4 @@
-//! The `[wash]` section: the wash path and what it must keep.
+//! The `[wash]` section: the wash path and its requirements.
 
 use platewash_keys::Section;
 use platewash_workcell::job::PatternName;

@@ -1,14 +1,7 @@
 //! Input and output of every law.
 //!
-//! A perfect servo.
-//!
-//! Gains of the torque laws.
-//!
-//! The paper's law, to the letter.
-//!
-//! Proportional–derivative control of independent joints.
-//!
-//! Proportional–derivative control with gravity compensation.
+//! Also here: a perfect servo; gains of the torque laws; the paper's law, to the letter; proportional–derivative control of
+//! independent joints; proportional–derivative control with gravity compensation.
 //!
 //! Computed torque: the arm's own model makes every joint a double integrator.
 

@@ -11,7 +11,7 @@
 //! The trait: `laws.rs`. Gains and their source: `laws.rs`. Stability of the sampled loop: `stability.rs`. Reasons of a refusal:
 //! `error.rs`; the limits within which a law is accepted: `stability.rs`.
 //!
-//! A further law is a name in [`ControlLawName`], a file here, and the cases that the compiler then misses in [`kinematic`] and
+//! A further law is a name in [`ControlLawName`], a type in `laws.rs`, and the cases that the compiler then misses in [`kinematic`] and
 //! [`law`].
 
 mod error;

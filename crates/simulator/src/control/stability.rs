@@ -1,12 +1,12 @@
 //! Stability of a sampled torque law, linearised about rest.
 //!
+//! Also here: within which limits a law that was refused would have been stable.
+//!
 //! About a configuration that the arm shall hold, with gravity's slope left out, x = (δq, δq̇) obeys
 //! M δq̈ = −S δq − (D + C) δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction,
 //! S and C stiffness and damping of foam on a plate where the sponge is on one.
 //! Over a sample the integrator's own steps are a matrix, x ← A x. The loop is stable if and only if the eigenvalues of A
 //! lie within the unit circle, and certainly if ‖Aⁿ‖ < 1 for some n, which repeated squaring finds.
-//!
-//! Within which limits a law that was refused would have been stable.
 
 use crate::control::error::ControlError;
 use crate::control::laws::{Gains, Loop};

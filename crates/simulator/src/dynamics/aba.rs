@@ -1,12 +1,12 @@
 //! Forward dynamics: the articulated-body algorithm (Featherstone 2008, §7.3), in one common frame.
 //!
+//! Also here: a force on the tool; how the joints move it.
+//!
 //! Spatial vectors are (angular, linear). With S the joint's motion, v_i = v_{i−1} + S_i q̇_i and c_i = v_i × S_i q̇_i,
 //!
 //! - outwards: Iᴬ_i = I_i, p_i = v_i ×* I_i v_i;
 //! - inwards: U = Iᴬ S, D = Sᵀ U, u = τ − Sᵀ p; Iᴬ_{i−1} += Iᴬ − U Uᵀ/D, p_{i−1} += p + (Iᴬ − U Uᵀ/D) c + U u/D;
 //! - outwards: a' = a_{i−1} + c, q̈ = (u − Uᵀ a')/D, a_i = a' + S q̈, with a_0 = −g.
-//!
-//! A force on the tool; how the joints move it.
 
 use crate::dynamics::model::{DynamicsModel, Pass, Spatial};
 use nalgebra::{Matrix6, Point3, Vector3, Vector6};

@@ -1,8 +1,6 @@
 //! A rigid body: mass, centre of mass, inertia.
 //!
-//! Check that a body can exist.
-//!
-//! The tool as a body.
+//! Also here: check that a body can exist; the tool as a body.
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::geometry::Inertial;

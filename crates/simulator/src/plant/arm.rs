@@ -1,20 +1,13 @@
 //! An arm that torques move.
 //!
-//! One step of semi-implicit Euler, implicit in the friction.
+//! Also here: one step of semi-implicit Euler, implicit in the friction; one step of the classical Runge–Kutta scheme (Kutta
+//! 1901), fourth order; viscous and Coulomb friction; torque limits of the motors; state of the joints.
 //!
 //! With d = d(q̇) taken at the start of the step and friction at its end, (M + h diag(d)) q̈ = τ − C q̇ − g − d q̇; then
 //! q̇ += h q̈, q += h q̇. Symplectic without friction; friction alone never turns a joint round, however stiff it is.
 //!
-//! One step of the classical Runge–Kutta scheme (Kutta 1901), fourth order.
-//!
-//! Viscous and Coulomb friction.
-//!
 //! τ_f = (b + c / max(|q̇|, v₀)) q̇: the Coulomb torque c is constant above the speed v₀ and in proportion to it below, where
 //! a joint that should stick creeps at less than v₀.
-//!
-//! Torque limits of the motors.
-//!
-//! State of the joints.
 
 use crate::dynamics::DynamicsModel;
 use crate::plant::foam::Felt;

@@ -1,6 +1,6 @@
 //! Errors of a simulation.
 //!
-//! Checks of its settings.
+//! Also here: checks of its settings.
 
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;

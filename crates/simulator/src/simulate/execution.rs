@@ -1,6 +1,6 @@
 //! The executed motion, sample by sample.
 //!
-//! The executed motion as CSV.
+//! Also here: the executed motion as CSV.
 
 use crate::plant::{Felt, PlantState, TorqueLimits};
 use platewash_kinematics::{JointVector, RobotModel};

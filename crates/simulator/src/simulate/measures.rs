@@ -1,10 +1,8 @@
 //! Torques, work and power.
 //!
-//! Root mean square, 95 % and largest of many numbers.
+//! Also here: root mean square, 95 % and largest of many numbers; the tool's mass against the arm's rated payload.
 //!
 //! How far the arm is from where the plan wants it, at the same time.
-//!
-//! The tool's mass against the arm's rated payload.
 
 use crate::simulate::execution::{Execution, Sample};
 use crate::simulate::text::shown;

@@ -9,8 +9,8 @@
 //! | how much work it may be; the loop of samples; about which configurations it must be stable; segments of a plan in time | `run.rs` |
 //! | the executed motion, sample by sample; it as CSV | `execution.rs` |
 //! | root mean square, 95 %, largest; errors of joints and tip; torques, work, power; the tool's mass against the arm's payload | `measures.rs` |
-//! | contact, coverage and verdict of a plate | `washing.rs`, `run.rs` |
-//! | force while washing, contact lost | `pressing.rs` |
+//! | swept share and verdict of a plate | `washing.rs` |
+//! | force while washing, contact lost, shares of the face in contact | `pressing.rs` |
 //! | all of it | `report.rs` |
 //! | it as text | `text.rs` |
 //! | many frequencies and dampings | `tune.rs` |

@@ -1,10 +1,6 @@
 //! The loop of samples: reference, law, plant.
 //!
-//! Segments of a plan in time.
-//!
-//! How much work an execution may be.
-//!
-//! The sponge on a plate.
+//! Also here: segments of a plan in time; how much work an execution may be; the sponge on a plate.
 //!
 //! About which configurations a run must be stable: with nothing touching, and with the sponge on plates.
 

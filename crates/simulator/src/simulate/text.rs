@@ -1,6 +1,6 @@
 //! The report as a person reads it.
 //!
-//! Numbers as people read them.
+//! Also here: numbers as people read them.
 
 use crate::simulate::measures::{Effort, PayloadVerdict, Tracking};
 use crate::simulate::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};

@@ -3,7 +3,13 @@
 //! All positions are in the frame of the layout \[m\]: origin on the base axis, axes along those of the world, z = 0 at the height 0 of the
 //! world. For an arm that stands at the world's origin that is its base frame.
 //!
-//! The geometry that all plates of a layout share, and their spacing.
+//! | concept | module |
+//! | --- | --- |
+//! | the geometry that all plates of a layout share, and their spacing | here |
+//! | region in which plates are drawn; its outline for display | `region`, `outline` |
+//! | random layouts | `sampling`, `free_cells` |
+//! | upper bound on the number of plates: the proof that no arrangement fits | `packing` |
+//! | findings about a layout; errors | `findings`, `error` |
 
 mod error;
 mod findings;

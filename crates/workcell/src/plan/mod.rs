@@ -1,5 +1,7 @@
 //! Plan file: a job and a motion that does it, sealed with a hash. A verifier needs only the file and the arm.
 //!
+//! `reading.rs` reads it strictly: unknown, missing and repeated keys are refused, and sizes are bounded before anything is read.
+//!
 //! Formats and kinds of plan files.
 //!
 //! Errors of writing and reading plan files.

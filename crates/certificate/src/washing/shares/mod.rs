@@ -4,7 +4,7 @@
 //! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
 //! between which all of it is in contact count by what two sums differ (`doses.rs`) and are not looked at again in its quarters. What is
 //! left are windows in which places of the cell leave the sponge or get under it (`edges.rs`): together they give lower bounds of time
-//! and dose that are affine over the cell, so that of a cell at the edge of what is wanted the part counts that keeps it.
+//! and dose that are affine over the cell (`bounds.rs` puts them together), so that of a cell at the edge of what is wanted the part counts that keeps it.
 //!
 //! A place that is not shown to get an amount counts as not getting it, with the greatest area that it may have. So the shares are lower
 //! bounds.

@@ -1,6 +1,6 @@
 //! A program in the words of RAPID.
 //!
-//! Head of a module, as comments.
+//! Also here: head of a module, as comments.
 //!
 //! Lines of a module: ASCII, line feeds, no blanks at the end.
 //!
