@@ -9,6 +9,8 @@
 
 mod benches;
 mod browser;
+#[cfg(test)]
+mod comments;
 mod page;
 mod python;
 mod sources;
