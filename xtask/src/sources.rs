@@ -31,7 +31,7 @@ pub fn all_in(folder: &Path) -> Result<()> {
 }
 
 /// A file of `root`, or all in a folder of it: build scripts name folders, too.
-fn collect(root: &Path, named: PathBuf, files: &mut Vec<PathBuf>) -> Result<()> {
+pub fn collect(root: &Path, named: PathBuf, files: &mut Vec<PathBuf>) -> Result<()> {
     let place = root.join(&named);
     if !place.is_dir() {
         files.push(named);

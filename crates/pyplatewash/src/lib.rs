@@ -9,6 +9,7 @@ mod arrays;
 mod cell;
 mod certificate;
 mod clearance;
+mod coverage;
 mod curves;
 mod dry_run;
 mod dynamics;
@@ -46,9 +47,9 @@ mod _core {
     #[pymodule_export]
     use crate::clearance::ClearanceObject;
     #[pymodule_export]
-    use crate::curves::{_paper_spiral, _rings_turns, _wash_curve, _wash_curve_on, cubic_samples, transit_waypoints};
+    use crate::coverage::{measure, picture};
     #[pymodule_export]
-    use crate::curves::{measure, picture};
+    use crate::curves::{_paper_spiral, _rings_turns, _wash_curve, _wash_curve_on, cubic_samples, transit_waypoints};
     #[pymodule_export]
     use crate::dynamics::DynamicsObject;
     #[pymodule_export]

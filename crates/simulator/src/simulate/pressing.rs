@@ -160,8 +160,8 @@ impl Judge<'_> {
                 got.time_s >= wanted.time_s,
                 got.dose_pa_m >= wanted.dose_pa_m,
             ];
-            for (kept_m2, _) in kept_m2.iter_mut().zip(keeps).filter(|(_, keeps)| *keeps) {
-                *kept_m2 += area_m2;
+            for (kept_m2, keeps) in kept_m2.iter_mut().zip(keeps) {
+                *kept_m2 += if keeps { area_m2 } else { 0.0 };
             }
         }
         let [contact, time, dose] = kept_m2.map(|kept_m2| kept_m2 / whole_m2);
