@@ -96,14 +96,14 @@ fn goal(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, F
 /// Checks that the first point comes after the lead-in, and any other after the point before it \[ns\].
 fn check_order(line: usize, before_ns: Option<i64>, time_ns: i64) -> Result<(), Fault> {
     let seconds = |ns: i64| format!("{}.{:09} s", ns / NS_PER_S, ns % NS_PER_S);
-    let found = seconds(time_ns);
     match before_ns {
         None if time_ns < LEAD_IN_NS => {
+            let found = seconds(time_ns);
             let found = format!("expected the first point at {LEAD_IN_S} s or later; found {found}");
             broken(line, ("lead-in", PROOF), found)
         }
         Some(before) if time_ns <= before => {
-            let before = seconds(before);
+            let [before, found] = [before, time_ns].map(seconds);
             let found = format!("expected a time after {before}, that of the point before; found {found}");
             broken(line, ("time-order", CONTROLLER), found)
         }
