@@ -21,7 +21,7 @@ import traitlets
 from . import _core
 from ._errors import PlatewashError
 from ._questions import Asked, Questions
-from ._whole_file import save_text
+from ._files import save_text
 
 #: Longest name of a page.
 LONGEST_VIEW = 64

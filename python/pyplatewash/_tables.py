@@ -1,17 +1,92 @@
-"""Tables in HTML for notebooks: a function a noun. Texts of a file are escaped, whatever they say."""
+"""Tables in HTML for notebooks, one function for each kind of object, and a small picture of plates from above, in SVG."""
 
 from __future__ import annotations
 
 import html
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from . import _core, _picture
+from . import _core
 from ._errors import PlatewashError
-from ._values import Floats, Rings, WashCurve
-from ._words import percent, quoted
+from ._values import Floats, Plate, Rings, WashCurve
+
+#: Characters of a name that are told.
+LONGEST_NAME = 100
+
+
+def percent(share: float) -> str:
+    """A share as a percentage with one decimal, rounded down, so that it is 100 only where nothing but rounding is missing.
+
+    >>> percent(0.4202), percent(0.99994), percent(1.0)
+    ('42.0 %', '99.9 %', '100 %')
+    """
+    return "100 %" if share >= 1 - 1e-9 else f"{math.floor(1e3 * share + 1e-9) / 10:.1f} %"
+
+
+def quoted(name: str) -> str:
+    r"""A name out of a file in quotes, on one line; of a long one the beginning, and its length.
+
+    >>> print(quoted('a"b\nPROVED'))
+    "a\"b\nPROVED"
+    """
+    begins = name[:LONGEST_NAME].replace("\\", "\\\\").replace('"', '\\"')
+    shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in begins)
+    rest = f"… ({len(name)} characters)" if len(name) > LONGEST_NAME else ""
+    return f'"{shown}"{rest}'
+
+
+#: Edge of the picture [px].
+EDGE_PX = 168
+#: Most plates and points that are drawn.
+MOST_PLATES, MOST_POINTS = 200, 4000
+#: Room around the outermost rim, and the half width of the base [m].
+ROOM_M, BASE_M = 0.03, 0.03
+
+
+def from_above(plates: Sequence[Plate], paths: Iterable[Floats] = (), order: Sequence[int] = ()) -> str:
+    """Plates, wash paths, each of shape (N, 2) [m], and the base at the origin; x to the right, y up. In colours that can be seen
+    on light and dark."""
+    shown = list(plates)[:MOST_PLATES]
+    reach = [abs(c) + p.radius_m for p in shown for c in (p.x_m, p.y_m)]
+    if not all(np.isfinite(reach)):
+        return ""
+    corners = np.array([(p.x_m + sx * p.radius_m, p.y_m + sy * p.radius_m) for p in shown for sx, sy in ((1, 1), (-1, -1))] + [(-BASE_M, -BASE_M), (BASE_M, BASE_M)])
+    low, high = corners.min(axis=0) - ROOM_M, corners.max(axis=0) + ROOM_M
+    width, height = high - low
+    pixel = max(width, height) / EDGE_PX
+    lines = [_plate(plate, pixel) for plate in shown]
+    lines += [_path(path, pixel) for path in paths if np.isfinite(path).all() and len(path) > 1]
+    lines += [_number(shown[index], visit, pixel) for visit, index in enumerate(order, 1) if index < len(shown)]
+    base = f'<path d="M{-BASE_M:g} {BASE_M:g}L0 {-BASE_M:g}L{BASE_M:g} {BASE_M:g}Z" fill="currentColor"/>'
+    box = f"{low[0]:.4g} {-high[1]:.4g} {width:.4g} {height:.4g}"
+    return (
+        f'<svg role="img" aria-label="the plates from above" width="{width / pixel:.0f}" height="{height / pixel:.0f}" viewBox="{box}"'
+        f' xmlns="http://www.w3.org/2000/svg">{"".join(lines)}{base}</svg>'
+    )
+
+
+def _plate(plate: Plate, pixel: float) -> str:
+    return (
+        f'<circle cx="{plate.x_m:.5g}" cy="{-plate.y_m:.5g}" r="{plate.radius_m:.5g}" fill="currentColor" fill-opacity="0.08"'
+        f' stroke="currentColor" stroke-opacity="0.6" stroke-width="{pixel:.3g}"/>'
+    )
+
+
+def _path(path: Floats, pixel: float) -> str:
+    points = path[:: max(len(path) // MOST_POINTS, 1)]
+    d = "L".join(f"{x:.4g} {-y:.4g}" for x, y in points)
+    return f'<path d="M{d}" fill="none" stroke="#d6409f" stroke-width="{1.2 * pixel:.3g}"/>'
+
+
+def _number(plate: Plate, visit: int, pixel: float) -> str:
+    return (
+        f'<text x="{plate.x_m:.5g}" y="{-plate.y_m:.5g}" font-size="{13 * pixel:.3g}" font-family="sans-serif" font-weight="600"'
+        f' text-anchor="middle" dominant-baseline="central" fill="currentColor">{visit}</text>'
+    )
+
 
 #: Most characters of a text and most lines of a table.
 MOST_CHARACTERS, MOST_LINES = 400, 60
@@ -106,13 +181,13 @@ def certificate(of: _core.Certificate) -> str:
 def layout(of: _core.Layout) -> str:
     plates = [(k, f"({p.x_m:.4f}, {p.y_m:.4f}) m", f"{1e3 * p.radius_m:g} mm") for k, p in enumerate(of.plates)]
     findings = [(k, str(finding)) for k, finding in enumerate(of.findings, 1)]
-    parts = [table(plates, ("plate", "centre", "radius")), table(findings, ("finding", "")) if findings else "", _picture.from_above(of.plates)]
+    parts = [table(plates, ("plate", "centre", "radius")), table(findings, ("finding", "")) if findings else "", from_above(of.plates)]
     return page(f"Layout: {len(of)} plates, {'no findings' if not findings else f'{len(findings)} findings'}", parts)
 
 
 def job(of: _core.WashJob | _core.PaperJob) -> str:
     rows = [("program", "the paper's" if isinstance(of, _core.PaperJob) else "certified"), ("seed", of.seed), ("arm", of.robot.name), ("plates", len(of.layout))]
-    return page(f"Job {quoted(of.name)}", [table(rows), _picture.from_above(of.layout.plates)])
+    return page(f"Job {quoted(of.name)}", [table(rows), from_above(of.layout.plates)])
 
 
 def execution(of: _core.Execution) -> str:
@@ -136,7 +211,7 @@ def paper_run(of: _core.PaperRun) -> str:
     ]
     head = ("plate", "waypoints reached", "swept as commanded", "executed", "tip off by, rms")
     paths = [of.targets[of.washing & (of.plate == index), :2] for index in of.order]
-    return page(report.headline, [table(rows, head), _picture.from_above(of.job.layout.plates, paths, of.order)])
+    return page(report.headline, [table(rows, head), from_above(of.job.layout.plates, paths, of.order)])
 
 
 def robot(of: _core.Robot) -> str:
@@ -175,7 +250,7 @@ def _brief(value: object) -> object:
 def plan_picture(of: _core.Plan) -> str:
     """The plates of a plan with their wash paths; nothing for a file whose numbers make no picture."""
     try:
-        return _picture.from_above(of.plates, wash_paths(of), of.order)
+        return from_above(of.plates, wash_paths(of), of.order)
     except (PlatewashError, IndexError):
         return ""
 

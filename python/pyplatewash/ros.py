@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from ._core import Plan
 from ._errors import InputError, InputTypeError, MissingError, ProgramFileError, ProgramNotFoundError
-from ._whole_file import not_written
+from ._files import not_written
 
 __all__ = ["sample", "to_message", "write_bag"]
 

@@ -114,7 +114,7 @@ def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
         assert getattr(pw, name).__doc__, f"{name} has no docstring"
 
 
-@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._figure", "._words", "._studies.samples", "._figures.table_map", ".ros"])
+@pytest.mark.parametrize("module", ["", "._values", "._records", "._errors", "._page", "._figure", "._tables", "._studies.samples", "._figures", ".ros"])
 def test_examples_in_docstrings_run(module: str) -> None:
     found = doctest.testmod(importlib.import_module("pyplatewash" + module))
     assert found.failed == 0

@@ -23,7 +23,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 
 import pyplatewash as pw
-from pyplatewash._figures import palette
+from pyplatewash import _figures as palette
 from pyplatewash import _core
 from pyplatewash._studies import frame as frames
 from pyplatewash._studies import parquet

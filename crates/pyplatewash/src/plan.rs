@@ -330,7 +330,7 @@ impl PlanObject {
             files.set_item(file.name, file.text)?;
         }
         if let Some(out) = out {
-            ask(py, "_program_files", "save", (out, &files))?;
+            ask(py, "_files", "save_program", (out, &files))?;
         }
         Ok(files)
     }

@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING, Any, Literal
 from .. import _arguments, _core
 from .._errors import NoKeyError, StudyError
 from .._records import Record
-from .._whole_file import staged
-from . import frame as frames
-from . import parquet
+from .._files import staged
 from .folder import Folder, Row, one_by_one, refused
-from .table import Column, columns
+from .table import Column, columns, frame, pandas, pyarrow, write_parquet
 
 if TYPE_CHECKING:
     import pandas as _pd  # type: ignore[import-untyped]
@@ -146,8 +144,8 @@ class StudyRows:
         Raises MissingError, an ImportError, without pandas.
         """
         with_timings = _arguments.flag("timings", timings)
-        frames.imported()
-        return frames.frame(self._timed(with_timings), self._columns(with_timings), self.manifest)
+        pandas()
+        return frame(self._timed(with_timings), self._columns(with_timings), self.manifest)
 
     def to_parquet(self, path: str | os.PathLike[str], *, timings: bool = True, partial: bool = False) -> None:
         """Writes the rows as a Parquet data set, some thousand in memory at a time: a file where the name ends with ``.parquet``, else a folder,
@@ -160,13 +158,13 @@ class StudyRows:
         """
         with_timings = _arguments.flag("timings", timings)
         place = self._ready(path, partial)
-        parquet.imported()
+        pyarrow()
         as_folder = place.suffix != ".parquet"
         _free(place, self.folder, as_folder)
         of = self._columns(with_timings)
         try:
             with staged(place, as_folder=as_folder) as beside:
-                parquet.write(beside, self._timed(with_timings), of, self._of.manifest)
+                write_parquet(beside, self._timed(with_timings), of, self._of.manifest)
         except StudyError:
             raise
         except (OSError, ValueError) as error:
@@ -192,7 +190,7 @@ class StudyRows:
 
         The answer is the Axes, or a list where ``by`` is given. Raises InputError; MissingError, an ImportError, without matplotlib.
         """
-        from .._figures.table_map import draw
+        from .._figures import draw
 
         return draw(self._of, (at, value, by, region), ax)
 

@@ -14,8 +14,7 @@ import numpy as np
 from .. import _arguments
 from .._arguments import shown
 from .._errors import InputError, InputTypeError
-from .needed import needed
-from .table import as_json
+from .table import as_json, needed
 
 if TYPE_CHECKING:
     from .._values import Floats

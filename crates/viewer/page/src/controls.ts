@@ -1,7 +1,7 @@
 /** What buttons, keys and tests ask of the player. */
 import { stepSpeed } from "./clock.ts";
+import { plateNumber, segmentAt } from "./format.ts";
 import type { Follows, Player } from "./player.ts";
-import { plateNumber, segmentAt } from "./segments.ts";
 
 /** A frame of the film, for stepping [s]. */
 const STEP_S = 1 / 30;

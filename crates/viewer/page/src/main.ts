@@ -1,8 +1,8 @@
-import "./language.ts";
 import { App } from "./app.ts";
-import { DocumentError, readEdit, readView } from "./document.ts";
+import "./language.ts";
 import { NumbersError } from "./numbers.ts";
 import { byId, el } from "./shell/dom.ts";
+import { DocumentError, readEdit, readView } from "./view.ts";
 
 function main(): void {
   try {

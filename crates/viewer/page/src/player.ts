@@ -1,11 +1,11 @@
 /** What is shown at a time: the plan's motion or what the arm did, from the document and, while a run is live, from its samples. */
-import { Clearances } from "./clearances.ts";
 import { Clock, Follower } from "./clock.ts";
+import { Clearances } from "./curves.ts";
+import { segmentAt } from "./format.ts";
 import type { LivePhase } from "./live.ts";
-import { AXES, Motion, newState, type JointState } from "./motion.ts";
+import { AXES, type JointState, Motion, newState } from "./motion.ts";
 import { Recording } from "./recording.ts";
 import type { Shown } from "./scene/index.ts";
-import { segmentAt } from "./segments.ts";
 import type { Segment, View } from "./view.ts";
 
 /** Whose joints the arm shows. */

@@ -1,11 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Matrix4, Ray, Vector3 } from "three";
-import { carried, middle, turnOf, type Centre, type Grab } from "../src/scene/handles.ts";
+import { carried, type Centre, type Grab, middle, nearest, onPlane, type Solid, turnOf } from "../src/scene/handles.ts";
 import { squaresOf } from "../src/scene/map.ts";
-import { CELLS, deadNearer } from "../src/scene/washability.ts";
-import { nearest, onPlane, type Solid } from "../src/scene/pick.ts";
 import { arrowsOf, partOf, ringThrough } from "../src/scene/ring.ts";
+import { CELLS, deadNearer } from "../src/scene/washability.ts";
 
 function ray(from: [number, number, number], to: [number, number, number]): Ray {
   const origin = new Vector3(...from);

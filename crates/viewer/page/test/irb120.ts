@@ -1,5 +1,5 @@
 /** The IRB 120 and a straight tool, for tests. */
-import { matrixOf } from "../src/kinematics.ts";
+import { matrixOf } from "../src/motion.ts";
 import type { Arm, Pose, Tool } from "../src/view.ts";
 
 const H = Math.SQRT1_2;

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Mesh, MeshBasicMaterial, type Material, type WebGLRenderer } from "three";
+import { type Material, Mesh, MeshBasicMaterial, type WebGLRenderer } from "three";
 import { keptOf } from "../src/scene/content.ts";
-import { Plates } from "../src/scene/plates.ts";
 import { Retired } from "../src/scene/graph.ts";
-import { Studio } from "../src/scene/studio.ts";
+import { Plates } from "../src/scene/plates.ts";
+import { Studio } from "../src/scene/stage.ts";
 import type { Plate, View } from "../src/view.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";
 

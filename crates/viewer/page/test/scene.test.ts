@@ -1,13 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Matrix4, Vector3 } from "three";
-import { Kinematics } from "../src/kinematics.ts";
+import { BufferGeometry, Matrix4, SphereGeometry, Vector3 } from "three";
+import { Kinematics } from "../src/motion.ts";
 import { ArmGraph } from "../src/scene/arm.ts";
-import { geometryOf, plateGeometry } from "../src/scene/shapes.ts";
 import { marksHeight, patchAt } from "../src/scene/floor.ts";
-import { Studio } from "../src/scene/studio.ts";
+import { simplified, stretches } from "../src/scene/lines.ts";
+import { geometryOf, plateGeometry, segmentsOfQuarter, segmentsRound } from "../src/scene/shapes.ts";
+import { Studio } from "../src/scene/stage.ts";
 import { ToolGraph } from "../src/scene/tool.ts";
-import type { Body, Plate, Shape, Tool } from "../src/view.ts";
+import { clusters, MARK_PX } from "../src/shell/transport.ts";
+import type { Body, Check, Plate, Shape, Status, Tool } from "../src/view.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";
 
 const HANDLE: Body = { shape: { cylinder: { radius_m: 0.02, half_length_m: 0.0625 } }, pose: pose([0, 0, 0.0625]) };
@@ -110,4 +112,100 @@ test("the patch is below an arm on the floor, and the marks under the plates whe
   const plate = (z: number, tilted = false): Plate => ({ name: "p", pose: pose([0.3, 0, z], tilted ? [Math.SQRT1_2, Math.SQRT1_2, 0, 0] : undefined), meridian_m: [[0, 0], [0.1, 0]], thickness_m: 0.02 });
   const height = (...plates: Plate[]): number => Number(marksHeight({ plates }).toFixed(6));
   assert.deepEqual([height(), height(plate(0.03)), height(plate(0.72), plate(0.92)), height(plate(0.72, true))], [0.0015, 0.0015, 0.7015, 0.0015]);
+});
+
+function check(words: string, time_s: number | null, status: Status = "proved"): Check {
+  return { requirement: words, words, status, detail: "", worst: time_s === null ? {} : { time_s }, place: "" };
+}
+
+test("marks that would cover each other are one, at the worst of them", () => {
+  const checks = [check("a", 1), check("b", 1.5, "violated"), check("c", 8), check("d", 2, "not_proved"), check("e", null)];
+  const groups = clusters(checks, 10, 10 * MARK_PX);
+  assert.deepEqual(groups.map((group) => group.checks.map(({ words }) => words)), [["b", "d", "a"], ["c"]]);
+  assert.deepEqual(groups.map(({ time, status }) => [time, status]), [[1.5, "violated"], [8, "proved"]]);
+});
+
+test("no two marks overlap, wherever the worst places lie", () => {
+  const statuses: Status[] = ["proved", "violated", "not_proved", "waived"];
+  const checks = Array.from({ length: 60 }, (_, k) => check(`${k}`, (k * 7.31) % 40, statuses[(k * 5) % 4]!));
+  for (const width of [200, 340, 900]) {
+    const groups = clusters(checks, 40, width);
+    groups.slice(1).forEach((group, k) => assert.ok(((group.time - groups[k]!.time) * width) / 40 >= MARK_PX));
+    assert.equal(groups.reduce((sum, group) => sum + group.checks.length, 0), checks.length);
+  }
+});
+
+test("times outside the film, or no width, make no trouble", () => {
+  assert.deepEqual(clusters([check("a", -1), check("b", 99), check("c", Number.NaN)], 10, 100), []);
+  assert.equal(clusters([check("a", 1), check("b", 9)], 10, 0).length, 1);
+});
+
+function meshOf(geometry: BufferGeometry): Shape {
+  const corners = Float32Array.from(geometry.toNonIndexed().getAttribute("position").array);
+  return { mesh: { triangles: { shape: [corners.length / 9, 3, 3], f32: Buffer.from(corners.buffer).toString("base64") } } };
+}
+
+test("a mesh of a hundred thousand corners states each once, in little time", () => {
+  const shape = meshOf(new SphereGeometry(1, 130, 130));
+  const begun = performance.now();
+  const slim = geometryOf(shape, "exact");
+  assert.ok(performance.now() - begun < 2000, `${performance.now() - begun} ms`);
+  assert.equal(slim.index!.count, 3 * 2 * 130 * 129);
+  assert.ok(slim.getAttribute("position").count < slim.index!.count / 4);
+});
+
+test("chords keep to 0.12 mm of their arcs where there may be enough of them, and circles are as wide as they should be", () => {
+  for (const radius of [0.001, 0.005, 0.02, 0.05, 0.0625]) {
+    const segments = segmentsRound(radius, 48);
+    assert.equal(segments % 4, 0);
+    assert.ok(segments === 48 || radius * (1 - Math.cos(Math.PI / segments)) <= 0.00012, `${radius}: ${segments}`);
+    const steps = segmentsOfQuarter(radius, 64);
+    assert.ok(radius * (1 - Math.cos(Math.PI / 4 / steps)) <= 0.00012 + 1e-12, `${radius}: ${steps}`);
+  }
+  for (const odd of [0, -1, Number.NaN, Infinity, 1e9]) {
+    assert.ok([16, 48].includes(segmentsRound(odd, 48)), `${odd}`);
+    assert.ok([1, 4].includes(segmentsOfQuarter(odd, 4)), `${odd}`);
+  }
+});
+
+/** Distance of a place from the nearest stretch of a polyline. */
+function distance(place: number[], line: Float64Array): number {
+  let nearest = Infinity;
+  for (let i = 0; i + 5 < line.length; i += 3) {
+    const from = [...line.subarray(i, i + 3)];
+    const span = [...line.subarray(i + 3, i + 6)].map((x, k) => x - from[k]!);
+    const offset = place.map((x, k) => x - from[k]!);
+    const length = span.reduce((sum, x) => sum + x * x, 0);
+    const along = length === 0 ? 0 : span.reduce((sum, x, k) => sum + x * offset[k]!, 0) / length;
+    const share = Math.max(0, Math.min(1, along));
+    nearest = Math.min(nearest, Math.hypot(...offset.map((x, k) => x - share * span[k]!)));
+  }
+  return nearest;
+}
+
+test("a simplified spiral has fewer places, its ends, and stays within the tolerance", () => {
+  const places: number[] = [];
+  for (let i = 0; i <= 2000; i++) {
+    const angle = (i / 2000) * 8 * Math.PI;
+    const radius = 0.145 * (i / 2000);
+    places.push(radius * Math.cos(angle), radius * Math.sin(angle), 0.03);
+  }
+  const few = simplified(places, 1e-4);
+  assert.ok(few.length < places.length / 5, `${few.length / 3} places`);
+  assert.deepEqual([...few.subarray(0, 3), ...few.subarray(-3)], [...places.slice(0, 3), ...places.slice(-3)]);
+  for (let i = 0; i < places.length; i += 21) {
+    const away = distance(places.slice(i, i + 3), few);
+    assert.ok(away <= 1e-4 + 1e-12, `place ${i / 3}: ${away} m`);
+  }
+});
+
+test("what is too short to simplify stays as it is, a way to and fro keeps its turn", () => {
+  assert.equal(simplified([], 1e-3).length, 0);
+  assert.deepEqual([...simplified([1, 2, 3], 1e-3)], [1, 2, 3]);
+  assert.deepEqual([...simplified([0, 0, 0, 1, 0, 0, 0, 0, 0], 1e-3)], [0, 0, 0, 1, 0, 0, 0, 0, 0]);
+});
+
+test("stretches join the places of each polyline, and none across a place that is not finite", () => {
+  const ends = stretches([[0, 0, 0, 1, 0, 0, 2, 0, 0], [5, 5, 5], [3, 0, 0, Number.NaN, 0, 0, 4, 0, 0, 4, 1, 0]]);
+  assert.deepEqual([...ends], [0, 0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 4, 0, 0, 4, 1, 0]);
 });

@@ -7,9 +7,8 @@ from contextlib import suppress
 from typing import Any
 
 from ..._errors import EngineError
-from ..needed import needed
-from .contract import Died, given_back, processors
-from .worker import Kit, Made, Share, stop, work
+from ..table import needed
+from .contract import Died, Kit, Made, Share, given_back, processors, stop, work
 
 #: What keeps a program from its own workers, which import it.
 GUARD = "a program that calls this states what it does below: if __name__ == '__main__':"

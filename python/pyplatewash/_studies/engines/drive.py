@@ -12,8 +12,7 @@ from functools import partial
 from typing import Any
 
 from ... import _core
-from .contract import Died, Engine, asking
-from .worker import Share
+from .contract import Died, Engine, Share, asking
 
 #: How long a share shall take [s]: the way to a worker and back takes some milliseconds.
 SHARE_S = 2.0

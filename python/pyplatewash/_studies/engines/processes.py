@@ -13,8 +13,7 @@ from contextlib import suppress
 from typing import IO, Any
 
 from ..._errors import EngineError
-from .contract import Died
-from .worker import Kit, Made, Share, stop, work
+from .contract import Died, Kit, Made, Share, stop, work
 
 #: What a process runs. It imports what this one would, and never the program that calls it.
 BEGIN = f"import sys; sys.path[:] = {{path!r}}; from {__name__} import main; main()"

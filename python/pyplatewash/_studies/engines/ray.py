@@ -9,9 +9,8 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from ..._errors import EngineError, InputError
-from ..needed import needed
-from .contract import WORKERS, Died, given_back, processors
-from .worker import Kit, Made, Share, work
+from ..table import needed
+from .contract import WORKERS, Died, Kit, Made, Share, given_back, processors, work
 
 #: How long somebody is waited for who answers at an address [s].
 ANSWER_S = 10.0

@@ -6,18 +6,16 @@ import type { Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
 import { editVerdict } from "./answers.ts";
 import { BROWSER_TIME } from "./asker.ts";
-import { Cell } from "./cell.ts";
 import { CellPanel } from "./cell-panel.ts";
-import { FrameChannel, HttpChannel, keptToken, takeToken, type Channel } from "./channel.ts";
-import { Commands } from "./commands.ts";
+import { Cell } from "./cell.ts";
+import { type Channel, FrameChannel, HttpChannel, keptToken, takeToken } from "./channel.ts";
+import { Commands, listenToEditKeys, plateKey } from "./commands.ts";
 import { Disk } from "./disk.ts";
-import { Form } from "./form.ts";
-import { Keeper, tabStore, type Edit } from "./history.ts";
-import { listenToEditKeys, plateKey } from "./keys.ts";
+import { Form, TextPanel } from "./form.ts";
+import { type Edit, Keeper, tabStore } from "./history.ts";
 import { MapAsker } from "./map.ts";
 import type { EditDocument } from "./protocol.ts";
 import { CellShown } from "./shown.ts";
-import { TextPanel } from "./text-panel.ts";
 import { ConflictBar, Toolbar } from "./toolbar.ts";
 
 /** Notes when plans and proofs are drawn, and who waits for that. */

@@ -1,20 +1,19 @@
 /** All that is drawn of a document, and how another one takes its place: what says the same stays, the rest is made anew. */
 import { Group, type Object3D } from "three";
 import { decodeCoverage } from "../coverage.ts";
-import { Kinematics } from "../kinematics.ts";
+import { Kinematics } from "../motion.ts";
 import type { View } from "../view.ts";
-import { ArmGraph } from "./arm.ts";
+import { ArmGraph, CommandedTip, FrameAxes } from "./arm.ts";
 import { Floor, marksHeight } from "./floor.ts";
-import { CommandedTip, FrameAxes } from "./frame.ts";
 import type { Retired } from "./graph.ts";
 import { Obstacles } from "./obstacles.ts";
 import type { Palette } from "./palette.ts";
 import { Paths } from "./paths.ts";
 import { Plates } from "./plates.ts";
 import { ProofBodies } from "./proof.ts";
-import type { Studio } from "./studio.ts";
+import type { Studio } from "./stage.ts";
 import { ToolGraph } from "./tool.ts";
-import { extentOf, type Extent } from "./views.ts";
+import { type Extent, extentOf } from "./views.ts";
 
 /** What can be shown or hidden. */
 export type Layer =

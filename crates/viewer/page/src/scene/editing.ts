@@ -1,16 +1,15 @@
 /** What of the scene is there only where it can be edited: what is selected, dragged and guessed, ghosts, ring and map. */
-import { Group, Vector3, type Camera, type Ray } from "three";
+import { type Camera, Group, type Ray, Vector3 } from "three";
 import type { Chance } from "../edit/protocol.ts";
 import type { Content } from "./content.ts";
-import { Ghosts, type GhostPlace } from "./ghost.ts";
-import { Handles, middle, type Centre, type Grab, type Phase, type Picked } from "./handles.ts";
-import { WashMap, type MapPatch } from "./map.ts";
+import { type GhostPlace, Ghosts } from "./ghost.ts";
+import { type Centre, type Grab, Handles, middle, nearest, nearestAt, onPlane, type Phase, type Picked, type Solid } from "./handles.ts";
+import { type MapPatch, WashMap } from "./map.ts";
 import type { Palette } from "./palette.ts";
-import { nearest, nearestAt, onPlane, type Solid } from "./pick.ts";
 import { Outlines, partOf, RingHandle, ringThrough } from "./ring.ts";
 import { Signs } from "./signs.ts";
-import type { Studio } from "./studio.ts";
-import { Washability, type Offending } from "./washability.ts";
+import type { Studio } from "./stage.ts";
+import { type Offending, Washability } from "./washability.ts";
 
 export type Selection = number | "all" | null;
 

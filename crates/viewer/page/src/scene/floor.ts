@@ -1,9 +1,9 @@
 /** The floor: the paper's grey patch, a grid that fades, shadows, and what the job keeps to: base circle and region. */
-import { Group, Mesh, PlaneGeometry, ShadowMaterial, Shape, ShapeGeometry, Vector2, Color, MeshBasicMaterial } from "three";
+import { Color, Group, Mesh, MeshBasicMaterial, PlaneGeometry, ShadowMaterial, Shape, ShapeGeometry, Vector2 } from "three";
 import type { View } from "../view.ts";
 import { Lines, stretches } from "./lines.ts";
 import type { Palette } from "./palette.ts";
-import type { Studio } from "./studio.ts";
+import type { Studio } from "./stage.ts";
 
 /** Half of the patch's edge [m]. */
 export const PATCH_M = 0.5;

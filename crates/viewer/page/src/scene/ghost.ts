@@ -1,11 +1,10 @@
 /** Ghosts: plates drawn where they could be washed, each tied to its plate by a line. */
 import { BufferGeometry, Group, Matrix4, Mesh, type MeshStandardMaterial } from "three";
-import type { Centre } from "./handles.ts";
+import type { Centre, Solid } from "./handles.ts";
 import { Lines } from "./lines.ts";
 import type { Palette } from "./palette.ts";
-import type { Solid } from "./pick.ts";
 import { circle } from "./ring.ts";
-import type { Studio } from "./studio.ts";
+import type { Studio } from "./stage.ts";
 
 const OPACITY = 0.42;
 const HOVERED = 0.7;

@@ -1,6 +1,6 @@
 /** What hangs in three's scene graph: poses of the document, and what was replaced. */
 import { Material, type Object3D, type WebGLRenderer } from "three";
-import { matrixOf } from "../kinematics.ts";
+import { matrixOf } from "../motion.ts";
 import type { Pose } from "../view.ts";
 
 /** Fixes an object to its parent at `T_parent_object`. */

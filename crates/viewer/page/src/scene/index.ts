@@ -1,20 +1,19 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
 import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { ClearanceNow } from "../clearances.ts";
+import type { ClearanceNow } from "../curves.ts";
 import type { Theme } from "../palette.ts";
 import type { View } from "../view.ts";
-import { ClearanceLine } from "./clearance.ts";
-import { Content, LABELS, LAYERS, type Layer } from "./content.ts";
-import { Editing, type EditActions } from "./editing.ts";
+import { Content, LABELS, type Layer, LAYERS } from "./content.ts";
+import { type EditActions, Editing } from "./editing.ts";
 import { Retired } from "./graph.ts";
 import { Haste } from "./haste.ts";
 import { PALETTES } from "./palette.ts";
 import type { CoverageKind } from "./plates.ts";
+import { ClearanceLine } from "./proof.ts";
 import { Mark } from "./signs.ts";
-import { Stage } from "./stage.ts";
-import { Studio } from "./studio.ts";
-import { Views, type Preset } from "./views.ts";
+import { Stage, Studio } from "./stage.ts";
+import { type Preset, Views } from "./views.ts";
 
 export type { Layer } from "./content.ts";
 export { SceneError } from "./stage.ts";

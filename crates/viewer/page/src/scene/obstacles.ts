@@ -1,11 +1,11 @@
 /** Bodies that stand still. */
-import { Box3, Color, DoubleSide, Group, Matrix4, Mesh, Raycaster, type MeshStandardMaterial, type Ray } from "three";
-import { matrixOf } from "../kinematics.ts";
+import { Box3, Color, DoubleSide, Group, Matrix4, Mesh, type MeshStandardMaterial, type Ray, Raycaster } from "three";
+import { matrixOf } from "../motion.ts";
 import type { Body } from "../view.ts";
 import { fix } from "./graph.ts";
 import type { Palette } from "./palette.ts";
 import { geometryOf } from "./shapes.ts";
-import type { Studio } from "./studio.ts";
+import type { Studio } from "./stage.ts";
 
 /** Whether a body is the floor at z = 0, which is drawn as such. */
 function isFloor(body: Body): boolean {

@@ -1,7 +1,6 @@
 /** Ways of the tip: what it follows on plates, how it travels between them, and where it really went. */
 import { GreaterDepth, Group } from "three";
-import { Kinematics } from "../kinematics.ts";
-import { AXES, Motion, newState } from "../motion.ts";
+import { AXES, Kinematics, Motion, newState } from "../motion.ts";
 import { floats, indexBefore } from "../numbers.ts";
 import type { Segment, View } from "../view.ts";
 import { Lines, simplified, stretches } from "./lines.ts";

@@ -1,15 +1,13 @@
 /** Plates: porcelain, with the coverage on the face. */
-import {
-  Color, DataTexture, FloatType, Group, LinearFilter, Matrix4, Mesh, RGBAFormat, RGFormat, SRGBColorSpace, type BufferGeometry, type MeshStandardMaterial,
-} from "three";
-import { colormap, dwellScale, type Coverage } from "../coverage.ts";
+import { type BufferGeometry, Color, DataTexture, FloatType, Group, LinearFilter, Matrix4, Mesh, type MeshStandardMaterial, RGBAFormat, RGFormat, SRGBColorSpace } from "three";
+import { colormap, type Coverage, dwellScale } from "../coverage.ts";
 import type { Plate } from "../view.ts";
 import { fix, type Retired } from "./graph.ts";
+import type { Solid } from "./handles.ts";
 import type { Palette } from "./palette.ts";
-import type { Solid } from "./pick.ts";
 import { plateGeometry } from "./shapes.ts";
-import type { Studio } from "./studio.ts";
-import { sweepProgram, sweepTexture, type Sweep, type SweepColours } from "./sweep.ts";
+import type { Studio } from "./stage.ts";
+import { type Sweep, type SweepColours, sweepProgram, sweepTexture } from "./sweep.ts";
 
 /** Which motion's coverage is shown. */
 export type CoverageKind = "planned" | "executed";

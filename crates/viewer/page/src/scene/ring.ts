@@ -1,9 +1,8 @@
 /** Circles about plates: outlines of those that are meant, and the ring by which they are turned about the arm's base axis. */
-import { ConeGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3, type Camera } from "three";
-import type { Centre } from "./handles.ts";
+import { type Camera, ConeGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import type { Centre, Solid } from "./handles.ts";
 import { Lines, stretches } from "./lines.ts";
 import type { Palette } from "./palette.ts";
-import type { Solid } from "./pick.ts";
 
 export type OutlineKind = "selected" | "hovered";
 

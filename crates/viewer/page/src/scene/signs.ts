@@ -1,7 +1,7 @@
 /** Signs of one size on the screen, before everything else: over plates a cross or a question mark, and the mark at a place to look at. */
 import { CanvasTexture, Group, Sprite, SpriteMaterial, type Vector3Tuple } from "three";
+import type { Solid } from "./handles.ts";
 import type { Palette } from "./palette.ts";
-import type { Solid } from "./pick.ts";
 
 export type SignKind = "unclear" | "unwashable";
 

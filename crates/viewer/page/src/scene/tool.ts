@@ -1,12 +1,12 @@
 /** The tool: its bodies, and a sponge of foam that gives way where a plate presses on it. */
-import { Color, Group, LatheGeometry, Matrix4, Mesh, Vector2, Vector3, type BufferGeometry, type MeshStandardMaterial } from "three";
-import { matrixOf } from "../kinematics.ts";
+import { type BufferGeometry, Color, Group, LatheGeometry, Matrix4, Mesh, type MeshStandardMaterial, Vector2, Vector3 } from "three";
+import { matrixOf } from "../motion.ts";
 import type { Plate, Tool } from "../view.ts";
 import { meshesOf } from "./arm.ts";
 import { fix } from "./graph.ts";
 import type { Palette } from "./palette.ts";
 import { segmentsRound } from "./shapes.ts";
-import type { Studio } from "./studio.ts";
+import type { Studio } from "./stage.ts";
 
 /** Rings of the sponge along its axis. */
 const RINGS = 14;

@@ -1,7 +1,7 @@
 /** Views: what the camera has to show, where it stands and how it gets there. */
 import { Box3, Matrix4, PerspectiveCamera, Sphere, Vector3 } from "three";
 import type { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { Kinematics, matrixOf } from "../kinematics.ts";
+import { Kinematics, matrixOf } from "../motion.ts";
 import { floats } from "../numbers.ts";
 import type { View } from "../view.ts";
 import { PATCH_M, patchAt } from "./floor.ts";

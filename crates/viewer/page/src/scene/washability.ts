@@ -2,10 +2,10 @@
  * What is said of plates before they are planned, drawn over their faces: a tint with a pattern for each guess, and the part of a face
  * that cannot be washed, hatched.
  */
-import { Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial, type BufferGeometry } from "three";
+import { type BufferGeometry, Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial } from "three";
 import type { Chance, Unwashable } from "../edit/protocol.ts";
+import type { Solid } from "./handles.ts";
 import type { Palette } from "./palette.ts";
-import type { Solid } from "./pick.ts";
 
 /** Cells along either edge. */
 export const CELLS = 96;

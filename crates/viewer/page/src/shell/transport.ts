@@ -1,8 +1,7 @@
 /** Play, pause, speed and time, over the film's length: segments in their colours, worst places above, a head that can be dragged. */
 import { SPEEDS, stepSpeed } from "../clock.ts";
-import { clockTime, spokenTime } from "../format.ts";
+import { clockTime, plateNumber, segmentAt, segmentWords, spokenTime } from "../format.ts";
 import type { Palette } from "../palette.ts";
-import { plateNumber, segmentAt, segmentWords } from "../segments.ts";
 import { RANK, statusWord } from "../verdict.ts";
 import type { Check, Segment, Status, View } from "../view.ts";
 import { button, byId, el, icon, TextCell, toneIcon } from "./dom.ts";

@@ -1,26 +1,218 @@
-"""The table from above: what came of a study's rows at each place of it."""
+"""Maps of a study's rows over the table, drawn with matplotlib, which is imported only when one is drawn."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from .. import _arguments, _core
-from .._errors import InputError, PlatewashError
-from .._studies.folder import Folder
-from .._studies.table import as_json
-from . import palette
-from .around import Stand
-from .canvas import Panels, add_legend, axes_for
-from .places import Place, Tally, gathered
+from . import _arguments, _core
+from ._errors import InputError, InputTypeError, MissingError, PlatewashError
+from ._studies.folder import Folder, Row
+from ._studies.table import as_json
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+#: The arm.
+EXECUTED = "#1b1f24"
+#: Rims of plates, and other outlines.
+OUTLINE = "#6e7781"
+#: A limit, a margin, what is missed.
+LIMIT = "#d55e00"
+#: Outcomes of rows, what is known to be impossible and what was not found well apart; and rows that ended in several ways.
+OUTCOMES = {
+    "proved": "#009e73", "not_proved": "#f0e442", "not_found": "#56b4e9", "infeasible": "#d55e00", "error": "#cc79a7", "crashed": "#1b1f24",
+}  # fmt: skip
+SEVERAL = "#8c959f"
+#: Places where nothing is proved.
+NOTHING = "#c8ccd1"
+
+
+#: From an axes down to a legend below its labels [in].
+BELOW_IN = 0.5
+#: Width of a legend's column [in].
+LABEL_IN = 2.4
+
+MISSING = "figures need matplotlib, which is not installed: pip install 'pyplatewash[viz]'"
+
+
+@dataclass(frozen=True)
+class Panels:
+    """What a figure consists of: a function an axes."""
+
+    #: Draws on its axes; as many as the figure has.
+    draw: Sequence[Callable[[Axes], None]]
+    #: Size of one axes where they are made new [in].
+    size_in: tuple[float, float]
+    #: What all axes together are given, once all are drawn.
+    finish: Callable[[list[Axes]], None] | None = None
+    #: Most axes that stand beside one another.
+    columns: int = 4
+    #: Whether there is one axes by nature, not one of a list.
+    single: bool = False
+
+
+def axes_for(panels: Panels, given: Any) -> list[Axes]:
+    """An axes a panel.
+
+    Raises InputTypeError for what is no axes, InputError for too few or too many, MissingError without matplotlib.
+    """
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise MissingError(MISSING, name="matplotlib") from error
+    if given is not None:
+        return _checked(given, len(panels.draw))
+    count = len(panels.draw)
+    columns = min(count, panels.columns)
+    rows = -(-count // columns)
+    width_in, height_in = panels.size_in
+    _, grid = plt.subplots(rows, columns, figsize=(width_in * columns, height_in * rows), squeeze=False, layout="constrained")
+    for unused in grid.flat[count:]:
+        unused.remove()
+    return list(grid.flat[:count])
+
+
+def add_legend(axes: list[Axes], given: bool) -> None:
+    """One legend of what the axes show, if that needs one, below them all; on axes of the caller's, below the first."""
+    handles: dict[str, Any] = {}
+    for one in axes:
+        for handle, label in zip(*one.get_legend_handles_labels()):
+            handles.setdefault(label, handle)
+    if not handles:
+        return
+    style: dict[str, Any] = {"fontsize": "small", "frameon": False}
+    if given:
+        from matplotlib.transforms import ScaledTranslation
+
+        one = axes[0]
+        below = one.transAxes + ScaledTranslation(0.0, -BELOW_IN, one.figure.dpi_scale_trans)
+        where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below, "borderaxespad": 0.0}
+        one.legend(handles.values(), handles.keys(), ncols=min(len(handles), 3), **where, **style)
+    else:
+        figure = axes[0].figure
+        fitting = max(int(figure.get_figwidth() / LABEL_IN), 1)  # type: ignore[union-attr]  # pyright: ignore[reportAttributeAccessIssue]
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=min(len(handles), fitting, 4), **style)
+
+
+def _checked(given: Any, count: int) -> list[Axes]:
+    from matplotlib.axes import Axes
+
+    if isinstance(given, Axes):
+        axes: list[Any] = [given]
+    else:
+        try:
+            axes = list(getattr(given, "flat", given))
+        except TypeError:
+            axes = [given]
+    for one in axes:
+        if not isinstance(one, Axes):
+            raise InputTypeError(f"ax: an Axes of matplotlib is needed, or a list of them; found a value of type {type(one).__name__}", argument="ax")
+        if one.name != "rectilinear":
+            raise InputError(f"ax: an Axes with an x and a y is needed; found one of projection '{one.name}'", argument="ax")
+    if len(axes) != count:
+        raise InputError(f"ax: as many Axes as this figure has are needed: {count}; found {len(axes)}", argument="ax")
+    return axes
+
+
+@dataclass(frozen=True)
+class Stand:
+    """The arm, and where plates are drawn, in the world [m]."""
+
+    #: Foot of the arm's mount: x and y.
+    foot_m: tuple[float, float]
+    #: Radius about it that the centres of plates keep away from.
+    base_circle_m: float | None = None
+    #: Outline of the region of their centres.
+    region_m: Sequence[tuple[float, float]] | None = None
+
+    def draw(self, ax: Axes) -> None:
+        """World frame."""
+        from matplotlib.patches import Circle, Polygon
+
+        ax.plot(*self.foot_m, marker="^", markersize=10, color=EXECUTED, linestyle="none", label="base")
+        if self.base_circle_m is not None:
+            words = f"no plate centre within {1e3 * self.base_circle_m:g} mm"
+            ax.add_patch(Circle(self.foot_m, self.base_circle_m, fill=False, edgecolor=LIMIT, linestyle=":", linewidth=1.4, label=words))
+        if self.region_m is not None:
+            words = "region of plate centres"
+            ax.add_patch(Polygon(self.region_m, closed=True, fill=False, edgecolor=OUTLINE, linestyle="-.", linewidth=1.1, label=words))
+
+
+#: x and y [m].
+Place: TypeAlias = tuple[float, float]
+
+
+@dataclass
+class Tally:
+    """The rows at a place."""
+
+    rows: int = 0
+    proved: int = 0
+    #: Codes of how they ended.
+    outcomes: set[str] = field(default_factory=set)
+    #: The least of what is proved: clearance [m], and share swept.
+    clearance_m: float | None = None
+    swept: float | None = None
+    #: Of what is proved, in all [s].
+    whole_s: float = 0.0
+
+    def add(self, row: Row) -> None:
+        self.rows += 1
+        self.outcomes.add(row["outcome"])
+        if row["outcome"] != "proved":
+            return
+        self.proved += 1
+        self.clearance_m = _least(self.clearance_m, row.get("clearance_m"))
+        self.swept = _least(self.swept, row.get("swept"))
+        self.whole_s += row.get("duration_s") or 0.0
+
+    @property
+    def duration_s(self) -> float | None:
+        """Mean of what is proved [s]."""
+        return self.whole_s / self.proved if self.proved else None
+
+
+def gathered(of: Folder, at: str, by: list[str], most: int) -> dict[tuple[Any, ...], dict[Place, Tally]]:
+    """Tallies by place, for each combination of values of the axes ``by``, each axis in the order of the study, the last one the fastest.
+
+    Raises InputError for places that are none, and for more combinations than ``most``.
+    """
+    maps: dict[str, tuple[tuple[Any, ...], dict[Place, Tally]]] = {}
+    for row in of.each():
+        values = tuple(row["scenario"] if key == "scenario" else row["axes"].get(key) for key in by)
+        place = row["axes"].get(at)
+        if not isinstance(place, list) or len(place) < 2 or not all(type(v) in (int, float) for v in place[:2]):
+            words = f"at: an axis of places is needed, lists with x and y; found {at}, whose value in row {row['index']} is {place!r:.60}"
+            raise InputError(words, argument="at")
+        _, places = maps.setdefault(repr(values), (values, {}))
+        if len(maps) > most:
+            raise InputError(f"by: axes with at most {most} combinations of values are needed; found more of {', '.join(by)}", argument="by")
+        places.setdefault((float(place[0]), float(place[1])), Tally()).add(row)
+    if not maps:
+        raise InputError(f"at: rows to draw are needed; {of.path} has none yet", argument="at")
+    return {values: places for values, places in sorted(maps.values(), key=_Order([values for values, _ in maps.values()]))}
+
+
+class _Order:
+    """Combinations, ordered by where the study has their values first."""
+
+    def __init__(self, all_: list[tuple[Any, ...]]) -> None:
+        self._firsts = [list(dict.fromkeys(map(repr, column))) for column in zip(*all_)]
+
+    def __call__(self, one: tuple[tuple[Any, ...], Any]) -> list[int]:
+        return [first.index(repr(value)) for first, value in zip(self._firsts, one[0])]
+
+
+def _least(one: float | None, other: float | None) -> float | None:
+    known = [value for value in (one, other) if value is not None]
+    return min(known) if known else None
+
 
 #: What a map may show: its words on the scale of colours, and what a value is multiplied by.
 SCALES = {
@@ -40,7 +232,7 @@ WORDS = {
     "crashed": "crashed",
     "several": "several of these",
 }
-COLOURS = {**palette.OUTCOMES, "several": palette.SEVERAL}
+COLOURS = {**OUTCOMES, "several": SEVERAL}
 #: Most maps of a figure, and most cells of one, as a multiple of its places.
 MOST_MAPS, MOST_CELLS = 64, 25
 #: Most maps beside one another.
@@ -158,8 +350,8 @@ def _draw(
         shown = np.array([np.nan if (one := _number(tally, value)) is None else one for tally in tallies], dtype=float)
         _cells(ax, at, grid, shown, cmap="cividis", vmin=limits[0], vmax=limits[1])
         if np.isnan(shown).any():
-            _cells(ax, at, grid, np.where(np.isnan(shown), 0.0, np.nan), cmap=ListedColormap([palette.NOTHING]))
-            ax.plot([], [], marker="s", linestyle="none", color=palette.NOTHING, label="nothing proved")
+            _cells(ax, at, grid, np.where(np.isnan(shown), 0.0, np.nan), cmap=ListedColormap([NOTHING]))
+            ax.plot([], [], marker="s", linestyle="none", color=NOTHING, label="nothing proved")
     stand, (left, right, bottom, top) = frame
     if stand is not None:
         stand.draw(ax)

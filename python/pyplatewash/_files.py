@@ -1,4 +1,4 @@
-"""Files, written whole or not at all."""
+"""Files, written whole or not at all; the files of a robot program, all of them written or none."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ._errors import FileError, InputTypeError, ScenarioAccessError, ScenarioNotFoundError
+from ._errors import FileError, InputTypeError, ProgramFileError, ProgramNotFoundError, ScenarioAccessError, ScenarioNotFoundError
 
 
 def save_text(path: Any, text: str) -> None:
@@ -78,3 +78,28 @@ def _replace(place: Path, text: str) -> None:
     except BaseException:
         staged.unlink(missing_ok=True)
         raise
+
+
+def save_program(folder: str | os.PathLike[str], files: dict[str, str]) -> None:
+    """Writes each text beside its place, and renames them when all are there. The folder is made where it is missing, and no other.
+
+    Raises ProgramFileError, a FileError; ProgramNotFoundError where the folder around it is missing.
+    """
+    at = place = Path(folder)
+    staged: list[tuple[Path, Path]] = []
+    try:
+        place.mkdir(exist_ok=True)
+        for name, text in files.items():
+            at = place / name
+            if at.is_dir():
+                raise IsADirectoryError(None, "there is a folder of that name")
+            beside = place / f".platewash-{secrets.token_hex(8)}"
+            staged.append((beside, at))
+            write_new(beside, text)
+        for beside, at in staged:
+            os.replace(beside, at)
+    except (OSError, ValueError) as error:
+        raise not_written(str(at), error, ProgramNotFoundError, ProgramFileError) from error
+    finally:
+        for beside, _ in staged:
+            beside.unlink(missing_ok=True)
