@@ -245,27 +245,31 @@ impl Answer {
     }
 }
 
+/// Note on the point with the largest residual.
+fn farthest_off(point: &TouchedPoint) -> String {
+    let name = point.name.as_deref().map(|name| format!(", {}", printable(name)));
+    format!(
+        "the point of line {}{} is farthest off: touch it again, or look at that line",
+        point.line,
+        name.unwrap_or_default()
+    )
+}
+
 /// Notes on a fitted mount.
 fn notes(alignment: &Alignment, touched: &[TouchedPoint], order: Option<&str>, tolerance_m: f64) -> Vec<String> {
     let stretch = alignment.stretch - 1.0;
     let is_stretched = stretch.abs() > STRETCHED;
     let (worst, largest_m) = alignment.worst();
+    let is_fit = largest_m <= tolerance_m;
+    let is_one_off = !is_fit && !is_stretched && touched.len() > 3;
     let mut notes = Vec::new();
-    match (largest_m <= tolerance_m, order, touched.get(worst)) {
-        (true, Some(order), _) => notes.push(format!(
+    match order {
+        Some(order) if is_fit => notes.push(format!(
             "the marks look alike: the points fit in another order as well, {order}, with the arm elsewhere; make sure that they were touched in the order \
              of the file, or touch one more"
         )),
-        (false, Some(order), _) => notes.push(reordered(order)),
-        (false, None, Some(worst)) if !is_stretched && touched.len() > 3 => {
-            let name = worst.name.as_deref().map(|name| format!(", {}", printable(name)));
-            notes.push(format!(
-                "the point of line {}{} is farthest off: touch it again, or look at that line",
-                worst.line,
-                name.unwrap_or_default()
-            ));
-        }
-        _ => {}
+        Some(order) => notes.push(reordered(order)),
+        None => notes.extend(touched.get(worst).filter(|_| is_one_off).map(farthest_off)),
     }
     let mut tell = |is_so: bool, words: &str| notes.extend(is_so.then(|| words.to_owned()));
     tell(

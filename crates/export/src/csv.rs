@@ -151,18 +151,21 @@ fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     read(file).map_err(refused)
 }
 
-fn read(file: &ProgramFile) -> Result<Reading, TableError> {
+/// Reads the header of a table, and finds its columns.
+fn columns(text: &str) -> Result<NumberTable<'_>, TableError> {
     let required: Vec<&str> = TIMES.into_iter().take(1).chain(POSITIONS).collect();
-    let table = NumberTable::read(
-        &file.text,
-        &TableShape {
-            required: &required,
-            optional: &[&TIMES[1..], &SPEEDS],
-            most: GREATEST,
-            most_rows: MAX_ROWS,
-            has_comments: false,
-        },
-    )?;
+    let shape = TableShape {
+        required: &required,
+        optional: &[&TIMES[1..], &SPEEDS],
+        most: GREATEST,
+        most_rows: MAX_ROWS,
+        has_comments: false,
+    };
+    NumberTable::read(text, &shape)
+}
+
+fn read(file: &ProgramFile) -> Result<Reading, TableError> {
+    let table = columns(&file.text)?;
     let (plan_time, speeds) = (table.places(&[TIMES[1]]), table.places(&SPEEDS));
     let mut points: Vec<ReadPoint> = Vec::new();
     let mut plan_times = Vec::new();
@@ -200,31 +203,26 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         let reason = format!("expected two rows at least, found {}", points.len());
         return Err(TableError { line, column, reason });
     };
-    if speeds.is_none() {
-        last.corner_m = None;
-    }
-    let speed_share = plan_time
-        .map(|[place]| share(&table, place, (&points, &plan_times)))
-        .transpose()?;
-    Ok(Reading {
-        speed_share,
-        points,
-        between: if speeds.is_some() {
-            Between::Cubics
-        } else {
+    let between = match speeds {
+        Some(_) => Between::Cubics,
+        None => {
+            last.corner_m = None;
             Between::Lines
-        },
+        }
+    };
+    Ok(Reading {
+        speed_share: plan_time
+            .map(|[place]| share(&table, place, &points, &plan_times))
+            .transpose()?,
+        points,
+        between,
         tool: None,
         checks_start: false,
     })
 }
 
 /// The share of the plan's speed: the same in every row.
-fn share(
-    table: &NumberTable<'_>,
-    place: usize,
-    (points, plan_times): (&[ReadPoint], &[f64]),
-) -> Result<f64, TableError> {
+fn share(table: &NumberTable<'_>, place: usize, points: &[ReadPoint], plan_times: &[f64]) -> Result<f64, TableError> {
     let ([.., last], [.., plan_last]) = (points, plan_times) else {
         return Ok(1.0);
     };

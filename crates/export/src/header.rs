@@ -12,6 +12,7 @@ use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as 
 use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::plate::Plate;
 use platewash_workcell::words::{counted, quoted};
 
 /// Degrees in a radian.
@@ -78,8 +79,6 @@ fn attitude(mount: &Pose) -> String {
 fn workcell(source: &Source<'_>) -> Vec<String> {
     let job = &source.plan.job;
     let world = &job.workcell;
-    let mm = |m: f64| fixed(1e3 * m, 1);
-    let place = |at: Vector3<f64>| <[f64; 3]>::from(at).map(mm).join(", ");
     let sponge = &world.tool.sponge;
     let mut lines = vec![
         format!(
@@ -121,26 +120,44 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
         let com = place(Vector3::from(mass.com_m));
         format!("load: {} kg, centre of mass at {com} mm of the flange", mass.mass_kg)
     }));
-    let plates = job.plates.iter().enumerate().take(MOST_PLATES);
-    lines.extend(plates.map(|(k, plate)| {
-        let (pole, rim) = (place(plate.world(&Vector3::zeros())), mm(plate.rim_m()));
-        let besides = [plate.surface.profile_words(), plate.tilt_words()];
-        let besides: String = besides
-            .into_iter()
-            .flatten()
-            .map(|words| format!(", {words}"))
-            .collect();
-        format!("plate {k}: middle of its face at {pole} mm of the world, radius {rim} mm{besides}")
-    }));
-    if job.plates.len() > MOST_PLATES {
-        lines.push(format!("and {} more plates", job.plates.len() - MOST_PLATES));
-    }
+    lines.extend(plates(&job.plates));
     let names: Vec<_> = world.obstacles.iter().map(|obstacle| quoted(&obstacle.name)).collect();
     let others = if names.is_empty() { "nothing" } else { &names.join(", ") };
     lines.push(format!(
         "the world of the proof is the arm, the tool, the plates and: {others}. What else stands or moves there, cables and people, is not in it."
     ));
     lines
+}
+
+/// Place and radius of each plate, and its tilt and profile where it has any; of the first [`MOST_PLATES`].
+fn plates(plates: &[Plate]) -> Vec<String> {
+    let shown = plates.iter().enumerate().take(MOST_PLATES);
+    let mut lines: Vec<String> = shown
+        .map(|(k, plate)| {
+            let (pole, rim) = (place(plate.world(&Vector3::zeros())), mm(plate.rim_m()));
+            let besides = [plate.surface.profile_words(), plate.tilt_words()];
+            let besides: String = besides
+                .into_iter()
+                .flatten()
+                .map(|words| format!(", {words}"))
+                .collect();
+            format!("plate {k}: middle of its face at {pole} mm of the world, radius {rim} mm{besides}")
+        })
+        .collect();
+    if plates.len() > MOST_PLATES {
+        lines.push(format!("and {} more plates", plates.len() - MOST_PLATES));
+    }
+    lines
+}
+
+/// A length in millimetres.
+fn mm(m: f64) -> String {
+    fixed(1e3 * m, 1)
+}
+
+/// Coordinates of a point in millimetres.
+fn place(at: Vector3<f64>) -> String {
+    <[f64; 3]>::from(at).map(mm).join(", ")
 }
 
 /// Duration, top speeds and the shortest step.

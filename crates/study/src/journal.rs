@@ -67,20 +67,7 @@ impl Journal {
         if kept.as_ref().is_some_and(|manifest| manifest.rows_sha256.is_some()) {
             return Self::open(folder, study);
         }
-        for (name, text) in texts(study) {
-            let file = folder.join(name);
-            if !fs::read(&file).is_ok_and(|found| found == text.as_bytes()) {
-                lines::write_whole(&file, text.as_bytes())?;
-            }
-        }
-        let manifest = match kept {
-            Some(manifest) => manifest,
-            None => {
-                let manifest = Manifest::of(study);
-                manifest.write(folder)?;
-                manifest
-            }
-        };
+        let manifest = state(folder, study, kept)?;
         let (has, whole) = each_row((&path, &rows), &manifest, |_, row, line| {
             let of_study = study.row(row.index)?;
             let scenario = &study.bases[of_study.base].name;
@@ -185,6 +172,22 @@ impl Journal {
 /// Files of a study's folder that are written at the beginning, beside its manifest.
 fn texts(study: &Study) -> [(&'static str, String); 2] {
     [(STUDY, study.text.clone()), (PARTS, study.parts().to_json())]
+}
+
+/// Writes the study's texts where the folder lacks them, and its manifest where there is none. Returns the manifest.
+fn state(folder: &Path, study: &Study, kept: Option<Manifest>) -> Result<Manifest, StudyError> {
+    for (name, text) in texts(study) {
+        let file = folder.join(name);
+        if !fs::read(&file).is_ok_and(|found| found == text.as_bytes()) {
+            lines::write_whole(&file, text.as_bytes())?;
+        }
+    }
+    if let Some(manifest) = kept {
+        return Ok(manifest);
+    }
+    let manifest = Manifest::of(study);
+    manifest.write(folder)?;
+    Ok(manifest)
 }
 
 /// The manifest in a folder, where there is one.

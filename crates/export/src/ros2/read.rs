@@ -113,16 +113,7 @@ fn check_order(line: usize, before_ns: Option<i64>, time_ns: i64) -> Result<(), 
 
 fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, Fault> {
     let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
-    if let Some(header) = fields.get("header") {
-        let header = Fields::of(header, "a Header", &["stamp", "frame_id"])?;
-        header.get("frame_id").map(text).transpose()?;
-        if let Some(stamp) = header.get("stamp")
-            && duration(stamp)? != 0
-        {
-            let found = "expected a header.stamp of 0, which is at once; found a time of the clock";
-            return broken(stamp.line, ("stamp", PROOF), found);
-        }
-    }
+    fields.get("header").map(check_header).transpose()?;
     let order = order(fields.needed("joint_names")?, known)?;
     let points = fields.needed("points")?;
     let mut all: Vec<ReadPoint> = Vec::new();
@@ -171,6 +162,19 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
         return broken(points.line, ("points", CONTROLLER), "expected points; found none");
     }
     Ok(all)
+}
+
+/// Checks that the trajectory starts at once.
+fn check_header(header: &Node<'_>) -> Result<(), Fault> {
+    let header = Fields::of(header, "a Header", &["stamp", "frame_id"])?;
+    header.get("frame_id").map(text).transpose()?;
+    if let Some(stamp) = header.get("stamp")
+        && duration(stamp)? != 0
+    {
+        let found = "expected a header.stamp of 0, which is at once; found a time of the clock";
+        return broken(stamp.line, ("stamp", PROOF), found);
+    }
+    Ok(())
 }
 
 /// Place in the message of each joint of the arm.

@@ -200,16 +200,6 @@ impl<'a> Run<'a> {
 
     /// The check of a joint: a message and `halt` where the arm is too far from the start.
     fn check(&mut self, line: &Line, behind: &[Line]) -> Result<(), ReadError> {
-        const ONLY: &str = "only the check of the start is read, as it is exported: \
-                            `if norm(found[0] - start[0]) > LIMIT:`, popup, halt, end";
-        let said = |line: Option<&Line>, expected: &str| {
-            line.and_then(|line| line.tokens.first()).and_then(word) == Some(expected)
-        };
-        let is_shape = said(behind.first(), "popup")
-            && said(behind.get(1), "halt")
-            && behind.get(1).is_some_and(|line| line.tokens.len() == 1)
-            && said(behind.get(2), "end")
-            && behind.get(2).is_some_and(|line| line.tokens.len() == 1);
         let [
             Token::Word(_),
             Token::Word(norm),
@@ -242,10 +232,12 @@ impl<'a> Run<'a> {
             (above, ">"),
             (colon, ":"),
         ];
-        let is_shape =
-            is_shape && norm == "norm" && joint == same && signs.into_iter().all(|(token, sign)| token.is(sign));
+        let is_shape = is_popup_and_halt(behind)
+            && norm == "norm"
+            && joint == same
+            && signs.into_iter().all(|(token, sign)| token.is(sign));
         let j = (0..AXES).find(|j| *j as f64 == *joint);
-        let (true, Some(j), true) = (is_shape, j, self.measured == Some(found)) else {
+        let Some(j) = j.filter(|_| is_shape && self.measured == Some(found)) else {
             return Err(self.refused(ONLY));
         };
         if !self.controller.points().is_empty() {
@@ -452,4 +444,18 @@ fn why_not(name: &str) -> String {
         _ => "it is neither a function of this program nor an instruction that is read",
     };
     format!("`{name}`: {why}")
+}
+
+/// Reason for refusing any other block.
+const ONLY: &str =
+    "only the check of the start is read, as it is exported: `if norm(found[0] - start[0]) > LIMIT:`, popup, halt, end";
+
+/// Checks that the lines of a block are `popup(…)`, `halt` and `end`.
+fn is_popup_and_halt(block: &[Line]) -> bool {
+    let first = |line: &Line| line.tokens.first().and_then(word).map(str::to_owned);
+    let [popup, halt, end, ..] = block else { return false };
+    first(popup).as_deref() == Some("popup")
+        && [(halt, "halt"), (end, "end")]
+            .into_iter()
+            .all(|(line, expected)| first(line).as_deref() == Some(expected) && line.tokens.len() == 1)
 }

@@ -153,6 +153,20 @@ impl Chunk<'_> {
         numbers.chain(self.seeds[k].iter()).all(|v| v.is_finite())
     }
 
+    /// Writes the solution of a problem; `misses` are the errors of position and orientation (m, rad).
+    #[inline(always)]
+    fn answer(&mut self, index: usize, q: [f64; AXES], iterations: usize, misses: [f64; 2]) {
+        self.found[index] = true;
+        self.answers[index] = Ok(IkSolution {
+            q: q.into(),
+            iterations,
+            method: Method::Dls,
+            start: Start::Seed,
+            position_error_m: misses[0],
+            orientation_error_rad: misses[1],
+        });
+    }
+
     /// Solves the first `count` problems of a block as far as it pays: most of the lanes until they are solved or given up; the few that
     /// are left then go back to `waiting`.
     #[inline(always)]
@@ -165,15 +179,7 @@ impl Chunk<'_> {
         waiting: &mut Vec<Problem>,
     ) {
         let targets = load_targets::<V>(block, self.targets);
-        let mut rows = [[0.0; LANES]; AXES];
-        let mut clamped = [0.0; LANES];
-        for l in 0..LANES {
-            for i in 0..AXES {
-                rows[i][l] = block[l].q[i];
-            }
-            clamped[l] = block[l].clamped;
-        }
-        let (mut q, mut clamped) = (vectors(&rows), V::from_array(clamped));
+        let (mut q, mut clamped) = load_joints::<V>(block);
         let mut lines = no_lines::<V>();
         let mut before = [f64::INFINITY; LANES];
         let mut active = [false; LANES];
@@ -197,15 +203,7 @@ impl Chunk<'_> {
                     && misses[0] + GUARD <= settings.position_tolerance_m
                     && misses[1] + GUARD <= settings.orientation_tolerance_rad;
                 if solved {
-                    self.found[block[l].index] = true;
-                    self.answers[block[l].index] = Ok(IkSolution {
-                        q: lane(&q, l).into(),
-                        iterations: steps,
-                        method: Method::Dls,
-                        start: Start::Seed,
-                        position_error_m: misses[0],
-                        orientation_error_rad: misses[1],
-                    });
+                    self.answer(block[l].index, lane(&q, l), steps, misses);
                 }
                 active[l] = descends && !solved && steps < most && streak[l] < dls::CLAMPED_IN_A_ROW as f64;
                 before[l] = cost;
@@ -239,6 +237,20 @@ fn lane<V: Vector>(q: &[V; AXES], l: usize) -> [f64; AXES] {
         out[i] = q[i].to_array()[l];
     }
     out
+}
+
+/// Joint positions of a block, one vector per joint, and how often in a row each problem was clamped.
+#[inline(always)]
+fn load_joints<V: Vector>(block: &[Problem; LANES]) -> ([V; AXES], V) {
+    let mut rows = [[0.0; LANES]; AXES];
+    let mut clamped = [0.0; LANES];
+    for l in 0..LANES {
+        for i in 0..AXES {
+            rows[i][l] = block[l].q[i];
+        }
+        clamped[l] = block[l].clamped;
+    }
+    (vectors(&rows), V::from_array(clamped))
 }
 
 /// Loads the targets of a block as columns and origins.
