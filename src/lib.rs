@@ -39,7 +39,7 @@ pub use platewash_workcell as workcell;
 
 // The way through: a scenario states a job, a job is planned, a plan is proved and simulated.
 pub use platewash_certificate::{Certificate, Certified, Check, ProveError, Requirement, certify, prove};
-pub use platewash_planner::{PlanError, Planned, plan};
+pub use platewash_planner::{PlanError, PlannedJob, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};
 pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
 pub use report::WashReport;

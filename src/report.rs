@@ -5,7 +5,7 @@ use platewash_kinematics::AXES;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::decimals_up;
 use platewash_planner::redundancy::TiltChoice;
-use platewash_planner::{Planned, TourSummary, TransitSummary, VisitSummary};
+use platewash_planner::{PlannedJob, TourSummary, TransitSummary, VisitSummary};
 use platewash_workcell::layout::Finding;
 use platewash_workcell::verdict::Verdict;
 use platewash_workcell::words::quoted;
@@ -44,7 +44,7 @@ pub struct WashReport {
 impl WashReport {
     /// Sums up a plan and its certificate; `findings` are those of its layout.
     #[must_use]
-    pub fn new(planned: &Planned, findings: &[Finding], certificate: Certificate) -> Self {
+    pub fn new(planned: &PlannedJob, findings: &[Finding], certificate: Certificate) -> Self {
         let verdict = match certificate.verdict {
             certificate::Verdict::Pass if certificate.rests_on.dry_run.is_some() => Verdict::DryRun,
             certificate::Verdict::Pass if certificate.rests_on.requirements.contact.is_none() => Verdict::Swept,

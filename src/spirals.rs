@@ -2,7 +2,7 @@
 
 use platewash_kinematics::RobotModel;
 use platewash_paper::{PaperError, PaperJob, run_with};
-use platewash_viewer::figures::Ideal;
+use platewash_viewer::figures::IdealPath;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::SegmentKind;
@@ -12,11 +12,11 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// [`PaperError`] for a plan that is none of the paper's program, and for work that was given up.
-pub fn paper_spirals(plan: &Plan, arm: &Arc<RobotModel>, cancel: &CancelToken) -> Result<Vec<Ideal>, PaperError> {
+pub fn paper_spirals(plan: &Plan, arm: &Arc<RobotModel>, cancel: &CancelToken) -> Result<Vec<IdealPath>, PaperError> {
     let run = run_with(&PaperJob::of_plan(plan, arm.clone())?, cancel)?;
     let segments = run.tool_path.segments.into_iter();
     let washes = segments.filter(|segment| segment.kind == SegmentKind::Wash);
-    let ideal = washes.map(|segment| Ideal {
+    let ideal = washes.map(|segment| IdealPath {
         plate: segment.plate,
         points: segment.waypoints,
     });

@@ -1,7 +1,7 @@
 //! Certified jobs: planned, proved, and refused with a reason.
 
 use platewash::certificate::{Certificate, Requirement};
-use platewash::planner::{Activity, Planned, Watch, plan_with};
+use platewash::planner::{Activity, PlannedJob, Watch, plan_with};
 use platewash::scenario::RegionName;
 use platewash::study::Outcome;
 use platewash::workcell::cancel::CancelToken;
@@ -11,11 +11,11 @@ use platewash::{Failure, PlanError, Scenario, plan, prove, sweep};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
-fn planned(scenario: &Scenario) -> Result<Planned, Failure> {
+fn planned(scenario: &Scenario) -> Result<PlannedJob, Failure> {
     Ok(plan(&scenario.job()?)?)
 }
 
-fn judged(scenario: &Scenario) -> (Planned, Certificate) {
+fn judged(scenario: &Scenario) -> (PlannedJob, Certificate) {
     let job = scenario.job().unwrap();
     let planned = plan(&job).unwrap();
     let certificate = prove(&planned.plan, job.arm()).unwrap();

@@ -1,7 +1,7 @@
 //! Dry runs: the same paths in the air, proved, never a washing, and refused wherever they are not what they say.
 
 use platewash::certificate::{Status, Verdict, differences};
-use platewash::planner::{Planned, Watch, plan_in_order};
+use platewash::planner::{PlannedJob, Watch, plan_in_order};
 use platewash::simulator::simulate::PlateVerdict;
 use platewash::workcell::dry_run::{DryRun, DryRunError, dry_run_terms, least_height_m};
 use platewash::workcell::job::JobError;
@@ -27,7 +27,7 @@ fn planned(scenario: &Scenario) -> (WashJob, Plan) {
     (job, plan)
 }
 
-fn dry_run_of((job, parent): &(WashJob, Plan), height_m: f64, speed_m_s: f64) -> Planned {
+fn dry_run_of((job, parent): &(WashJob, Plan), height_m: f64, speed_m_s: f64) -> PlannedJob {
     let terms = dry_run_terms(parent, job.arm(), height_m, speed_m_s).unwrap();
     let raised = WashJob::new(job.shared_arm(), terms).unwrap();
     plan_in_order(

@@ -8,9 +8,9 @@
 
 use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
 use platewash::export::dialect::{DIALECTS, Dialect, Points};
-use platewash::export::judged::{JOINT_SPEED_SHARE, motions};
-use platewash::export::reading::{Between, Reading};
-use platewash::export::{ExportSettings, Exported, compare, export};
+use platewash::export::judgement::{JOINT_SPEED_SHARE, motions};
+use platewash::export::reading::{Interpolation, Reading};
+use platewash::export::{ExportSettings, ExportedProgram, compare, export};
 use platewash::kinematics::sha256_hex;
 use platewash::scenario::{Program, SHIPPED};
 use platewash::workcell::plan::Plan;
@@ -64,7 +64,7 @@ fn dialects(plan: &Certified<Plan>, arm: &RobotModel) -> Vec<&'static dyn Dialec
 }
 
 /// All that is promised of a program, measured on what was read back, and on motions that are evaluated here.
-fn checked(plan: &Certified<Plan>, arm: &RobotModel, dialect: &dyn Dialect) -> Exported {
+fn checked(plan: &Certified<Plan>, arm: &RobotModel, dialect: &dyn Dialect) -> ExportedProgram {
     let exported = export(plan, arm, dialect, &ExportSettings::default(), &CancelToken::new()).unwrap();
     points_are_the_plans(plan.plan(), dialect, &exported);
     for case in &exported.judged.cases {
@@ -86,14 +86,14 @@ fn checked(plan: &Certified<Plan>, arm: &RobotModel, dialect: &dyn Dialect) -> E
 }
 
 /// A written program that nobody changed is found unchanged, and holds.
-fn is_found_unchanged(plan: &Certified<Plan>, arm: &RobotModel, exported: &Exported) {
+fn is_found_unchanged(plan: &Certified<Plan>, arm: &RobotModel, exported: &ExportedProgram) {
     let compared = compare(plan, arm, &exported.files, &CancelToken::new()).unwrap();
     assert!(compared.is_unchanged(), "{:?}", compared.changes);
     assert!(compared.judged.holds());
 }
 
 /// Each point within 1e-4° of the plan at its time, the times in sum those of the plan, no step too short.
-fn points_are_the_plans(plan: &Plan, dialect: &dyn Dialect, exported: &Exported) {
+fn points_are_the_plans(plan: &Plan, dialect: &dyn Dialect, exported: &ExportedProgram) {
     let motion = plan.knots.motion().unwrap();
     let points = &exported.reading.points;
     for point in points {
@@ -271,9 +271,9 @@ fn attacked(name: &str, every: usize) -> usize {
         let reading = export(&plan, &arm, dialect, &ExportSettings::default(), &cancel)
             .unwrap()
             .reading;
-        if reading.between == Between::Cubics {
+        if reading.between == Interpolation::Cubics {
             readings.push(Reading {
-                between: Between::Lines,
+                between: Interpolation::Lines,
                 ..reading.clone()
             });
         }

@@ -1,7 +1,7 @@
 //! What must not be proved: jobs that would look washed if less were asked of a proof.
 
 use platewash::certificate::{Certificate, Requirement, Status, prove};
-use platewash::planner::{Planned, plan};
+use platewash::planner::{PlannedJob, plan};
 use platewash::workcell::job::Overlap;
 use platewash::{Plan, RobotModel, Scenario, WashReport, sweep};
 use serde_json::Value;
@@ -14,7 +14,7 @@ fn one_plate() -> Scenario {
     scenario
 }
 
-fn judged(scenario: &Scenario) -> (Planned, Certificate) {
+fn judged(scenario: &Scenario) -> (PlannedJob, Certificate) {
     let job = scenario.job().unwrap();
     let planned = plan(&job).unwrap();
     let certificate = prove(&planned.plan, job.arm()).unwrap();
@@ -22,7 +22,7 @@ fn judged(scenario: &Scenario) -> (Planned, Certificate) {
 }
 
 /// The certificate of an edited plan of the built-in arm, sealed again.
-fn edited(planned: &Planned, edit: impl FnOnce(&mut Plan)) -> Certificate {
+fn edited(planned: &PlannedJob, edit: impl FnOnce(&mut Plan)) -> Certificate {
     let mut plan = planned.plan.clone();
     edit(&mut plan);
     plan.hash = Some(plan.seal().unwrap());
@@ -33,7 +33,7 @@ fn status(certificate: &Certificate, requirement: Requirement) -> Status {
     certificate.check(requirement).unwrap().status
 }
 
-fn headline(planned: &Planned, certificate: &Certificate) -> String {
+fn headline(planned: &PlannedJob, certificate: &Certificate) -> String {
     WashReport::new(planned, &[], certificate.clone()).headline
 }
 

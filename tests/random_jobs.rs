@@ -1,7 +1,7 @@
 //! Jobs that nobody thought of: what is planned of them is proved, and does the job that was asked for.
 
 use platewash::certificate::{Requirement, differences, prove};
-use platewash::planner::Planned;
+use platewash::planner::PlannedJob;
 use platewash::workcell::fixtures::kitchen_terms;
 use platewash::workcell::job::{OrderRule, Planner, PlannerSettings};
 use platewash::workcell::random::stream;
@@ -79,7 +79,7 @@ fn terms(random: &mut Pcg64, robot: &RobotModel) -> JobTerms {
 }
 
 /// What came of a job: `None` where no way to do it was found.
-fn judged(seed: u64, arm: &Arc<RobotModel>) -> Option<Planned> {
+fn judged(seed: u64, arm: &Arc<RobotModel>) -> Option<PlannedJob> {
     let mut random = stream(seed, "random jobs");
     let job = WashJob::new(arm.clone(), terms(&mut random, arm)).unwrap();
     let planned = match plan(&job) {

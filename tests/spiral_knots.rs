@@ -11,7 +11,7 @@ use serde::Deserialize;
 const APART: f64 = 1e-9;
 
 #[derive(Deserialize)]
-struct Golden {
+struct GoldenKnots {
     /// Every so manieth knot is stated.
     every: usize,
     washes: Vec<Wash>,
@@ -61,7 +61,7 @@ fn washes(seed: u64, every: usize) -> Vec<Wash> {
 
 #[test]
 fn the_spiral_is_washed_as_before() {
-    let golden: Golden = serde_json::from_str(include_str!("golden/spiral-knots.json")).unwrap();
+    let golden: GoldenKnots = serde_json::from_str(include_str!("golden/spiral-knots.json")).unwrap();
     let found: Vec<_> = (1..=3).flat_map(|seed| washes(seed, golden.every)).collect();
     assert_eq!((golden.washes.len(), found.len()), (12, 12));
     for (before, now) in golden.washes.iter().zip(&found) {

@@ -76,7 +76,7 @@ struct Answer {
     /// Ratio of touched to drawn lengths.
     stretch: f64,
     notes: Vec<String>,
-    points: Vec<Carried>,
+    points: Vec<AlignedPoint>,
 }
 
 /// A mount as a scenario states it, to micrometres and 1e-7°.
@@ -97,7 +97,7 @@ struct Residual {
 
 /// A point of the drawing in the base frame.
 #[derive(Debug, Serialize)]
-struct Carried {
+struct AlignedPoint {
     name: Option<String>,
     drawn_m: [f64; 3],
     base_m: [f64; 3],
@@ -170,7 +170,7 @@ impl Answer {
             residual_m: *residual_m,
             length_m: nalgebra::Vector3::from(*residual_m).norm(),
         });
-        let carried = wanted.iter().map(|point| Carried {
+        let carried = wanted.iter().map(|point| AlignedPoint {
             name: point.name.clone(),
             drawn_m: point.drawn_m,
             base_m: alignment.in_base(point.drawn_m),

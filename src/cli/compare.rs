@@ -51,7 +51,7 @@ struct Comparison {
     a: Side,
     b: Side,
     /// Fields of the job that differ.
-    job: Vec<Differing>,
+    job: Vec<DifferingField>,
     times: Vec<Times>,
     margins: Vec<Margins>,
 }
@@ -69,7 +69,7 @@ struct Side {
 
 /// A field of the job in which the plans differ, as JSON text.
 #[derive(Debug, Serialize)]
-struct Differing {
+struct DifferingField {
     key: String,
     a: String,
     b: String,
@@ -93,20 +93,20 @@ struct Margins {
 
 /// Compares two plan files, each for the arm that it is for.
 pub fn run(options: &Options, arguments: &CompareArguments) -> Result<ExitCode> {
-    let [a, b] = [&arguments.a, &arguments.b].map(|path| Proved::new(options, path));
+    let [a, b] = [&arguments.a, &arguments.b].map(|path| PlanWithProof::new(options, path));
     let comparison = Comparison::of(a?, b?);
     options.print(&comparison, || comparison.to_string())?;
     Ok(ExitCode::Done)
 }
 
 /// A plan and its certificate; a run of the paper's program has none.
-struct Proved {
+struct PlanWithProof {
     side: Side,
     plan: Plan,
     certificate: Option<Certificate>,
 }
 
-impl Proved {
+impl PlanWithProof {
     fn new(options: &Options, path: &Path) -> Result<Self> {
         let file = PlanFile::read(options, path)?;
         let certificate = match file.plan.process {
@@ -135,7 +135,7 @@ impl Proved {
 }
 
 impl Comparison {
-    fn of(a: Proved, b: Proved) -> Self {
+    fn of(a: PlanWithProof, b: PlanWithProof) -> Self {
         let times = |part: String, time_s: &dyn Fn(&Plan) -> Option<f64>| Times {
             part,
             a_s: time_s(&a.plan),
@@ -153,7 +153,7 @@ impl Comparison {
             times(format!("washing plate {plate}"), &|plan| time_s(plan, is_of))
         });
         let job = differences(&a.plan.job, &b.plan.job).into_iter();
-        let job = job.map(|difference| Differing {
+        let job = job.map(|difference| DifferingField {
             key: difference.key,
             a: difference.found,
             b: difference.expected,
@@ -187,7 +187,7 @@ impl Display for Comparison {
             )?;
         }
         writeln!(f, "\njob: {}", fields_differ(self.job.len()))?;
-        for Differing { key, a, b } in &self.job {
+        for DifferingField { key, a, b } in &self.job {
             writeln!(f, "  {key}: A {a}, B {b}")?;
         }
         writeln!(f, "\n{:<34}{:>12}{:>12}{:>18}", "time [s]", "A", "B", "B − A")?;

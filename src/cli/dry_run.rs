@@ -58,7 +58,7 @@ struct Report<'a> {
 
 /// Report where there is no dry run.
 #[derive(Debug, Serialize)]
-struct NoReport<'a> {
+struct NoDryRun<'a> {
     parent: &'a str,
     height_m: f64,
     /// A height that was found to work \[m\]; `None` where none of those tried does.
@@ -94,7 +94,7 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode> {
             let why = why.ok_or(Failure::from(error))?;
             let works_at_m = other_height(&file, arguments, &watch)?;
             drop(progress);
-            let report = NoReport::new(hash, arguments.height, works_at_m, why);
+            let report = NoDryRun::new(hash, arguments.height, works_at_m, why);
             files.add_report("report", &report)?;
             files.answer(options, &report, || whole(&report))?;
             return Ok(report.why.verdict.into());
@@ -192,14 +192,14 @@ impl fmt::Display for Report<'_> {
     }
 }
 
-impl NoReport<'_> {
-    fn new(parent: &str, height_m: f64, works_at_m: Option<f64>, why: InfeasibleReport) -> NoReport<'_> {
+impl NoDryRun<'_> {
+    fn new(parent: &str, height_m: f64, works_at_m: Option<f64>, why: InfeasibleReport) -> NoDryRun<'_> {
         let lower = match works_at_m {
             Some(works_at_m) => format!("--height {works_at_m} was found to work"),
             None => "none of the heights that were tried besides was found to work".to_owned(),
         };
         let reason = format!("a dry run {height_m} m above the plates: {}; {lower}", why.reason);
-        NoReport {
+        NoDryRun {
             parent,
             height_m,
             works_at_m,
@@ -208,7 +208,7 @@ impl NoReport<'_> {
     }
 }
 
-impl fmt::Display for NoReport<'_> {
+impl fmt::Display for NoDryRun<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.why.fmt(f)
     }

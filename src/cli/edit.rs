@@ -11,7 +11,7 @@ use super::run::wash;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use platewash::certificate::prove_with;
-use platewash::editor::{Editor, Keeper, NotWritten, Save, Written, site};
+use platewash::editor::{Editor, Keeper, Save, SaveError, SaveReport, site};
 use platewash::kinematics::urdf::file::{FileError, read_bytes};
 use platewash::scenario::{Draft, ScenarioSource, source};
 use platewash::workcell::words::counted;
@@ -173,7 +173,7 @@ impl ScenarioFile {
     }
 
     /// Writes the text with what comes of it, and says what that is. The scenario goes first: where it cannot be written, nothing is.
-    fn save(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Option<Written>> {
+    fn save(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Option<SaveReport>> {
         let options = Options {
             cancel: cancel.clone(),
             ..self.options.clone()
@@ -201,7 +201,7 @@ impl ScenarioFile {
                 .with_context(|| format!("{}: is written, but its mode cannot be kept", self.file()))?;
         }
         let files = files.paths().map(|path| path.display().to_string()).collect();
-        Ok(Some(Written { files, words }))
+        Ok(Some(SaveReport { files, words }))
     }
 
     /// Adds plan, certificate, report and page; the report alone where there is no plan. The first line of the report.
@@ -249,11 +249,11 @@ impl Keeper for ScenarioFile {
         }
     }
 
-    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Written, NotWritten> {
+    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<SaveReport, SaveError> {
         match self.save(save, still, cancel) {
             Ok(Some(written)) => Ok(written),
-            Ok(None) => Err(NotWritten::Changed),
-            Err(error) => Err(NotWritten::Cannot(match failure::code(&error) {
+            Ok(None) => Err(SaveError::Changed),
+            Err(error) => Err(SaveError::Cannot(match failure::code(&error) {
                 ExitCode::Interrupted => "given up: nothing was written".to_owned(),
                 _ => format!("{error:#}"),
             })),

@@ -13,10 +13,10 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use platewash::certificate::{CertifyError, Check, Requirement, certify_with};
 use platewash::export::dialect::Dialect;
 use platewash::export::dialect::ProgramFile;
-use platewash::export::judged::{Case, Judged};
+use platewash::export::judgement::{Case, ProgramJudgement};
 use platewash::export::{
-    Change, CompareError, ExportError, ExportSettings, Exported, Refusal, compare, contact_not_judged, dialect, export,
-    ros2,
+    Change, CompareError, ExportError, ExportSettings, ExportedProgram, Refusal, compare, contact_not_judged, dialect,
+    export, ros2,
 };
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
@@ -87,7 +87,7 @@ fn frame(text: &str) -> Result<Pose> {
 
 /// Proof of a program as it stands.
 #[derive(Debug, Serialize)]
-struct Proved {
+struct ProgramProofAnswer {
     /// Worst result of each check, over all assumptions about corners.
     checks: Vec<Check>,
     /// Speeds of the tip that the motion implies, which are not judged.
@@ -97,8 +97,8 @@ struct Proved {
     proved_of_the_plan_alone: Option<String>,
 }
 
-impl Proved {
-    fn new(judged: &Judged, plan: &Plan) -> Self {
+impl ProgramProofAnswer {
+    fn new(judged: &ProgramJudgement, plan: &Plan) -> Self {
         Self {
             checks: judged.worst(),
             implied: judged.implied(),
@@ -125,14 +125,14 @@ struct Answer<'a> {
     points: usize,
     duration_s: f64,
     #[serde(flatten)]
-    proved: Proved,
+    proved: ProgramProofAnswer,
     /// Demands on the controller, by the size of the corners.
     asked: &'a [Case],
 }
 
 /// Answer where no program is written.
 #[derive(Debug, Serialize)]
-struct Refused<'a> {
+struct RefusalAnswer<'a> {
     refused: &'a str,
     message: &'a str,
 }
@@ -179,7 +179,7 @@ fn certified(options: &Options, file: &PlanFile<'_>) -> Result<Result<Certified<
 
 fn refused(options: &Options, code: &str, message: &str, exit: ExitCode) -> Result<ExitCode> {
     if options.json {
-        let refused = Refused { refused: code, message };
+        let refused = RefusalAnswer { refused: code, message };
         output::print(&output::json(&refused)?)?;
     }
     output::message(&format!("refused ({code}): {message}"));
@@ -200,7 +200,7 @@ fn end_of(refusal: &Refusal) -> (&'static str, ExitCode) {
     }
 }
 
-fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Exported) -> Result<ExitCode> {
+fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &ExportedProgram) -> Result<ExitCode> {
     let folder = match &options.out {
         Some(folder) => folder.clone(),
         None => options.folder().join(target.name()),
@@ -219,7 +219,7 @@ fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Export
         files: paths,
         points: exported.reading.points.len(),
         duration_s: exported.reading.points.last().map_or(0.0, |point| point.t_s),
-        proved: Proved::new(judged, plan),
+        proved: ProgramProofAnswer::new(judged, plan),
         asked: &judged.cases,
     };
     files.answer(options, &answer, || answer.text())?;
@@ -270,7 +270,7 @@ fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> 
 
 /// Answer for a program that was handed over.
 #[derive(Debug, Serialize)]
-struct HandedOver {
+struct HandoverAnswer {
     headline: String,
     target: &'static str,
     holds: bool,
@@ -282,7 +282,7 @@ struct HandedOver {
     changes: Vec<Change>,
     more_changes: usize,
     #[serde(flatten)]
-    proved: Proved,
+    proved: ProgramProofAnswer,
     /// Note where the tool of the program is not the plan's.
     #[serde(skip_serializing_if = "Option::is_none")]
     tool: Option<String>,
@@ -316,7 +316,7 @@ pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Resul
         (true, false) => "HOLDS, START NOT CHECKED",
         (false, _) => "DOES NOT HOLD",
     };
-    let answer = HandedOver {
+    let answer = HandoverAnswer {
         headline: format!(
             "{}{verdict}{}: {} program, tip within {} mm of the plan; {changed}",
             before(file.plan.job.dry_run.as_ref().map(DryRun::words)),
@@ -329,7 +329,7 @@ pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Resul
         unchanged,
         checks_start: compared.checks_start,
         files: files.into_iter().map(|file| file.name).collect(),
-        proved: Proved::new(&compared.judged, &file.plan),
+        proved: ProgramProofAnswer::new(&compared.judged, &file.plan),
         changes: compared.changes,
         more_changes: compared.more_changes,
         tool: compared.tool.as_ref().map(ToString::to_string),
@@ -363,7 +363,7 @@ fn read(path: &Path) -> Result<ProgramFile> {
     })
 }
 
-impl HandedOver {
+impl HandoverAnswer {
     fn text(&self) -> String {
         let files: Vec<_> = self.files.iter().map(|name| printable(name)).collect();
         let mut text = format!("{}\n  read: {}\n", self.headline, files.join(", "));

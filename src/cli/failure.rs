@@ -56,7 +56,7 @@ impl From<SimulationVerdict> for ExitCode {
 /// An error with an exit code of its own.
 #[derive(Debug, thiserror::Error)]
 #[error("{error:#}")]
-struct Coded {
+struct CodedError {
     code: ExitCode,
     error: anyhow::Error,
 }
@@ -64,19 +64,19 @@ struct Coded {
 /// Something that must not happen.
 pub fn internal(error: impl Into<anyhow::Error>) -> anyhow::Error {
     let (code, error) = (ExitCode::Internal, error.into());
-    Coded { code, error }.into()
+    CodedError { code, error }.into()
 }
 
 /// A plan that is refused because it is not proved, or was changed after it was written.
 pub fn not_verified(error: impl Into<anyhow::Error>) -> anyhow::Error {
     let (code, error) = (ExitCode::NotVerified, error.into());
-    Coded { code, error }.into()
+    CodedError { code, error }.into()
 }
 
 /// The exit code of an error: bad input, where nothing else is known of it.
 pub fn code(error: &anyhow::Error) -> ExitCode {
     use platewash::Failure::{File, Prove};
-    if let Some(Coded { code, .. }) = error.downcast_ref() {
+    if let Some(CodedError { code, .. }) = error.downcast_ref() {
         return *code;
     }
     if error.is::<Cancelled>() || matches!(error.downcast_ref(), Some(StudyError::Cancelled(_))) {

@@ -20,7 +20,7 @@ const LOOKING: &str = "searching for keys whose change helps";
 
 /// JSON answer for a scenario that cannot be carried out.
 #[derive(Serialize)]
-struct NotValid {
+struct InvalidAnswer {
     valid: bool,
     #[serde(flatten)]
     why: InfeasibleReport,
@@ -28,14 +28,14 @@ struct NotValid {
 
 /// Answer for a job that cannot be done.
 #[derive(Serialize)]
-struct Told {
+struct InfeasibleAnswer {
     #[serde(flatten)]
     why: InfeasibleReport,
     /// Changes that were tried as remedies, one key each.
     remedies: Remedies,
 }
 
-impl fmt::Display for Told {
+impl fmt::Display for InfeasibleAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.why.fmt(f)
     }
@@ -63,11 +63,11 @@ fn in_full(
     failure: &Failure,
     why: InfeasibleReport,
     search_time: Duration,
-) -> Result<Told, Failure> {
+) -> Result<InfeasibleAnswer, Failure> {
     // No keys are tried for the paper's program.
     let Some(error) = cause(failure).filter(|_| !matches!(failure, Failure::Paper(_))) else {
         let remedies = Remedies::default();
-        return Ok(Told { why, remedies });
+        return Ok(InfeasibleAnswer { why, remedies });
     };
     let progress = options.progress(LOOKING);
     let watch = Watch {
@@ -99,7 +99,7 @@ fn in_full(
     let remedies = scenario.remedies(&arm, &error, &watch, left)?;
     let reason = format!("{}{others}{remedies}", why.reason);
     let why = why.explained(reason);
-    Ok(Told { why, remedies })
+    Ok(InfeasibleAnswer { why, remedies })
 }
 
 /// Keys with which a plan would be proved; `None` where it is.
@@ -142,7 +142,7 @@ pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Du
 pub fn answer(options: &Options, scenario: &Scenario, error: &Error) -> Result<()> {
     let failure = error.downcast_ref().filter(|_| options.json);
     if let Some(why) = failure.and_then(|failure| report(scenario, failure)) {
-        output::print(&output::json(&NotValid { valid: false, why })?)?;
+        output::print(&output::json(&InvalidAnswer { valid: false, why })?)?;
     }
     Ok(())
 }

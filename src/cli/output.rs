@@ -223,15 +223,15 @@ mod progress_tests {
 
     /// Written text, shared with the writer.
     #[derive(Clone, Default)]
-    struct Written(Arc<Mutex<Vec<u8>>>);
+    struct SharedBuffer(Arc<Mutex<Vec<u8>>>);
 
-    impl Written {
+    impl SharedBuffer {
         fn text(&self) -> String {
             String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
         }
     }
 
-    impl Write for Written {
+    impl Write for SharedBuffer {
         fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
             self.0.lock().unwrap().write(bytes)
         }
@@ -243,7 +243,7 @@ mod progress_tests {
 
     #[test]
     fn where_there_is_no_terminal_a_line_now_and_then_says_what_is_tried() {
-        let written = Written::default();
+        let written = SharedBuffer::default();
         let progress = Progress::silent("planning").lines(Duration::from_millis(1), written.clone());
         for what in ["ring 1 of 30", "ring 2 of 30"] {
             progress.say(&what);

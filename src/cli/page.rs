@@ -5,14 +5,14 @@ use super::failure::internal;
 use super::files::Files;
 use super::options::Options;
 use super::output;
-use super::simulate::Simulated;
+use super::simulate::SimulationAnswer;
 use anyhow::{Context, Error, Result, anyhow, bail};
 use clap::Args;
 use platewash::scenario::{Program, SHIPPED};
 use platewash::simulator::plant::TorqueLimits;
 use platewash::viewer::bundle::Bundle;
-use platewash::viewer::server::{Feed, Listener, Live, Page, Server, Site};
-use platewash::viewer::view::{Beside, Executed, View};
+use platewash::viewer::server::{Feed, Listener, LiveRun, Page, Server, Site};
+use platewash::viewer::view::{ExecutedMotion, View, ViewExtras};
 use platewash::workcell::layout::TaskRegion;
 use platewash::{Certificate, Plan, RobotModel, Scenario};
 use std::io::Write;
@@ -44,7 +44,7 @@ pub fn needed_bundle() -> Result<Bundle> {
 }
 
 /// The page of a plan.
-pub fn html(plan: &Plan, arm: &RobotModel, beside: &Beside<'_>, bundle: &Bundle) -> Result<String> {
+pub fn html(plan: &Plan, arm: &RobotModel, beside: &ViewExtras<'_>, bundle: &Bundle) -> Result<String> {
     let view = View::of_plan(plan, arm, beside)?;
     Ok(platewash::viewer::page::html(&view, bundle)?)
 }
@@ -56,12 +56,12 @@ pub fn add(
     options: &Options,
     (plan, arm): (&Plan, &RobotModel),
     certificate: Option<&Certificate>,
-    executed: Option<&Executed>,
+    executed: Option<&ExecutedMotion>,
     region: &TaskRegion,
 ) -> Result<()> {
     if let Some(bundle) = bundle() {
         options.cancel.check()?;
-        let beside = Beside {
+        let beside = ViewExtras {
             certificate,
             executed,
             region: Some(region),
@@ -194,8 +194,8 @@ pub struct Stage<'a> {
 }
 
 /// A page that is served, of a run that has not ended.
-pub struct Show {
-    live: Arc<Live>,
+pub struct LivePage {
+    live: Arc<LiveRun>,
     /// Server of the page; it serves until it is dropped.
     _server: Server,
 }
@@ -226,11 +226,11 @@ impl LiveArguments {
 
 impl Stage<'_> {
     /// Serves the page of a plan that is about to be simulated, opens it, and waits until it is there.
-    pub fn open(self, options: &Options, plan: &Plan, arm: &RobotModel, certificate: &Certificate) -> Result<Show> {
-        let live = Live::new(plan.hash.as_deref().unwrap_or_default());
+    pub fn open(self, options: &Options, plan: &Plan, arm: &RobotModel, certificate: &Certificate) -> Result<LivePage> {
+        let live = LiveRun::new(plan.hash.as_deref().unwrap_or_default());
         let settings = &plan.job.simulation;
-        let executed = Executed::live(settings.law, TorqueLimits::new(&settings.plant, arm.limits()).0);
-        let beside = Beside {
+        let executed = ExecutedMotion::live(settings.law, TorqueLimits::new(&settings.plant, arm.limits()).0);
+        let beside = ViewExtras {
             certificate: Some(certificate),
             executed: Some(&executed),
             region: Some(&self.region),
@@ -252,15 +252,15 @@ impl Stage<'_> {
                 "no page has been opened for {waited_s} s: simulating without one"
             ));
         }
-        Ok(Show { live, _server: server })
+        Ok(LivePage { live, _server: server })
     }
 }
 
-impl Show {
+impl LivePage {
     /// Simulates a plan in real time, while it is shown; tells all pages how that ended, and on standard error how late it was.
-    pub fn simulated(&self, options: &Options, plan: &Plan, arm: &RobotModel) -> Result<Simulated> {
+    pub fn simulated(&self, options: &Options, plan: &Plan, arm: &RobotModel) -> Result<SimulationAnswer> {
         let mut feed = Feed::new(&self.live, plan, arm, &options.cancel);
-        let simulated = Simulated::new(options, plan, arm, &mut |sample| feed.sample(sample))?;
+        let simulated = SimulationAnswer::new(options, plan, arm, &mut |sample| feed.sample(sample))?;
         let late_s = feed.end();
         if late_s > NOTICEABLE_S {
             options.say(&format!(

@@ -159,7 +159,7 @@ impl Answer {
 
 /// Suggestions for the arm.
 #[derive(Debug, Serialize)]
-struct Suggested {
+struct RobotSuggestions {
     robot: String,
     scenario: String,
     /// Joint positions of a home \[deg\].
@@ -206,7 +206,7 @@ fn suggest(options: &Options) -> Result<ExitCode> {
     files.add("region.svg", draw_region(&map(&scenario, &robot, &tool, &found)));
     files.add("touching.srdf", found.pairs.srdf());
     files.write(&options.cancel)?;
-    let answer = Suggested::new(&scenario, &robot, found, files.places(&names));
+    let answer = RobotSuggestions::new(&scenario, &robot, found, files.places(&names));
     options.print(&answer, || answer.text())?;
     Ok(ExitCode::Done)
 }
@@ -240,7 +240,7 @@ fn whole_units(sector: &Sector) -> ([f64; 2], [f64; 2]) {
     (rho_m, within(sector.azimuth_deg, 1.0))
 }
 
-impl Suggested {
+impl RobotSuggestions {
     fn new(scenario: &Scenario, robot: &RobotModel, found: Suggestion, written: Vec<PathBuf>) -> Self {
         let (home, region) = (found.home, found.region);
         let (rho_m, azimuth_deg) = region.sector.as_ref().map(whole_units).unzip();

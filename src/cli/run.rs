@@ -7,15 +7,15 @@ use super::motion::MotionArguments;
 use super::options::Options;
 use super::output::{DetailArguments, json};
 use super::page::{self, LiveArguments, Stage};
-use super::simulate::{Simulated, lasts_at_most_s};
+use super::simulate::{SimulationAnswer, lasts_at_most_s};
 use anyhow::Result;
 use clap::Args;
 use platewash::certificate::{planned_headline, prove_with};
 use platewash::paper::run_with;
-use platewash::planner::{self, PlanError, Planned, Watch, plan_with};
+use platewash::planner::{self, PlanError, PlannedJob, Watch, plan_with};
 use platewash::scenario::{Program, Remedies};
 use platewash::simulator::simulate::table;
-use platewash::viewer::view::Executed;
+use platewash::viewer::view::ExecutedMotion;
 use platewash::workcell::layout::Finding;
 use platewash::workcell::words::counted;
 use platewash::{Failure, Layout, PaperReport, PaperRun, RobotModel, Scenario, Verdict, WashReport};
@@ -41,7 +41,7 @@ pub struct Washing {
     /// Findings about the plates.
     pub findings: Vec<Finding>,
     /// The plan.
-    pub planned: Planned,
+    pub planned: PlannedJob,
 }
 
 /// Plans the washing that the scenario asks for.
@@ -171,7 +171,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -
     files.add("executed.csv", motion.table(scenario, arm, &run.executed, &plan)?);
     files.add_report("report", &report)?;
     let is_swept = report.verdict == Verdict::Swept;
-    let executed = Executed::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
+    let executed = ExecutedMotion::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
     let region = scenario.task_region();
     page::add(&mut files, options, (&plan, arm), None, Some(&executed), &region)?;
     files.answer(options, &report, || arguments.details.printed(&report))?;
@@ -195,7 +195,7 @@ fn run_washing(
         .transpose()?;
     let simulation = match &show {
         Some(show) => show.simulated(options, plan, arm)?,
-        None => Simulated::new(options, plan, arm, &mut |_| {})?,
+        None => SimulationAnswer::new(options, plan, arm, &mut |_| {})?,
     };
     let search_time = arguments.motion.search_time();
     let remedies = infeasible::remedies_of_proof(options, scenario, (arm, &certificate), search_time)?;
@@ -204,7 +204,7 @@ fn run_washing(
     let report = RunReport::new(wash, simulation, remedies);
     let mut files = arguments.motion.files(options, scenario, arm, motion, plan)?;
     files.add("certificate.json", proof);
-    if let Simulated::Done { execution, .. } = &report.simulation {
+    if let SimulationAnswer::Done { execution, .. } = &report.simulation {
         files.add("executed.csv", table(execution, plan, arm, dt_s)?);
     }
     files.add_report("report", &report)?;
@@ -239,14 +239,14 @@ impl Washing {
 struct RunReport {
     #[serde(flatten)]
     wash: WashReport,
-    simulation: Simulated,
+    simulation: SimulationAnswer,
     /// Keys with which the plan would be proved, where it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     remedies: Option<Remedies>,
 }
 
 impl RunReport {
-    fn new(mut wash: WashReport, simulation: Simulated, remedies: Option<Remedies>) -> Self {
+    fn new(mut wash: WashReport, simulation: SimulationAnswer, remedies: Option<Remedies>) -> Self {
         if let Some(remedies) = &remedies {
             wash.headline = format!("{}{remedies}", wash.headline);
         }
@@ -266,8 +266,8 @@ impl fmt::Display for RunReport {
         self.wash.fmt(f)?;
         writeln!(f)?;
         match &self.simulation {
-            Simulated::Done { report, .. } => report.fmt(f),
-            Simulated::Refused { refused } => writeln!(f, "NOT SIMULATED: {refused}"),
+            SimulationAnswer::Done { report, .. } => report.fmt(f),
+            SimulationAnswer::Refused { refused } => writeln!(f, "NOT SIMULATED: {refused}"),
         }
     }
 }

@@ -22,7 +22,7 @@ pub struct ScenarioArguments {
 }
 
 #[derive(Serialize)]
-struct Listed {
+struct ScenarioEntry {
     name: &'static str,
     about: String,
 }
@@ -34,13 +34,14 @@ pub fn show(options: &Options, arguments: &ScenarioArguments) -> Result<ExitCode
         options.print(&text, || text.clone())?;
         return Ok(ExitCode::Done);
     }
-    let all = SHIPPED.iter().map(|shipped| Listed {
+    let all = SHIPPED.iter().map(|shipped| ScenarioEntry {
         name: shipped.name,
         about: about(shipped.text),
     });
-    let all: Vec<Listed> = all.collect();
-    let line =
-        |Listed { name, about }: &Listed| format!("{name:<15} {}\n", about.trim_end_matches('.').replace('`', ""));
+    let all: Vec<ScenarioEntry> = all.collect();
+    let line = |ScenarioEntry { name, about }: &ScenarioEntry| {
+        format!("{name:<15} {}\n", about.trim_end_matches('.').replace('`', ""))
+    };
     options.print(&all, || all.iter().map(line).collect())?;
     Ok(ExitCode::Done)
 }
@@ -53,7 +54,7 @@ fn about(text: &str) -> String {
 }
 
 #[derive(Serialize)]
-struct Valid {
+struct ValidAnswer {
     valid: bool,
     scenario: String,
     robot: String,
@@ -89,7 +90,7 @@ fn told<T>(options: &Options, scenario: &Scenario, error: Error) -> Result<T> {
     Err(error)
 }
 
-fn valid(options: &Options, scenario: &Scenario) -> Result<Valid> {
+fn valid(options: &Options, scenario: &Scenario) -> Result<ValidAnswer> {
     let arm = options.arm(scenario)?;
     let mut sampling = None;
     let listed = scenario.lists_plates();
@@ -105,7 +106,7 @@ fn valid(options: &Options, scenario: &Scenario) -> Result<Valid> {
         scenario.check_on(&robot, &layout)?;
         findings = layout.findings;
     }
-    Ok(Valid {
+    Ok(ValidAnswer {
         valid: true,
         notes: [scenario.notes(), Note::of_arm(&robot), scenario.notes_on_meshes()].concat(),
         overload: PayloadCheck::new(&scenario.tool_on(&robot)?, scenario.robot.payload_kg, &robot).overload(),
@@ -133,7 +134,7 @@ impl Sampling {
     }
 }
 
-impl Valid {
+impl ValidAnswer {
     fn text(&self) -> String {
         let findings: String = self.findings.iter().map(|f| format!("  - {f}\n")).collect();
         let sampling = self.sampling.as_ref();

@@ -13,7 +13,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use platewash::kinematics::words::percent;
 use platewash::simulator::simulate::{Sample, TuneOutcome, simulate_watched, table};
 use platewash::viewer::server::LiveEnd;
-use platewash::viewer::view::Executed;
+use platewash::viewer::view::ExecutedMotion;
 use platewash::workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash::workcell::words::quoted;
 use platewash::{Execution, Failure, Plan, RobotModel, SimulationError, SimulationReport};
@@ -137,7 +137,7 @@ fn carried_out(
 /// Result of simulating a plan with the settings that the plan states.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
-pub enum Simulated {
+pub enum SimulationAnswer {
     /// An execution, judged.
     Done {
         /// The execution.
@@ -154,7 +154,7 @@ pub enum Simulated {
     },
 }
 
-impl Simulated {
+impl SimulationAnswer {
     /// Simulates a plan, and tells `watch` of each sample when it is known.
     pub fn new(options: &Options, plan: &Plan, arm: &RobotModel, watch: &mut dyn FnMut(&Sample)) -> Result<Self> {
         match carried_out(options, plan, arm, &plan.job.simulation, watch) {
@@ -195,9 +195,9 @@ impl Simulated {
     }
 
     /// Executed motion for a page; `None` where nothing was simulated.
-    pub fn executed(&self) -> Option<Executed> {
+    pub fn executed(&self) -> Option<ExecutedMotion> {
         match self {
-            Self::Done { execution, report } => Some(Executed::simulated(execution, report)),
+            Self::Done { execution, report } => Some(ExecutedMotion::simulated(execution, report)),
             Self::Refused { .. } => None,
         }
     }

@@ -45,9 +45,9 @@ struct Answer {
     #[serde(flatten)]
     judgement: Judgement,
     #[serde(skip_serializing_if = "Option::is_none")]
-    against: Option<Against>,
+    against: Option<PlanComparison>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    parent: Option<Against>,
+    parent: Option<PlanComparison>,
 }
 
 #[derive(Debug, Serialize)]
@@ -67,7 +67,7 @@ enum Judgement {
 
 /// Comparison of a plan with the scenario or the parent that it should come from.
 #[derive(Debug, Serialize)]
-struct Against {
+struct PlanComparison {
     #[serde(flatten)]
     other: Other,
     differences: Vec<Difference>,
@@ -108,7 +108,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
             let given = arguments.parent.as_ref();
             parent = given.map(|path| against_parent(&file, path)).transpose()?;
             let mut certificate = file.prove(options)?;
-            if parent.as_ref().is_some_and(Against::agrees) {
+            if parent.as_ref().is_some_and(PlanComparison::agrees) {
                 certificate.set_parent_compared();
             }
             Judgement::Washing(certificate.into())
@@ -121,12 +121,12 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
     };
     options.print(&answer, || arguments.details.printed(&answer))?;
     let passes = matches!(&answer.judgement, Judgement::Washing(certificate) if certificate.passes());
-    Ok(ExitCode::NotVerified.unless(passes && answer.others().all(Against::agrees)))
+    Ok(ExitCode::NotVerified.unless(passes && answer.others().all(PlanComparison::agrees)))
 }
 
 /// Compares every field of a job with what a scenario asks for, by its name or file, with the seed of `--seed`, otherwise the plan's; and
 /// the scenario's arm.
-fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(Against, Arc<RobotModel>)> {
+fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(PlanComparison, Arc<RobotModel>)> {
     let options = Options {
         scenario: Some(name.to_owned()),
         seed: options.seed.or(Some(plan.job.seed)),
@@ -137,7 +137,7 @@ fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(Again
         .arm()
         .and_then(|arm| Ok((terms(&options, &scenario, &arm)?, arm)));
     let (terms, arm) = asked.map_err(|failure| options.failure(failure))?;
-    let against = Against {
+    let against = PlanComparison {
         differences: differences(&plan.job, &terms),
         other: Other::Scenario {
             scenario: scenario.name.clone(),
@@ -168,7 +168,7 @@ fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Resul
 
 /// Compares a dry run, field by field, with what a dry run of the plan at `path` would ask for, and its order and paths with those of
 /// that plan.
-fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<Against> {
+fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<PlanComparison> {
     let Some(dry_run) = &file.plan.job.dry_run else {
         return Err(file.refused("it is not a dry run; --parent is for plans of platewash dry-run"));
     };
@@ -188,14 +188,14 @@ fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<Against> {
     };
     let motion = |plan: &Plan| json!({"order": plan.order, "wash_paths": plan.wash_paths});
     all.extend(differences(&motion(found), &motion(&parent)));
-    Ok(Against {
+    Ok(PlanComparison {
         other: Other::Parent { hash: parent.hash },
         differences: all,
     })
 }
 
 impl Answer {
-    fn others(&self) -> impl Iterator<Item = &Against> {
+    fn others(&self) -> impl Iterator<Item = &PlanComparison> {
         [&self.parent, &self.against].into_iter().flatten()
     }
 }
@@ -233,7 +233,7 @@ impl Judgement {
     }
 }
 
-impl Against {
+impl PlanComparison {
     /// True where nothing differs.
     fn agrees(&self) -> bool {
         self.differences.is_empty()
@@ -259,7 +259,7 @@ impl fmt::Display for Other {
     }
 }
 
-impl fmt::Display for Against {
+impl fmt::Display for PlanComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (other, count) = (&self.other, fields_differ(self.differences.len()));
         let says = match other {

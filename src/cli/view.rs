@@ -5,13 +5,13 @@ use super::files::{Files, check_places};
 use super::options::Options;
 use super::page::{self, ServeArguments};
 use super::plan_file::{PlanFile, refused, text};
-use super::simulate::Simulated;
+use super::simulate::SimulationAnswer;
 use anyhow::{Error, Result};
 use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::viewer::figures::{Figure, FigureError, Subject, draw};
 use platewash::viewer::server::{Page, Site};
-use platewash::viewer::view::{Beside, Executed, ViewError};
+use platewash::viewer::view::{ExecutedMotion, ViewError, ViewExtras};
 use platewash::workcell::csv::RecordedMotion;
 use platewash::workcell::plan::Process;
 use platewash::{Certificate, Failure, paper_spirals};
@@ -39,7 +39,7 @@ pub struct ViewArguments {
 /// Answer of `view`: the address of the page, or its file.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
-enum Shown<'a> {
+enum PageAnswer<'a> {
     Url(&'a str),
     Page(&'a Path),
 }
@@ -57,7 +57,7 @@ fn save(options: &Options, arguments: &ViewArguments, file: &Path) -> Result<Exi
     let mut files = Files::new(None, &[]);
     files.add_at(file.to_owned(), html(options, arguments)?);
     files.write(&options.cancel)?;
-    options.print(&Shown::Page(file), || format!("{}\n", file.display()))?;
+    options.print(&PageAnswer::Page(file), || format!("{}\n", file.display()))?;
     Ok(ExitCode::Done)
 }
 
@@ -67,7 +67,7 @@ fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode> {
     let url = listener.url();
     let site = Site::of(Page::Fixed(page));
     let server = listener.serve(site).map_err(internal)?;
-    options.print(&Shown::Url(&url), || format!("{url}\n"))?;
+    options.print(&PageAnswer::Url(&url), || format!("{url}\n"))?;
     arguments.serve.open(options, &url);
     options.say("Ctrl-C ends it");
     options.wait();
@@ -88,19 +88,19 @@ fn html(options: &Options, arguments: &ViewArguments) -> Result<String> {
     let executed = match recorded {
         Some(recorded) => Some(recorded),
         None => {
-            let simulated = Simulated::new(options, plan, arm, &mut |_| {})?;
-            if let Simulated::Refused { refused } = &simulated {
+            let simulated = SimulationAnswer::new(options, plan, arm, &mut |_| {})?;
+            if let SimulationAnswer::Refused { refused } = &simulated {
                 options.say(&format!("not simulated: {refused}"));
             }
             simulated.executed()
         }
     };
     let region = page::region_of_plan(plan, arm);
-    let beside = Beside {
+    let beside = ViewExtras {
         certificate: certificate.as_ref(),
         executed: executed.as_ref(),
         region: Some(&region),
-        ..Beside::default()
+        ..ViewExtras::default()
     };
     page::html(plan, arm, &beside, &bundle).map_err(|error| match (error.downcast_ref(), &arguments.executed) {
         (Some(ViewError::BeyondEnd { .. }), Some(csv)) => refused(csv, error),
@@ -110,9 +110,9 @@ fn html(options: &Options, arguments: &ViewArguments) -> Result<String> {
 }
 
 /// The motion of a CSV file.
-fn recorded(path: &Path) -> Result<Executed> {
+fn recorded(path: &Path) -> Result<ExecutedMotion> {
     let motion = RecordedMotion::from_csv(&text(path, MAX_BYTES)?).map_err(|e| refused(path, e))?;
-    Ok(Executed::recorded(&motion))
+    Ok(ExecutedMotion::recorded(&motion))
 }
 
 /// Arguments of `figures`.
@@ -127,21 +127,21 @@ pub struct FiguresArguments {
 
 /// Answer of `figures`: the files written, and the parts left out.
 #[derive(Debug, Serialize)]
-struct Drawn {
+struct FiguresAnswer {
     scenario: String,
     /// Paths of the files.
     written: Vec<PathBuf>,
-    left_out: Vec<LeftOut>,
+    left_out: Vec<OmittedFigure>,
 }
 
 /// A figure that the plan has no content for, or a part of the other figures that is not known.
 #[derive(Debug, Serialize)]
-struct LeftOut {
+struct OmittedFigure {
     what: String,
     why: String,
 }
 
-impl LeftOut {
+impl OmittedFigure {
     fn new(what: &str, why: impl ToString) -> Self {
         Self {
             what: what.to_owned(),
@@ -162,20 +162,20 @@ pub fn figures(options: &Options, arguments: &FiguresArguments) -> Result<ExitCo
     check_places(&files.places(&names.iter().map(String::as_str).collect::<Vec<_>>()))?;
     let file = PlanFile::read(options, &arguments.plan)?;
     let mut left_out = Vec::new();
-    let known = Known::new(options, &file, &wanted, &mut left_out)?;
+    let known = PlanResults::new(options, &file, &wanted, &mut left_out)?;
     let subject = known.subject(&file).map_err(|error| file.refused(error))?;
     for figure in &wanted {
         match draw(&subject, *figure) {
             Ok(svg) => files.add(&name(figure), svg),
             // What was asked for by name must be drawn; of the others, those that the plan has nothing for are left out.
             Err(error @ FigureError::NothingWashed { .. }) if only.is_empty() => {
-                left_out.push(LeftOut::new(figure.name(), error));
+                left_out.push(OmittedFigure::new(figure.name(), error));
             }
             Err(error) => return Err(file.refused(error)),
         }
     }
     files.write(&options.cancel)?;
-    let answer = Drawn {
+    let answer = FiguresAnswer {
         scenario: file.plan.provenance.scenario.clone(),
         written: files.paths().map(Path::to_owned).collect(),
         left_out,
@@ -184,7 +184,7 @@ pub fn figures(options: &Options, arguments: &FiguresArguments) -> Result<ExitCo
     Ok(ExitCode::Done)
 }
 
-impl Drawn {
+impl FiguresAnswer {
     fn text(&self) -> String {
         let written = self.written.iter().map(|path| format!("wrote {}\n", path.display()));
         let left_out = self.left_out.iter();
@@ -194,16 +194,21 @@ impl Drawn {
 }
 
 /// Results on a plan that figures need, as far as they are known.
-struct Known {
+struct PlanResults {
     certificate: Option<Certificate>,
-    simulated: Option<Simulated>,
+    simulated: Option<SimulationAnswer>,
     /// Curves that the tip should follow, for a plan of the paper's program.
-    ideal: Option<Vec<platewash::viewer::figures::Ideal>>,
+    ideal: Option<Vec<platewash::viewer::figures::IdealPath>>,
 }
 
-impl Known {
+impl PlanResults {
     /// Proves, simulates and, for a plan of the paper's program, follows it again.
-    fn new(options: &Options, file: &PlanFile<'_>, wanted: &[Figure], left_out: &mut Vec<LeftOut>) -> Result<Self> {
+    fn new(
+        options: &Options,
+        file: &PlanFile<'_>,
+        wanted: &[Figure],
+        left_out: &mut Vec<OmittedFigure>,
+    ) -> Result<Self> {
         let (plan, arm) = (&file.plan, &file.arm);
         let (mut certificate, mut ideal) = (None, None);
         match plan.process {
@@ -219,10 +224,10 @@ impl Known {
         }
         let mut simulated = None;
         if wanted.iter().any(|figure| *figure != Figure::Joints) {
-            simulated = Some(Simulated::new(options, plan, arm, &mut |_| {})?);
+            simulated = Some(SimulationAnswer::new(options, plan, arm, &mut |_| {})?);
         }
-        if let Some(Simulated::Refused { refused }) = &simulated {
-            left_out.push(LeftOut::new("what an arm makes of it", refused));
+        if let Some(SimulationAnswer::Refused { refused }) = &simulated {
+            left_out.push(OmittedFigure::new("what an arm makes of it", refused));
         }
         Ok(Self {
             certificate,
@@ -233,7 +238,7 @@ impl Known {
 
     fn subject<'a>(&'a self, file: &'a PlanFile<'_>) -> Result<Subject<'a>, FigureError> {
         let mut subject = Subject::new(&file.plan, &file.arm)?;
-        if let Some(Simulated::Done { execution, report }) = &self.simulated {
+        if let Some(SimulationAnswer::Done { execution, report }) = &self.simulated {
             subject = subject.executed(execution, report)?;
         }
         if let Some(ideal) = &self.ideal {
@@ -246,7 +251,7 @@ impl Known {
 }
 
 /// Returns a result, or `None` with a note in `left_out` that says why it is missing. An error where the work was cancelled.
-fn known<T, E>(found: Result<T, E>, what: &str, left_out: &mut Vec<LeftOut>) -> Result<Option<T>>
+fn known<T, E>(found: Result<T, E>, what: &str, left_out: &mut Vec<OmittedFigure>) -> Result<Option<T>>
 where
     Failure: From<E>,
 {
@@ -254,7 +259,7 @@ where
         Ok(found) => Ok(Some(found)),
         Err(error) if error.is_cancelled() => Err(Error::from(error)),
         Err(error) => {
-            left_out.push(LeftOut::new(what, error));
+            left_out.push(OmittedFigure::new(what, error));
             Ok(None)
         }
     }

@@ -31,7 +31,7 @@ fn module(dir: &Path) -> PathBuf {
         .unwrap()
 }
 
-fn refused(ran: &Ran, code: &str, exit: i32) -> Value {
+fn refused(ran: &CommandOutput, code: &str, exit: i32) -> Value {
     assert_eq!(ran.code, exit, "{} {}", ran.stdout, ran.stderr);
     assert!(ran.stderr.contains(&format!("refused ({code}): ")), "{}", ran.stderr);
     let answer = ran.json();

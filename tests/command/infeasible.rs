@@ -2,7 +2,7 @@
 
 use super::*;
 
-fn plan(dir: &Path, file: &Path) -> Ran {
+fn plan(dir: &Path, file: &Path) -> CommandOutput {
     platewash(dir, &["plan", "--scenario", file.to_str().unwrap(), "--out", "o"])
 }
 

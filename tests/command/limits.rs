@@ -4,7 +4,7 @@ use super::*;
 use std::time::{Duration, Instant};
 
 #[track_caller]
-fn soon(ran: impl FnOnce() -> Ran) -> Ran {
+fn soon(ran: impl FnOnce() -> CommandOutput) -> CommandOutput {
     let start = Instant::now();
     let ran = ran();
     assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());

@@ -42,13 +42,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::TempDir;
 
-struct Ran {
+struct CommandOutput {
     code: i32,
     stdout: String,
     stderr: String,
 }
 
-impl Ran {
+impl CommandOutput {
     fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|e| panic!("{e}: {}", self.stdout))
     }
@@ -85,17 +85,17 @@ fn repetition(message: &str) -> Option<String> {
         .map(|w| w.iter().collect())
 }
 
-fn platewash(folder: &Path, arguments: &[&str]) -> Ran {
+fn platewash(folder: &Path, arguments: &[&str]) -> CommandOutput {
     platewash_os(folder, &arguments.iter().map(OsStr::new).collect::<Vec<_>>())
 }
 
-fn platewash_os(folder: &Path, arguments: &[&OsStr]) -> Ran {
+fn platewash_os(folder: &Path, arguments: &[&OsStr]) -> CommandOutput {
     let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_platewash"))
         .args(arguments)
         .current_dir(folder)
         .output()
         .unwrap();
-    Ran {
+    CommandOutput {
         code: status.code().unwrap(),
         stdout: String::from_utf8(stdout).unwrap(),
         stderr: String::from_utf8(stderr).unwrap(),

@@ -48,7 +48,7 @@ clearance_m = 0.01
 
 pub const UR5_START: &str = "[0, -90, 90, -90, -90, 0]";
 
-pub fn run(dir: &Path, verb: &str, file: &Path, urdf: &str) -> Ran {
+pub fn run(dir: &Path, verb: &str, file: &Path, urdf: &str) -> CommandOutput {
     let file = file.to_str().unwrap();
     platewash(dir, &[verb, "--scenario", file, "--urdf", urdf, "--out", "o", "--json"])
 }

@@ -11,13 +11,13 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A command that goes on; it is ended with the test.
-pub struct Running {
+pub struct RunningCommand {
     pub child: Child,
     pub stdout: BufReader<ChildStdout>,
     pub stderr: BufReader<ChildStderr>,
 }
 
-impl Drop for Running {
+impl Drop for RunningCommand {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -49,9 +49,9 @@ pub fn interrupt(child: &Child) {
     assert!(Command::new("kill").args(kill).status().unwrap().success());
 }
 
-pub fn start(command: &mut Command) -> Running {
+pub fn start(command: &mut Command) -> RunningCommand {
     let mut child = spawn(command);
-    Running {
+    RunningCommand {
         stdout: BufReader::new(child.stdout.take().unwrap()),
         stderr: BufReader::new(child.stderr.take().unwrap()),
         child,
@@ -71,7 +71,7 @@ pub fn line_after(lines: &mut impl BufRead, begin: &str) -> String {
     }
 }
 
-impl Running {
+impl RunningCommand {
     #[cfg(unix)]
     pub fn interrupt(&self) {
         interrupt(&self.child);

@@ -11,7 +11,7 @@ fn a_home_in_radians_is_warned_of_wherever_it_counts() {
     let dir = folder.path();
     let file = kitchen(dir, &[(START, RADIANS)]);
     let file = file.to_str().unwrap();
-    let warned = |ran: &Ran| {
+    let warned = |ran: &CommandOutput| {
         assert_eq!(ran.stderr.matches("warning: ").count(), 1, "{}", ran.stderr);
         for part in [
             "robot.start_deg",

@@ -332,19 +332,19 @@ fn knots(plan: &mut Plan, change: fn(&mut [Knot])) {
     plan.job.plates[0].surface = Surface::profile(&knots).unwrap();
 }
 
-struct Planned {
+struct PlannedCell {
     plan: Plan,
     robot: RobotModel,
 }
 
-static PLANS: LazyLock<[Planned; 2]> = LazyLock::new(|| {
+static PLANS: LazyLock<[PlannedCell; 2]> = LazyLock::new(|| {
     ["kitchen", "rim"].map(|name| {
         let mut scenario = scenario((name, 1));
         // What costs time is the proof of every edit: of one plate it costs a quarter.
         scenario.layout.count = 1;
         let job = scenario.job().unwrap();
         let robot = job.arm().clone();
-        Planned {
+        PlannedCell {
             plan: plan(&job).unwrap().plan,
             robot,
         }
@@ -356,7 +356,7 @@ fn refused(certificate: &Certificate) -> Vec<Requirement> {
 }
 
 /// What is wrong with the outcome of a case.
-fn complaint(Case(field, outcome, change): &Case, good: &Planned) -> Option<String> {
+fn complaint(Case(field, outcome, change): &Case, good: &PlannedCell) -> Option<String> {
     let mut plan = good.plan.clone();
     change(&mut plan);
     // Whatever is changed, the hash says so; and nothing else says so where there is a number that JSON has none for.

@@ -84,7 +84,7 @@ impl Kind {
 
 /// What must come of an edited plan.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Expected {
+pub enum ExpectedResult {
     /// It passes, nothing is waived, and the sampler finds nothing.
     Harmless,
     /// It passes, but for these, which the job waives.
@@ -105,7 +105,7 @@ pub struct Edit {
     pub what: String,
     /// Which of the good plans is edited.
     pub of: usize,
-    pub expected: Expected,
+    pub expected: ExpectedResult,
     apply: Box<Apply>,
 }
 
@@ -129,7 +129,7 @@ impl Edits {
         &mut self,
         kind: Kind,
         what: impl Into<String>,
-        expected: Expected,
+        expected: ExpectedResult,
         apply: impl Fn(&mut Plan, &mut Pcg64) + Send + Sync + 'static,
     ) {
         let what = format!("{}, {}", kind.words(), what.into());
@@ -145,21 +145,21 @@ impl Edits {
 
     /// An edit after which the plan still passes.
     pub fn harmless(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) {
-        self.add(kind, what, Expected::Harmless, move |p, _| apply(p));
+        self.add(kind, what, ExpectedResult::Harmless, move |p, _| apply(p));
     }
 
     /// An edit that leaves all statements right.
     pub fn sampled(&mut self, kind: Kind, what: &str, apply: fn(&mut Plan)) {
-        self.add(kind, what, Expected::Sampled, move |p, _| apply(p));
+        self.add(kind, what, ExpectedResult::Sampled, move |p, _| apply(p));
     }
 
     /// An edit after which the plan passes but for what its job waives.
     pub fn waives(&mut self, kind: Kind, what: &str, names: &[Requirement], apply: fn(&mut Plan)) {
-        self.add(kind, what, Expected::Waived(names.to_vec()), move |p, _| apply(p));
+        self.add(kind, what, ExpectedResult::Waived(names.to_vec()), move |p, _| apply(p));
     }
 
     /// An edit that breaks requirements by name.
     pub fn fails(&mut self, kind: Kind, what: &str, names: &[Requirement], apply: fn(&mut Plan)) {
-        self.add(kind, what, Expected::Fails(names.to_vec()), move |p, _| apply(p));
+        self.add(kind, what, ExpectedResult::Fails(names.to_vec()), move |p, _| apply(p));
     }
 }

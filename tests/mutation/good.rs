@@ -6,7 +6,7 @@ use platewash::{JobTerms, Plan, RobotModel, Scenario, plan};
 use std::sync::LazyLock;
 
 /// A plan, its arm, and who measures what comes of it.
-pub struct Good {
+pub struct GoodPlan {
     pub plan: Plan,
     /// What its scenario states, resolved without the plan.
     pub terms: JobTerms,
@@ -17,14 +17,14 @@ pub struct Good {
 /// The shipped scenarios and the seeds of their layouts.
 pub const JOBS: [(&str, u64); 2] = [("kitchen-spiral", 1), ("kitchen-rim", 2)];
 
-static GOOD: LazyLock<[Good; 2]> = LazyLock::new(|| JOBS.map(planned));
+static GOOD: LazyLock<[GoodPlan; 2]> = LazyLock::new(|| JOBS.map(planned));
 
 /// Both plans.
-pub fn good() -> &'static [Good; 2] {
+pub fn good() -> &'static [GoodPlan; 2] {
     &GOOD
 }
 
-impl Good {
+impl GoodPlan {
     /// All requirements, in the order of the certificate.
     pub fn requirements(&self) -> Vec<Requirement> {
         let certificate = prove(&self.plan, self.robot).unwrap();
@@ -40,13 +40,13 @@ pub fn scenario((name, seed): (&str, u64)) -> Scenario {
     }
 }
 
-fn planned(job: (&str, u64)) -> Good {
+fn planned(job: (&str, u64)) -> GoodPlan {
     let plan = plan(&scenario(job).job().unwrap()).unwrap().plan;
     let again = scenario(job).job().unwrap();
     // They live as long as the test runs.
     let robot = Box::leak(Box::new(again.arm().clone()));
     let origin = Box::leak(Box::new(plan.clone()));
-    Good {
+    GoodPlan {
         plan,
         terms: again.terms().clone(),
         robot,

@@ -1,8 +1,8 @@
 //! The certificate of an edited plan held against the sampler and against what is known of the edit.
 
-use crate::mutation::edit::{Edit, Expected};
-use crate::mutation::good::Good;
-use crate::mutation::sampler::{Findings, Found, is_sound};
+use crate::mutation::edit::{Edit, ExpectedResult};
+use crate::mutation::good::GoodPlan;
+use crate::mutation::sampler::{Findings, WorstSample, is_sound};
 use platewash::Plan;
 use platewash::certificate::{Certificate, Check, Requirement, Sense, Status, prove};
 
@@ -34,14 +34,14 @@ pub struct Outcome {
 }
 
 /// Edits a plan and judges it.
-pub fn judge(edit: &Edit, good: &Good) -> Outcome {
+pub fn judge(edit: &Edit, good: &GoodPlan) -> Outcome {
     let plan = edit.apply(&good.plan);
     let certificate = prove(&plan, good.robot).unwrap();
     hold(edit, &plan, &certificate, good)
 }
 
 /// Holds a certificate against the samples of an edited plan.
-pub fn hold(edit: &Edit, plan: &Plan, certificate: &Certificate, good: &Good) -> Outcome {
+pub fn hold(edit: &Edit, plan: &Plan, certificate: &Certificate, good: &GoodPlan) -> Outcome {
     // The moments that the certificate complains of are looked at, too: what it finds broken must be so.
     let blamed: Vec<_> = certificate.broken().filter_map(|p| p.worst.time_s).collect();
     let findings = good.sampler.measure(plan, &blamed);
@@ -68,7 +68,7 @@ pub fn hold(edit: &Edit, plan: &Plan, certificate: &Certificate, good: &Good) ->
 }
 
 /// The complaints about a plan as it is.
-pub fn complaints_unedited(good: &Good) -> Vec<String> {
+pub fn complaints_unedited(good: &GoodPlan) -> Vec<String> {
     let certificate = prove(&good.plan, good.robot).unwrap();
     let findings = good.sampler.measure(&good.plan, &[]);
     let refused = certificate
@@ -81,7 +81,7 @@ pub fn complaints_unedited(good: &Good) -> Vec<String> {
 struct Case<'a> {
     edit: &'a Edit,
     plan: &'a Plan,
-    good: &'a Good,
+    good: &'a GoodPlan,
     certificate: &'a Certificate,
     findings: &'a Findings,
     is_sound: bool,
@@ -90,7 +90,7 @@ struct Case<'a> {
 impl Case<'_> {
     fn named(&self) -> &[Requirement] {
         match &self.edit.expected {
-            Expected::Fails(names) => names,
+            ExpectedResult::Fails(names) => names,
             _ => &[],
         }
     }
@@ -139,7 +139,7 @@ impl Case<'_> {
     }
 
     /// What the certificate refuses though the sampler finds nothing.
-    fn unfounded(&self, check: &Check, found: &Found, complaints: &mut Vec<String>) {
+    fn unfounded(&self, check: &Check, found: &WorstSample, complaints: &mut Vec<String>) {
         // Without segments nobody knows when the sponge may touch; a shape that is none has no deviation.
         let rests_on_segments = check.requirement == Requirement::Clearance && !self.is_sound;
         let open = rests_on_segments || self.named().contains(&check.requirement) || self.is_hard_to_prove(check);
@@ -188,8 +188,8 @@ impl Case<'_> {
             complaints.push("hash".to_owned());
         }
         let waived = match &self.edit.expected {
-            Expected::Harmless => &[],
-            Expected::Waived(names) => &names[..],
+            ExpectedResult::Harmless => &[],
+            ExpectedResult::Waived(names) => &names[..],
             _ => return,
         };
         if refused || self.findings.broken().count() > 0 || self.certificate.waived != waived {
@@ -203,7 +203,7 @@ impl Case<'_> {
 }
 
 /// Whether what was measured is no worse than what is proved. Joints have limits of their own: shares of them count.
-fn encloses(check: &Check, found: &Found) -> bool {
+fn encloses(check: &Check, found: &WorstSample) -> bool {
     let Some((bound, measure)) = check.measure.and_then(|m| m.bound.map(|b| (b, m))) else {
         return true;
     };

@@ -1,7 +1,7 @@
 //! A service that does nothing useful in several ways, served, and a client for it.
 #![allow(dead_code, clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use platewash_viewer::server::{Asked, Gone, Listener, Page, Server, Service, Site};
+use platewash_viewer::server::{Listener, NoListener, Page, QuestionLimits, Server, Service, Site};
 use platewash_workcell::cancel::CancelToken;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -35,10 +35,10 @@ pub struct Toy {
 }
 
 impl Service for Toy {
-    fn knows(&self, path: &str) -> Option<Asked> {
+    fn knows(&self, path: &str) -> Option<QuestionLimits> {
         let is_work = ["/work", "/flood", "/panic"].contains(&path);
         let is_known = is_work || ["/hello", "/echo", "/hold", "/long"].contains(&path);
-        is_known.then_some(Asked {
+        is_known.then_some(QuestionLimits {
             is_work,
             most_bytes: if path == "/long" { MOST_LONG_BYTES } else { MOST_BYTES },
         })
@@ -48,7 +48,7 @@ impl Service for Toy {
         &self,
         path: &str,
         question: &[u8],
-        tell: &mut dyn FnMut(String) -> Result<(), Gone>,
+        tell: &mut dyn FnMut(String) -> Result<(), NoListener>,
         gone: &CancelToken,
     ) {
         self.asked.fetch_add(1, SeqCst);
@@ -84,7 +84,7 @@ impl Service for Toy {
 
 impl Toy {
     /// Says that it has begun, and the rest when it is let go.
-    fn hold(&self, tell: &mut dyn FnMut(String) -> Result<(), Gone>, gone: &CancelToken) {
+    fn hold(&self, tell: &mut dyn FnMut(String) -> Result<(), NoListener>, gone: &CancelToken) {
         let _ = tell("\"begun\"".to_owned());
         while !gone.is_cancelled() && !self.release.load(SeqCst) {
             sleep(Duration::from_millis(2));
@@ -104,17 +104,17 @@ pub fn until(what: &str, holds: impl Fn() -> bool) -> Duration {
     begin.elapsed()
 }
 
-pub struct Served {
+pub struct ToyServer {
     pub toy: Arc<Toy>,
     pub server: Option<Server>,
     pub address: SocketAddr,
 }
 
-pub fn serve() -> Served {
+pub fn serve() -> ToyServer {
     serve_page(Page::Fixed(PAGE.to_owned()))
 }
 
-pub fn serve_page(page: Page) -> Served {
+pub fn serve_page(page: Page) -> ToyServer {
     let listener = Listener::bind("127.0.0.1:0".parse().unwrap()).unwrap();
     let url = listener.url();
     let address = url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
@@ -123,14 +123,14 @@ pub fn serve_page(page: Page) -> Served {
         service: Some(toy.clone()),
         ..Site::of(page)
     };
-    Served {
+    ToyServer {
         address: address.parse().unwrap(),
         server: Some(listener.serve(site).unwrap()),
         toy,
     }
 }
 
-impl Served {
+impl ToyServer {
     pub fn connect(&self) -> TcpStream {
         let stream = TcpStream::connect(self.address).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();

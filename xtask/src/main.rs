@@ -19,7 +19,7 @@ mod wheel;
 
 use anyhow::{Result, bail};
 use std::process::ExitCode;
-use suite::{InBrowser, Part};
+use suite::{BrowserTests, Part};
 
 const USAGE: &str = "\
 cargo xtask test [OPTIONS]                    every test there is
@@ -32,7 +32,7 @@ cargo xtask docs                              writes the pages that are made fro
 /// What to do.
 #[derive(Debug, PartialEq, Eq)]
 enum Chore {
-    Test(Option<Part>, InBrowser),
+    Test(Option<Part>, BrowserTests),
     Bench(Vec<String>),
     Page,
     Docs,
@@ -81,10 +81,10 @@ fn parse(arguments: &[String]) -> Result<Chore> {
 
 fn tests(options: &[&str]) -> Result<Chore> {
     match *options {
-        [] => Ok(Chore::Test(None, InBrowser::Run)),
-        ["--without-browser"] => Ok(Chore::Test(None, InBrowser::LeftOut)),
-        ["--only", part] => Ok(Chore::Test(Some(Part::named(part)?), InBrowser::Run)),
-        ["--only", part, "--without-browser"] => Ok(Chore::Test(Some(Part::named(part)?), InBrowser::LeftOut)),
+        [] => Ok(Chore::Test(None, BrowserTests::Run)),
+        ["--without-browser"] => Ok(Chore::Test(None, BrowserTests::LeftOut)),
+        ["--only", part] => Ok(Chore::Test(Some(Part::named(part)?), BrowserTests::Run)),
+        ["--only", part, "--without-browser"] => Ok(Chore::Test(Some(Part::named(part)?), BrowserTests::LeftOut)),
         _ => bail!("unknown options of test: {}", options.join(" ")),
     }
 }
@@ -99,18 +99,18 @@ mod tests {
 
     #[test]
     fn every_chore_is_understood() {
-        assert_eq!(parsed("test"), Some(Chore::Test(None, InBrowser::Run)));
+        assert_eq!(parsed("test"), Some(Chore::Test(None, BrowserTests::Run)));
         assert_eq!(
             parsed("test --only python"),
-            Some(Chore::Test(Some(Part::Python), InBrowser::Run))
+            Some(Chore::Test(Some(Part::Python), BrowserTests::Run))
         );
         assert_eq!(
             parsed("test --without-browser"),
-            Some(Chore::Test(None, InBrowser::LeftOut))
+            Some(Chore::Test(None, BrowserTests::LeftOut))
         );
         assert_eq!(
             parsed("test --only browser --without-browser"),
-            Some(Chore::Test(Some(Part::Browser), InBrowser::LeftOut))
+            Some(Chore::Test(Some(Part::Browser), BrowserTests::LeftOut))
         );
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
         assert_eq!(parsed("page"), Some(Chore::Page));

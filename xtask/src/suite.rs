@@ -31,7 +31,7 @@ pub enum Part {
 
 /// Whether the tests in a browser are run, which need one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InBrowser {
+pub enum BrowserTests {
     /// They are, and fail where there is no browser.
     Run,
     /// They are left out, as was asked for.
@@ -54,7 +54,7 @@ impl Part {
 /// Runs the whole suite or one part of it, up to the first failure.
 ///
 /// The page is made first, so that all that is compiled after it has it. The Python packages are fetched while crates compile.
-pub fn run(only: Option<Part>, in_browser: InBrowser) -> Result<()> {
+pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
     let start = Instant::now();
     let release: Check = if only.is_none() { release } else { release_alone };
     let steps: [(&[Part], Check); 13] = [
@@ -72,7 +72,7 @@ pub fn run(only: Option<Part>, in_browser: InBrowser) -> Result<()> {
         (&[Part::Browser], page::again),
         (
             &[Part::Browser],
-            if in_browser == InBrowser::Run {
+            if in_browser == BrowserTests::Run {
                 browser::tests
             } else {
                 left_out

@@ -6,7 +6,7 @@ use crate::plain_fk::PlainArm;
 use crate::solvers::{IkGeo, Opw, nearest_within};
 use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, JointVector, Pose, RobotModel, ToolFrame};
 use platewash_problems::score::errors;
 use platewash_problems::{ANALYTIC, NUMERIC, Tolerance};
@@ -86,7 +86,7 @@ pub struct Court<'a> {
 }
 
 /// The best that the judges have: an answer, or by how much their answers miss.
-struct Judged {
+struct BestAnswer {
     answer: Option<(JointVector, [f64; 2])>,
     /// Least distance beyond a limit of a solution that meets the pose \[rad\].
     beyond_limit_rad: f64,
@@ -143,7 +143,7 @@ impl<'a> Court<'a> {
     }
 
     fn nearest(&self, pose: &Pose, start: &JointVector) -> Result<JointVector, String> {
-        let target = AnalyticArm::body_target(&self.tool0, &Rigid::from(pose)).ok_or("frame")?;
+        let target = AnalyticArm::body_target(&self.tool0, &RigidTransform::from(pose)).ok_or("frame")?;
         let answer = self.arm.nearest(&target, start, self.robot.limits());
         answer.map(|nearest| nearest.q).map_err(|e| e.to_string())
     }
@@ -154,7 +154,7 @@ impl<'a> Court<'a> {
         case: &Case,
         tolerance: Tolerance,
         judged_reachable: bool,
-        judged: &Judged,
+        judged: &BestAnswer,
     ) -> &'static str {
         if !q.iter().all(|angle| angle.is_finite()) {
             return "WRONG: not finite";
@@ -200,13 +200,13 @@ impl<'a> Court<'a> {
         }
     }
 
-    fn judged(&self, case: &Case, tolerance: Tolerance) -> Judged {
+    fn judged(&self, case: &Case, tolerance: Tolerance) -> BestAnswer {
         let quiet =
             |solutions: &dyn Fn() -> Vec<[f64; AXES]>| catch_unwind(AssertUnwindSafe(solutions)).unwrap_or_default();
         let mut all = quiet(&|| self.opw.solutions(&case.pose));
         all.extend(quiet(&|| self.ik_geo.solutions(&case.pose)));
         all.extend(case.witness.map(<[f64; AXES]>::from));
-        let mut judged = Judged {
+        let mut judged = BestAnswer {
             answer: None,
             beyond_limit_rad: f64::INFINITY,
             inexact: false,
@@ -246,7 +246,7 @@ impl<'a> Court<'a> {
     }
 
     fn miss(&self, q: &JointVector, pose: &Pose) -> [f64; 2] {
-        errors(&Rigid::from(pose), &self.plain.tool0(q))
+        errors(&RigidTransform::from(pose), &self.plain.tool0(q))
     }
 
     /// Distance of the wrist centre from axis 1 \[m\].

@@ -2,14 +2,14 @@
 //! cosine. It is what our own is timed against, and what checks answers independently of it.
 
 use nalgebra::{Matrix3, Vector3};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, JointVector};
 
 /// The chain: one constant transform before each joint, which turns about its own z axis.
 #[derive(Debug, Clone)]
 pub struct PlainArm {
-    before: [Rigid; AXES],
-    tool: Rigid,
+    before: [RigidTransform; AXES],
+    tool: RigidTransform,
 }
 
 impl Default for PlainArm {
@@ -25,7 +25,7 @@ impl Default for PlainArm {
         let before = std::array::from_fn(|i| {
             let back = last.transpose();
             last = axes[i];
-            Rigid {
+            RigidTransform {
                 rotation: back * axes[i],
                 translation: back * steps[i],
             }
@@ -33,7 +33,7 @@ impl Default for PlainArm {
         // `tool0` is turned by 90° about y from the base, as joint 6's frame is.
         Self {
             before,
-            tool: Rigid::identity(),
+            tool: RigidTransform::identity(),
         }
     }
 }
@@ -41,8 +41,8 @@ impl Default for PlainArm {
 impl PlainArm {
     /// Poses of the seven bodies.
     #[must_use]
-    pub fn bodies(&self, q: &JointVector) -> [Rigid; AXES + 1] {
-        let mut bodies = [Rigid::identity(); AXES + 1];
+    pub fn bodies(&self, q: &JointVector) -> [RigidTransform; AXES + 1] {
+        let mut bodies = [RigidTransform::identity(); AXES + 1];
         for (i, before) in self.before.iter().enumerate() {
             let (s, c) = f64::sin_cos(q[i]);
             bodies[i + 1] = bodies[i].then(before).turned_about_z(s, c);
@@ -52,7 +52,7 @@ impl PlainArm {
 
     /// Pose of `tool0`.
     #[must_use]
-    pub fn tool0(&self, q: &JointVector) -> Rigid {
+    pub fn tool0(&self, q: &JointVector) -> RigidTransform {
         self.bodies(q)[AXES].then(&self.tool)
     }
 }

@@ -1,7 +1,7 @@
 //! A cell as data for others: the arm's joints, every body as convex shapes, the pairs that must keep clear.
 
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, Link, Pose};
 use platewash_problems::stages::surroundings;
 use platewash_workcell::job::WashJob;
@@ -39,7 +39,7 @@ pub fn scene(job: &WashJob) -> Result<Value, Box<dyn Error>> {
         };
         let mut value = body(&obstacle.name, &Frame::base(), &shapes, obstacle.margin_m);
         if shapes.is_empty() {
-            value["half_space"] = placed(&Rigid::from(&obstacle.pose));
+            value["half_space"] = placed(&RigidTransform::from(&obstacle.pose));
         }
         bodies.push(value);
     }
@@ -62,7 +62,7 @@ fn of_link(link: &Link) -> Option<Value> {
 
 fn body(name: &str, frame: &Frame, shapes: &[(Shape, Pose)], grown_m: f64) -> Value {
     let shapes = shapes.iter().map(|(shape, pose)| {
-        let mut value = placed(frame.offset(&Rigid::from(pose)).on_body());
+        let mut value = placed(frame.offset(&RigidTransform::from(pose)).on_body());
         value["shape"] = json!(shape);
         value
     });
@@ -74,7 +74,7 @@ fn body(name: &str, frame: &Frame, shapes: &[(Shape, Pose)], grown_m: f64) -> Va
     })
 }
 
-fn placed(at: &Rigid) -> Value {
+fn placed(at: &RigidTransform) -> Value {
     let rows: Vec<[f64; 3]> = at.rotation.row_iter().map(|row| [row[0], row[1], row[2]]).collect();
     json!({ "rotation": rows, "position_m": at.translation.as_slice() })
 }

@@ -4,7 +4,7 @@ use crate::problems::Problems;
 use crate::solver::{Solver, Solvers};
 use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame};
 use std::error::Error;
 
@@ -24,7 +24,7 @@ fn solver<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<IkSolver<'a>
 pub fn warm<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
     Ok(vec![
         Box::new(Path::new(robot, problems)?),
-        Box::new(Solve::new(robot, problems)?),
+        Box::new(NumericIk::new(robot, problems)?),
     ])
 }
 
@@ -33,7 +33,7 @@ pub fn warm<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a
 /// # Errors
 /// An arm without `tool0`.
 pub fn cold<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
-    Ok(vec![Box::new(Solve::new(robot, problems)?)])
+    Ok(vec![Box::new(NumericIk::new(robot, problems)?)])
 }
 
 /// The closed form alone, asked for the branch nearest to the start.
@@ -41,16 +41,16 @@ pub fn cold<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a
 /// # Errors
 /// An arm without a closed form.
 pub fn nearest<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
-    Ok(vec![Box::new(Nearest::new(robot, problems)?)])
+    Ok(vec![Box::new(AnalyticIk::new(robot, problems)?)])
 }
 
 /// `platewash_kinematics::ik::IkSolver::solve`: damped least squares, QP and analytic starts.
-pub struct Solve<'a> {
+pub struct NumericIk<'a> {
     solver: IkSolver<'a>,
     targets: Vec<Pose>,
 }
 
-impl<'a> Solve<'a> {
+impl<'a> NumericIk<'a> {
     /// Prepares the solver for `tool0`.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl<'a> Solve<'a> {
     }
 }
 
-impl Solver for Solve<'_> {
+impl Solver for NumericIk<'_> {
     fn name(&self) -> &'static str {
         "platewash `solve`"
     }
@@ -77,7 +77,7 @@ impl Solver for Solve<'_> {
 }
 
 /// `platewash_kinematics::ik::IkSolver::solve_path`: damped least squares from a prediction, without jumps.
-pub struct Path<'a>(Solve<'a>);
+pub struct Path<'a>(NumericIk<'a>);
 
 impl<'a> Path<'a> {
     /// Prepares the solver for `tool0`.
@@ -85,7 +85,7 @@ impl<'a> Path<'a> {
     /// # Errors
     /// An arm without `tool0`.
     pub fn new(robot: &'a RobotModel, problems: &Problems) -> Result<Self, Box<dyn Error>> {
-        Ok(Self(Solve::new(robot, problems)?))
+        Ok(Self(NumericIk::new(robot, problems)?))
     }
 }
 
@@ -99,7 +99,7 @@ impl Solver for Path<'_> {
     }
 
     fn path(&mut self, start: &JointVector) -> Option<Vec<Option<JointVector>>> {
-        let Solve { solver, targets } = &self.0;
+        let NumericIk { solver, targets } = &self.0;
         Some(match solver.solve_path(targets, start) {
             Ok(path) => path.q.into_iter().map(Some).collect(),
             Err(_) => vec![None; targets.len()],
@@ -108,21 +108,21 @@ impl Solver for Path<'_> {
 }
 
 /// `platewash_kinematics::ik::analytic::AnalyticArm::nearest`: the closed form alone.
-pub struct Nearest<'a> {
+pub struct AnalyticIk<'a> {
     robot: &'a RobotModel,
     arm: AnalyticArm,
-    targets: Vec<Rigid>,
+    targets: Vec<RigidTransform>,
 }
 
-impl<'a> Nearest<'a> {
+impl<'a> AnalyticIk<'a> {
     /// Prepares the solver for `tool0`.
     ///
     /// # Errors
     /// An arm without a closed form or without `tool0` behind joint 6.
     pub fn new(robot: &'a RobotModel, problems: &Problems) -> Result<Self, Box<dyn Error>> {
         let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
-        let body = |pose: &Pose| AnalyticArm::body_target(&tool0, &Rigid::from(pose));
-        let targets: Option<Vec<Rigid>> = problems.targets.iter().map(body).collect();
+        let body = |pose: &Pose| AnalyticArm::body_target(&tool0, &RigidTransform::from(pose));
+        let targets: Option<Vec<RigidTransform>> = problems.targets.iter().map(body).collect();
         Ok(Self {
             robot,
             arm: AnalyticArm::recognise(robot)?,
@@ -131,7 +131,7 @@ impl<'a> Nearest<'a> {
     }
 }
 
-impl Solver for Nearest<'_> {
+impl Solver for AnalyticIk<'_> {
     fn name(&self) -> &'static str {
         "platewash `nearest`"
     }

@@ -3,7 +3,7 @@
 use crate::Tolerance;
 use crate::problems::{Problems, Seeds};
 use crate::solver::Solver;
-use platewash_kinematics::rotation::{Rigid, rotation_vector};
+use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame, ToolFrameError};
 
 /// Peers measure the error with other formulas; this much more than the tolerance is rounding.
@@ -74,14 +74,14 @@ impl Score {
     }
 }
 
-fn reached(target: &Pose, found: &Rigid, tolerance: Tolerance) -> bool {
-    let [position_m, angle_rad] = errors(&Rigid::from(target), found);
+fn reached(target: &Pose, found: &RigidTransform, tolerance: Tolerance) -> bool {
+    let [position_m, angle_rad] = errors(&RigidTransform::from(target), found);
     position_m <= tolerance.position_m * ROUNDING && angle_rad <= tolerance.orientation_rad * ROUNDING
 }
 
 /// Distance \[m\] and angle \[rad\] between two poses.
 #[must_use]
-pub fn errors(target: &Rigid, found: &Rigid) -> [f64; 2] {
+pub fn errors(target: &RigidTransform, found: &RigidTransform) -> [f64; 2] {
     let turn = target.rotation * found.rotation.transpose();
     [
         (target.translation - found.translation).norm(),

@@ -185,12 +185,12 @@ fn contact(tips: &Tips, pieces: &[Piece], schedule: &Schedule, deviation_m: f64)
 const RESOLUTION: f64 = 5e-3;
 
 /// Same stretch of time in both motions.
-struct Both<'a> {
+struct StretchPair<'a> {
     motion: Stretch<'a>,
     plan: Stretch<'a>,
 }
 
-impl Both<'_> {
+impl StretchPair<'_> {
     /// Deviation at both ends \[m\].
     fn ends_m(&self) -> [f64; 2] {
         [0, 1].map(|k| (self.motion.ends[k].position - self.plan.ends[k].position).norm())
@@ -219,7 +219,7 @@ pub(crate) fn check(
 }
 
 /// Returns the stretches of time in which each of two motions is one cubic.
-fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<Both<'a>> {
+fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<StretchPair<'a>> {
     let mut all = Vec::with_capacity(motion.len() + plan.len());
     let (mut i, mut j, mut from) = (0, 0, 0.0_f64);
     while let (Some(a), Some(b)) = (motion.get(i), plan.get(j)) {
@@ -228,7 +228,7 @@ fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<Both
         // A difference of rounding between two equal ends is no stretch.
         let within = |piece: &Piece| [from, to].map(|t| (t - piece.start_s).clamp(0.0, piece.length_s));
         if to > from {
-            all.push(Both {
+            all.push(StretchPair {
                 motion: arm.part(a, within(a)),
                 plan: arm.part(b, within(b)),
             });
@@ -240,7 +240,7 @@ fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<Both
     all
 }
 
-fn refine(arm: &Arm<'_>, both: &Both<'_>, tracker: &mut BoundTracker, depth: u32) {
+fn refine(arm: &Arm<'_>, both: &StretchPair<'_>, tracker: &mut BoundTracker, depth: u32) {
     let [from, to] = both.ends_m();
     let greater = if from > to || from.is_nan() { from } else { to };
     let sag = |stretch: &Stretch<'_>| stretch.sag(arm.derivatives(stretch).second());
@@ -252,7 +252,7 @@ fn refine(arm: &Arm<'_>, both: &Both<'_>, tracker: &mut BoundTracker, depth: u32
     let Some(([first, second], [plan_first, plan_second])) = halves else {
         return tracker.take(bound);
     };
-    let halves = [(first, plan_first), (second, plan_second)].map(|(motion, plan)| Both { motion, plan });
+    let halves = [(first, plan_first), (second, plan_second)].map(|(motion, plan)| StretchPair { motion, plan });
     let [_, middle_m] = halves[0].ends_m();
     tracker.see(middle_m, halves[0].motion.times()[1], &halves[0].motion.ends[1]);
     halves.iter().for_each(|half| refine(arm, half, tracker, depth + 1));

@@ -12,7 +12,7 @@ use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, V
 use crate::report::check::{Check, Status};
 use crate::report::headline::headline;
 use crate::report::requirement::Requirement;
-use crate::report::rests_on::RestsOn;
+use crate::report::verdict_basis::VerdictBasis;
 use crate::statements::schedule::{self, Schedule};
 use crate::statements::{dry_run, plates, wash_paths};
 use crate::subject::{self, Subject};
@@ -67,7 +67,7 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
         Ok(schedule) => (Some(schedule), Vec::new()),
         Err(gaps) => (None, gaps),
     };
-    let judged = Judged {
+    let judged = PlanUnderProof {
         plan: seen,
         subject: &subject,
         pieces: &pieces,
@@ -115,7 +115,7 @@ pub fn prove_motion(
 }
 
 /// The plan under judgement, with its motion.
-struct Judged<'a> {
+struct PlanUnderProof<'a> {
     plan: &'a Plan,
     subject: &'a Subject<'a>,
     pieces: &'a [Piece],
@@ -125,7 +125,7 @@ struct Judged<'a> {
 }
 
 /// Coverage and contact of each plate.
-type Washed = (Vec<PlateCoverage>, Vec<PlateContact>);
+type WashResults = (Vec<PlateCoverage>, Vec<PlateContact>);
 
 /// Results of the proof of a plan.
 struct Proof {
@@ -136,7 +136,7 @@ struct Proof {
     exclusions: Exclusions,
 }
 
-impl Judged<'_> {
+impl PlanUnderProof<'_> {
     /// Judges everything. `segments` is the check that was made before.
     fn proof(&self, segments: Check) -> Result<Proof, ProveError> {
         let (subject, schedule) = (self.subject, self.schedule);
@@ -189,7 +189,7 @@ impl Judged<'_> {
     }
 
     /// Checks the motion of the tip and the sponge on the plates: deviations, coverage, contact and reach.
-    fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<Washed, ProveError> {
+    fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<WashResults, ProveError> {
         let (subject, pieces) = (self.subject, self.pieces);
         let deviations = following::checks(arm, subject, pieces, self.schedule);
         let mut washes = Vec::new();
@@ -198,7 +198,7 @@ impl Judged<'_> {
             // A deviation is one from the stated path: it tells of the plate where there is one on it.
             let has_paths = |c: &Check| c.requirement == Requirement::WashPaths && c.status == Status::Proved;
             let has_paths = checks.iter().any(has_paths);
-            let proved = reach::Proved {
+            let proved = reach::ReachInputs {
                 arm,
                 pieces,
                 schedule,
@@ -234,7 +234,7 @@ fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
         swept: proof.swept,
         contact: proof.contact,
         clearance: proof.clearance,
-        rests_on: RestsOn::new(&plan.job, arm, proof.exclusions),
+        rests_on: VerdictBasis::new(&plan.job, arm, proof.exclusions),
     };
     certificate.headline = headline(&certificate);
     certificate

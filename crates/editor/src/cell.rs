@@ -1,21 +1,21 @@
 //! Work from the scenario to the proof, one line per step: the parts of the cell, an outlook, the plan and its proof, or the
 //! reason that there is none, and places at which plates could lie.
 
+use crate::answer_writer::{AnswerWriter, End};
 use crate::moves::moves;
 use crate::protocol::{
-    ArmLine, CellLine, CellParts, CellQuestion, FindingLine, MapLine, MapQuestion, PlanParts, PlateChance, PlateProof,
-    Unwashable, Want,
+    ArmLine, CellLine, CellParts, CellQuestion, FindingLine, LastStage, MapLine, MapQuestion, PlanParts, PlateChance,
+    PlateProof, UnwashableReport,
 };
 use crate::refusal::plain;
-use crate::subject::{Latest, Placed, Subject, changed, placed};
-use crate::told::{End, Told};
+use crate::subject::{LastResult, PlacedJob, Subject, changed, placed};
 use platewash_certificate::{Certificate, prove_with};
 use platewash_planner::{
-    Chance, InfeasibleReport, MapArea, MapPatch, PlanError, Planned, PlateOutlook, SEARCHED_M, UnwashablePlate, Watch,
-    nearest_place, outlook, plan_here, unwashable_plates, washable_map,
+    Chance, InfeasibleReport, MapArea, MapPatch, PlanError, PlannedJob, PlateOutlook, SEARCHED_M, UnwashablePlate,
+    Watch, nearest_place, outlook, plan_here, unwashable_plates, washable_map,
 };
 use platewash_scenario::Failure;
-use platewash_viewer::view::{self, Beside, View};
+use platewash_viewer::view::{self, View, ViewExtras};
 use platewash_workcell::cancel::Deadline;
 use platewash_workcell::layout::Finding;
 use platewash_workcell::plan::Plan;
@@ -27,14 +27,14 @@ const MEANING: &str = "Where a plate of this size could lie, the others as they 
                        configurations were found for all of its wash path. Not planned, not proved.";
 
 /// Answers a question for a cell.
-pub fn answer(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>, deadline: &Deadline) {
+pub fn answer(subject: &Subject, question: &CellQuestion, told: &mut AnswerWriter<'_>, deadline: &Deadline) {
     if let Err(end) = told_cell(subject, question, told) {
         let too_long = "this cell takes longer than a minute to plan and prove; `platewash run` takes its time";
         told.end(&end, deadline, too_long);
     }
 }
 
-fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>) -> Result<(), End> {
+fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut AnswerWriter<'_>) -> Result<(), End> {
     let changed = changed(subject, &question.text, &question.edits, &told.gone)?;
     told.step("read");
     told.line(&CellLine::Scenario {
@@ -46,7 +46,7 @@ fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>) ->
     let placed = placed(subject, changed.scenario?, &told.gone)?;
     told.step("place");
     tell_parts(&placed, question.arm.as_deref(), told);
-    if question.want == Want::Preview {
+    if question.want == LastStage::Preview {
         return match tell_preview(&placed, told) {
             // Where no guess can be made, as where the arm is not clear at home, why.
             Some(error) => tell_unplanned(&placed, error, false, told).map(drop),
@@ -65,7 +65,7 @@ fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>) ->
         Some(Err(error)) => (None, None, tell_unplanned(&placed, error, true, told)?),
         None => return Err(End::Failed("planning did not begin".to_owned())),
     };
-    subject.remember(|| Latest {
+    subject.remember(|| LastResult {
         text: changed.text,
         scenario: placed.scenario,
         plan,
@@ -76,8 +76,8 @@ fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut Told<'_>) ->
 }
 
 /// Sends the parts of the cell; `arm` is the id of the arm that the page has.
-fn tell_parts(placed: &Placed, arm: Option<&str>, told: &mut Told<'_>) {
-    let Placed {
+fn tell_parts(placed: &PlacedJob, arm: Option<&str>, told: &mut AnswerWriter<'_>) {
+    let PlacedJob {
         scenario,
         loaded,
         layout,
@@ -105,7 +105,7 @@ fn tell_parts(placed: &Placed, arm: Option<&str>, told: &mut Told<'_>) {
 }
 
 /// Tells a guess; why none can be made, where that is so.
-fn tell_preview(placed: &Placed, told: &mut Told<'_>) -> Option<PlanError> {
+fn tell_preview(placed: &PlacedJob, told: &mut AnswerWriter<'_>) -> Option<PlanError> {
     let found = outlook(&placed.job, &Watch::silent(&told.gone));
     told.step("preview");
     let plates = match found {
@@ -117,13 +117,13 @@ fn tell_preview(placed: &Placed, told: &mut Told<'_>) -> Option<PlanError> {
 }
 
 /// A plan, its proof, and the first line of the result.
-type Proved = (Option<Arc<Plan>>, Option<Arc<Certificate>>, String);
+type PlanAndProof = (Option<Arc<Plan>>, Option<Arc<Certificate>>, String);
 
 /// Tells a plan, then its proof.
-fn tell_plan(placed: &Placed, planned: Planned, told: &mut Told<'_>) -> Result<Proved, End> {
+fn tell_plan(placed: &PlacedJob, planned: PlannedJob, told: &mut AnswerWriter<'_>) -> Result<PlanAndProof, End> {
     let arm = &placed.loaded.arm;
     let plan = planned.plan;
-    let view = View::of_plan(&plan, arm, &Beside::default()).map_err(|error| End::Failed(error.to_string()))?;
+    let view = View::of_plan(&plan, arm, &ViewExtras::default()).map_err(|error| End::Failed(error.to_string()))?;
     told.gone.check()?;
     told.step("show plan");
     told.line(&CellLine::Plan(Box::new(PlanParts {
@@ -156,7 +156,12 @@ fn tell_plan(placed: &Placed, planned: Planned, told: &mut Told<'_>) -> Result<P
 }
 
 /// Tells why a job was not planned and, where that is wanted, where each plate that stands in the way could lie; the first line of it.
-fn tell_unplanned(placed: &Placed, error: PlanError, is_wanted: bool, told: &mut Told<'_>) -> Result<String, End> {
+fn tell_unplanned(
+    placed: &PlacedJob,
+    error: PlanError,
+    is_wanted: bool,
+    told: &mut AnswerWriter<'_>,
+) -> Result<String, End> {
     let scenario = &placed.scenario;
     let Some(report) = InfeasibleReport::new(&scenario.name, scenario.seed, &error) else {
         return Err(error.into());
@@ -174,10 +179,10 @@ fn tell_unplanned(placed: &Placed, error: PlanError, is_wanted: bool, told: &mut
         other => other.unwrap_or_default(),
     };
     told.step("explain");
-    let mut shown: Vec<_> = plates.iter().map(Unwashable::from).collect();
+    let mut shown: Vec<_> = plates.iter().map(UnwashableReport::from).collect();
     for of_report in &report.plates {
         if shown.iter().all(|plate| plate.plate != of_report.plate) {
-            shown.push(Unwashable::reached_in_vain(of_report.plate, &report.reason));
+            shown.push(UnwashableReport::reached_in_vain(of_report.plate, &report.reason));
         }
     }
     shown.sort_by_key(|plate| plate.plate);
@@ -202,7 +207,7 @@ fn tell_unplanned(placed: &Placed, error: PlanError, is_wanted: bool, told: &mut
 }
 
 /// Answers a question for a map: places at which a plate could be washed, sent as they are found.
-pub fn map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>, deadline: &Deadline) {
+pub fn map(subject: &Subject, question: &MapQuestion, told: &mut AnswerWriter<'_>, deadline: &Deadline) {
     let answered = told_map(subject, question, told);
     told.step("map");
     match answered {
@@ -217,7 +222,7 @@ pub fn map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>, deadl
     }
 }
 
-fn told_map(subject: &Subject, question: &MapQuestion, told: &mut Told<'_>) -> Result<(), End> {
+fn told_map(subject: &Subject, question: &MapQuestion, told: &mut AnswerWriter<'_>) -> Result<(), End> {
     let gone = told.gone.clone();
     let scenario = changed(subject, &question.text, &[], &gone)?.scenario?;
     let placed = placed(subject, scenario, &gone)?;
@@ -250,7 +255,7 @@ fn reason(error: PlanError) -> String {
     }
 }
 
-impl From<&UnwashablePlate> for Unwashable {
+impl From<&UnwashablePlate> for UnwashableReport {
     fn from(plate: &UnwashablePlate) -> Self {
         Self {
             plate: plate.plate,
@@ -264,7 +269,7 @@ impl From<&UnwashablePlate> for Unwashable {
     }
 }
 
-impl Unwashable {
+impl UnwashableReport {
     /// A plate that could be washed if the arm got there and away.
     fn reached_in_vain(plate: usize, reason: &str) -> Self {
         Self {

@@ -1,18 +1,18 @@
 //! An editor: it answers the page's questions, makes the page's first contents, and serves the page.
 
+use crate::answer_writer::AnswerWriter;
 use crate::cell;
-use crate::keep::{Keeper, Kept, Standing};
-use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, MapQuestion, SaveQuestion, Want};
+use crate::keep::{DiskContents, Keeper, SavedFile};
+use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, LastStage, MapQuestion, SaveQuestion};
 use crate::sessions::{Lane, Sessions, Turn, is_name};
 use crate::subject::{
-    LONGEST, LONGEST_MAP, Latest, MOST_QUESTION_BYTES, Subject, accepted, may_name_its_files, stated,
+    LONGEST, LONGEST_MAP, LastResult, MOST_QUESTION_BYTES, Subject, accepted, may_name_its_files, stated,
 };
-use crate::told::Told;
 use platewash_kinematics::JointVector;
 use platewash_scenario::{Draft, FormKey, Scenario, ScenarioError, form, source};
 use platewash_viewer::bundle::Bundle;
 use platewash_viewer::page::{self, PageError};
-use platewash_viewer::server::{Asked, Gone, Page, Service, Site, token};
+use platewash_viewer::server::{NoListener, Page, QuestionLimits, Service, Site, token};
 use platewash_viewer::view::View;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::cancel::Deadline;
@@ -43,7 +43,7 @@ pub enum EditorError {
 #[derive(Debug)]
 pub struct Editor {
     subject: Subject,
-    kept: Option<Kept>,
+    kept: Option<SavedFile>,
     sessions: Sessions,
 }
 
@@ -74,7 +74,7 @@ impl Editor {
     #[must_use]
     pub fn kept_by(self, keeper: Box<dyn Keeper>) -> Self {
         Self {
-            kept: Some(Kept::new(keeper)),
+            kept: Some(SavedFile::new(keeper)),
             ..self
         }
     }
@@ -113,7 +113,7 @@ impl Editor {
 
     /// Latest answer of an editor that is [`Editor::remembering`].
     #[must_use]
-    pub fn latest(&self) -> Option<Latest> {
+    pub fn latest(&self) -> Option<LastResult> {
         self.subject.latest()
     }
 
@@ -150,7 +150,7 @@ impl Editor {
     /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it
     /// is known. The work stops where `tell` returns that nobody listens any more, or `gone` is cancelled.
     pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
-        let mut told = Told::new(tell, gone);
+        let mut told = AnswerWriter::new(tell, gone);
         let answered = catch_unwind(AssertUnwindSafe(|| self.answer_told(path, question, &mut told, gone)));
         let words = match answered {
             Ok(Ok(())) => return,
@@ -161,13 +161,19 @@ impl Editor {
         told.failed(&words);
     }
 
-    fn answer_told(&self, path: &str, question: &[u8], told: &mut Told<'_>, gone: &CancelToken) -> Result<(), String> {
+    fn answer_told(
+        &self,
+        path: &str,
+        question: &[u8],
+        told: &mut AnswerWriter<'_>,
+        gone: &CancelToken,
+    ) -> Result<(), String> {
         match (path, &self.kept) {
             ("/cell", _) => {
                 let question: CellQuestion = read(question)?;
                 let lane = match question.want {
-                    Want::Preview => Lane::Preview,
-                    Want::Proof => Lane::Proof,
+                    LastStage::Preview => Lane::Preview,
+                    LastStage::Proof => Lane::Proof,
                 };
                 let _turn = self.turn(&question.session, lane, gone)?;
                 let deadline = Deadline::after(LONGEST, gone);
@@ -198,9 +204,9 @@ impl Editor {
     /// Saves a text, with the result of its scenario where that is small enough to plan while the user waits.
     fn save(
         &self,
-        kept: &Kept,
+        kept: &SavedFile,
         question: &SaveQuestion,
-        told: &mut Told<'_>,
+        told: &mut AnswerWriter<'_>,
         gone: &CancelToken,
     ) -> Result<(), String> {
         let subject = &self.subject;
@@ -257,14 +263,14 @@ struct EditDocument<'a> {
 
 impl<'a> EditDocument<'a> {
     /// Document of a scenario, with the file that it is saved in.
-    fn new(channel: Channel, text: &'a str, kept: Option<&Kept>) -> Self {
+    fn new(channel: Channel, text: &'a str, kept: Option<&SavedFile>) -> Self {
         let standing = kept.and_then(|kept| kept.standing().ok());
         Self {
             format: FORMAT,
             channel,
-            file: kept.map(Kept::file),
-            disk: standing.as_ref().and_then(Standing::hash),
-            saved: standing.and_then(Standing::into_text),
+            file: kept.map(SavedFile::file),
+            disk: standing.as_ref().and_then(DiskContents::hash),
+            saved: standing.and_then(DiskContents::into_text),
             text,
             keys: form(),
         }
@@ -276,7 +282,7 @@ const MOST_SHORT_BYTES: usize = 1 << 10;
 
 /// An editor, its page and its token.
 #[derive(Debug)]
-struct Served {
+struct EditorSite {
     editor: Editor,
     bundle: Bundle,
     token: String,
@@ -289,7 +295,7 @@ struct Served {
 /// [`EditorError::Token`], and [`EditorError`] for a page that cannot be made.
 pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
     let token = token().map_err(|error| EditorError::Token(error.to_string()))?;
-    let served = Arc::new(Served { editor, bundle, token });
+    let served = Arc::new(EditorSite { editor, bundle, token });
     // An error shows now, not at the first visit.
     served.page()?;
     let pages = served.clone();
@@ -300,18 +306,18 @@ pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
     })
 }
 
-impl Served {
+impl EditorSite {
     /// The page of the file on disk; of the scenario as it was opened, where there is no file or it is no scenario.
     fn page(&self) -> Result<String, EditorError> {
-        let on_disk = self.editor.kept.as_ref().and_then(Kept::scenario);
+        let on_disk = self.editor.kept.as_ref().and_then(SavedFile::scenario);
         let text = on_disk.as_deref().unwrap_or(self.editor.text());
         self.editor.page(Channel::Server, text, &self.bundle)
     }
 }
 
-impl Service for Served {
-    fn knows(&self, path: &str) -> Option<Asked> {
-        let asked = |is_work, most_bytes| Some(Asked { is_work, most_bytes });
+impl Service for EditorSite {
+    fn knows(&self, path: &str) -> Option<QuestionLimits> {
+        let asked = |is_work, most_bytes| Some(QuestionLimits { is_work, most_bytes });
         match path {
             "/cell" | "/map" | "/save" => asked(true, MOST_QUESTION_BYTES),
             "/disk" | "/hello" => asked(false, MOST_SHORT_BYTES),
@@ -323,12 +329,12 @@ impl Service for Served {
         &self,
         path: &str,
         question: &[u8],
-        tell: &mut dyn FnMut(String) -> Result<(), Gone>,
+        tell: &mut dyn FnMut(String) -> Result<(), NoListener>,
         gone: &CancelToken,
     ) {
         let mut tell = |line| tell(line).is_ok();
         match (path, &self.editor.kept) {
-            ("/hello", Some(kept)) => kept.greet(&mut Told::new(&mut tell, gone)),
+            ("/hello", Some(kept)) => kept.greet(&mut AnswerWriter::new(&mut tell, gone)),
             _ => self.editor.answer(path, question, &mut tell, gone),
         }
     }

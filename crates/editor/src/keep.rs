@@ -1,7 +1,7 @@
 //! The file on disk: its contents, and writing.
 
+use crate::answer_writer::AnswerWriter;
 use crate::protocol::{DiskLine, DiskQuestion, FORMAT, HelloLine, SaveLine, SaveQuestion};
-use crate::told::Told;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_scenario::Scenario;
 use platewash_workcell::cancel::CancelToken;
@@ -27,8 +27,8 @@ pub trait Keeper: Debug + Send + Sync {
     /// all is ready, just before anything is replaced; where it returns false, nothing is replaced.
     ///
     /// # Errors
-    /// [`NotWritten`].
-    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Written, NotWritten>;
+    /// [`SaveError`].
+    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<SaveReport, SaveError>;
 }
 
 /// Contents to write.
@@ -43,7 +43,7 @@ pub struct Save<'a> {
 /// Reason that nothing was written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NotWritten {
+pub enum SaveError {
     /// The file on disk has changed meanwhile.
     #[error("the file was changed meanwhile")]
     Changed,
@@ -54,7 +54,7 @@ pub enum NotWritten {
 
 /// Result of writing.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Written {
+pub struct SaveReport {
     /// The files.
     pub files: Vec<String>,
     /// Result of the scenario, in one line.
@@ -63,17 +63,17 @@ pub struct Written {
 
 /// A file that pages save to, one after the other.
 #[derive(Debug)]
-pub struct Kept {
+pub struct SavedFile {
     keeper: Box<dyn Keeper>,
     one_at_a_time: Mutex<()>,
 }
 
 /// Contents of the file on disk.
-pub struct Standing {
+pub struct DiskContents {
     bytes: Option<Vec<u8>>,
 }
 
-impl Standing {
+impl DiskContents {
     /// SHA-256 of it; `None` for nothing.
     pub fn hash(&self) -> Option<String> {
         self.bytes.as_deref().map(sha256_hex)
@@ -89,7 +89,7 @@ impl Standing {
     }
 }
 
-impl Kept {
+impl SavedFile {
     /// A file.
     pub fn new(keeper: Box<dyn Keeper>) -> Self {
         Self {
@@ -115,12 +115,12 @@ impl Kept {
     }
 
     /// Reads the file on disk.
-    pub fn standing(&self) -> Result<Standing, String> {
-        self.keeper.on_disk().map(|bytes| Standing { bytes })
+    pub fn standing(&self) -> Result<DiskContents, String> {
+        self.keeper.on_disk().map(|bytes| DiskContents { bytes })
     }
 
     /// Reads the file until two reads, 0.2 s apart, agree: an editor that empties a file before it writes it is waited for, for up to 4 s.
-    fn settled(&self, known: Option<&str>) -> Result<Standing, String> {
+    fn settled(&self, known: Option<&str>) -> Result<DiskContents, String> {
         let mut standing = self.standing()?;
         for _ in 0..20 {
             let hash = standing.hash();
@@ -137,7 +137,7 @@ impl Kept {
     }
 
     /// Answers if the file on disk has changed.
-    pub fn look(&self, question: &DiskQuestion, told: &mut Told<'_>) {
+    pub fn look(&self, question: &DiskQuestion, told: &mut AnswerWriter<'_>) {
         let standing = match self.settled(question.disk.as_deref()) {
             Ok(standing) => standing,
             Err(words) => {
@@ -165,7 +165,7 @@ impl Kept {
         &self,
         question: &SaveQuestion,
         scenario: Result<&Scenario, &str>,
-        told: &mut Told<'_>,
+        told: &mut AnswerWriter<'_>,
         cancel: &CancelToken,
     ) {
         let _one = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
@@ -188,16 +188,16 @@ impl Kept {
                 files: &written.files,
                 words: &written.words,
             }),
-            Err(NotWritten::Changed) => match self.standing() {
+            Err(SaveError::Changed) => match self.standing() {
                 Ok(now) => told_conflict(&now, told),
                 Err(words) => told.failed(&words),
             },
-            Err(NotWritten::Cannot(words)) => told.failed(&words),
+            Err(SaveError::Cannot(words)) => told.failed(&words),
         }
     }
 
     /// Greets a page that comes from a server that is gone.
-    pub fn greet(&self, told: &mut Told<'_>) {
+    pub fn greet(&self, told: &mut AnswerWriter<'_>) {
         told.line(&HelloLine {
             format: FORMAT,
             file: Some(&self.file()),
@@ -207,7 +207,7 @@ impl Kept {
 }
 
 /// Tells that something else stands on disk.
-fn told_conflict(standing: &Standing, told: &mut Told<'_>) {
+fn told_conflict(standing: &DiskContents, told: &mut AnswerWriter<'_>) {
     let hash = standing.hash();
     let words = match hash {
         Some(_) => {
@@ -228,9 +228,9 @@ mod tests {
 
     /// A file that another program is writing: each read gives the next text.
     #[derive(Debug)]
-    struct BeingWritten(Mutex<Vec<&'static str>>);
+    struct HalfWrittenFile(Mutex<Vec<&'static str>>);
 
-    impl Keeper for BeingWritten {
+    impl Keeper for HalfWrittenFile {
         fn file(&self) -> String {
             "case.toml".into()
         }
@@ -245,15 +245,15 @@ mod tests {
             Ok(Some(text.into()))
         }
 
-        fn write(&self, _: &Save<'_>, _: &dyn Fn() -> bool, _: &CancelToken) -> Result<Written, NotWritten> {
-            Err(NotWritten::Changed)
+        fn write(&self, _: &Save<'_>, _: &dyn Fn() -> bool, _: &CancelToken) -> Result<SaveReport, SaveError> {
+            Err(SaveError::Changed)
         }
     }
 
     #[test]
     fn a_file_that_is_being_written_is_waited_for() {
         let read = |reads: &[&'static str], known| {
-            let kept = Kept::new(Box::new(BeingWritten(Mutex::new(reads.to_vec()))));
+            let kept = SavedFile::new(Box::new(HalfWrittenFile(Mutex::new(reads.to_vec()))));
             kept.settled(known).unwrap().into_text().unwrap()
         };
         let before = sha256_hex(b"before");

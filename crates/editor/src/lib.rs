@@ -13,9 +13,10 @@
 //! | from the scenario to the proof, or the reason that there is none; places at which plates could lie | `cell.rs` |
 //! | the things that a user can move | `moves.rs` |
 //! | the reasons that a scenario is refused | `refusal.rs` |
-//! | lines on their way to the page, their time, the reasons that an answer ends | `told.rs` |
+//! | lines on their way to the page, their time, the reasons that an answer ends | `answer_writer.rs` |
 //! | the file on disk | `keep.rs` |
 
+mod answer_writer;
 mod cell;
 mod editor;
 mod keep;
@@ -24,8 +25,7 @@ pub mod protocol;
 mod refusal;
 mod sessions;
 mod subject;
-mod told;
 
 pub use editor::{Editor, EditorError, site};
-pub use keep::{Keeper, NotWritten, Save, Written};
-pub use subject::{Latest, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};
+pub use keep::{Keeper, Save, SaveError, SaveReport};
+pub use subject::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};

@@ -1,6 +1,6 @@
 //! Questions of the page and lines of answers, as JSON: `platewash-edit/1`.
 
-use crate::told::Milliseconds;
+use crate::answer_writer::Milliseconds;
 use platewash_planner::Chance;
 use platewash_viewer::view;
 use platewash_workcell::tool::Tool;
@@ -23,7 +23,7 @@ pub struct CellQuestion {
     /// Changes to it, in order.
     pub edits: Vec<Edit>,
     /// Last stage of the work.
-    pub want: Want,
+    pub want: LastStage,
     /// Id of the arm that the page has.
     pub arm: Option<String>,
 }
@@ -41,7 +41,7 @@ pub struct Edit {
 /// Last stage of the work for a question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Want {
+pub enum LastStage {
     /// Up to the outlook.
     Preview,
     /// Up to the proof.
@@ -119,7 +119,7 @@ pub enum CellLine<'a> {
         /// True where it is proved that there is none.
         proved: bool,
         /// The plates concerned.
-        plates: &'a [Unwashable],
+        plates: &'a [UnwashableReport],
         /// Time that it took.
         ms: Milliseconds,
     },
@@ -313,7 +313,7 @@ pub struct PlateProof {
 
 /// A plate that cannot be washed, or that no way to wash was found for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Unwashable {
+pub struct UnwashableReport {
     /// The plate.
     pub plate: usize,
     /// True where it is proved that it cannot be washed.

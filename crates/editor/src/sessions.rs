@@ -22,11 +22,11 @@ const LENGTH: RangeInclusive<usize> = 16..=64;
 /// Work that pages have under way.
 #[derive(Debug, Default)]
 pub struct Sessions {
-    running: Mutex<HashMap<(String, Lane), Running>>,
+    running: Mutex<HashMap<(String, Lane), RunningTask>>,
 }
 
 #[derive(Debug)]
-struct Running {
+struct RunningTask {
     number: u64,
     token: CancelToken,
 }
@@ -61,7 +61,7 @@ impl Sessions {
             before.token.cancel();
         }
         let token = token.clone();
-        running.insert(key.clone(), Running { number, token });
+        running.insert(key.clone(), RunningTask { number, token });
         Turn {
             sessions: self,
             key,
@@ -69,7 +69,7 @@ impl Sessions {
         }
     }
 
-    fn lock(&self) -> MutexGuard<'_, HashMap<(String, Lane), Running>> {
+    fn lock(&self) -> MutexGuard<'_, HashMap<(String, Lane), RunningTask>> {
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,8 +1,8 @@
 //! Subject of an editor: the scenario as it was opened, its change by a question, the limit on work, and the latest answer.
 
+use crate::answer_writer::End;
 use crate::protocol::{Edit, Refusal};
 use crate::refusal::{about, at, of_edit, of_scenario, plain};
-use crate::told::End;
 use platewash_certificate::Certificate;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::fingerprint::sha256_hex;
@@ -63,12 +63,12 @@ pub struct Subject {
     pub arms: Arms,
     /// Meshes that were cut.
     pub solids: Solids,
-    latest: Mutex<Option<Latest>>,
+    latest: Mutex<Option<LastResult>>,
 }
 
 /// Result of the last question that was answered to its end.
 #[derive(Debug, Clone)]
-pub struct Latest {
+pub struct LastResult {
     /// The scenario's text.
     pub text: String,
     /// The scenario.
@@ -93,12 +93,12 @@ impl Subject {
     }
 
     /// Returns the latest answer, if it is remembered.
-    pub fn latest(&self) -> Option<Latest> {
+    pub fn latest(&self) -> Option<LastResult> {
         self.latest.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Remembers the result of a question, where that is enabled.
-    pub fn remember(&self, news: impl FnOnce() -> Latest) {
+    pub fn remember(&self, news: impl FnOnce() -> LastResult) {
         if self.remembers {
             *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(news());
         }
@@ -119,7 +119,7 @@ impl Subject {
 }
 
 /// A text with its changes.
-pub struct Changed {
+pub struct EditedText {
     /// The text.
     pub text: String,
     /// Values that it states.
@@ -134,7 +134,7 @@ pub struct Changed {
 ///
 /// # Errors
 /// [`End`]: it is no TOML, a change is none, or it is given up.
-pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelToken) -> Result<Changed, End> {
+pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelToken) -> Result<EditedText, End> {
     if edits.len() > MOST_EDITS {
         let words = format!("{} changes at once; at most {MOST_EDITS} are made", edits.len());
         return Err(plain(words).into());
@@ -153,7 +153,7 @@ pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelTok
         .map(values_of)
         .unwrap_or_default();
     let scenario = in_folder(subject, &draft);
-    Ok(Changed {
+    Ok(EditedText {
         text: draft.text().to_owned(),
         stated,
         values,
@@ -204,12 +204,12 @@ const KEPT: usize = 4;
 /// Arms by the data that decide them.
 #[derive(Debug, Default)]
 pub struct Arms {
-    kept: Mutex<Vec<Loaded>>,
+    kept: Mutex<Vec<LoadedArm>>,
 }
 
 /// An arm, and an id of its description.
 #[derive(Debug, Clone)]
-pub struct Loaded {
+pub struct LoadedArm {
     /// The id: it differs wherever the arm may differ.
     pub id: String,
     /// The arm.
@@ -218,7 +218,7 @@ pub struct Loaded {
 
 impl Arms {
     /// The arm of a scenario.
-    pub fn of(&self, scenario: &Scenario) -> Result<Loaded, Failure> {
+    pub fn of(&self, scenario: &Scenario) -> Result<LoadedArm, Failure> {
         let id = id(scenario);
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(at) = kept.iter().position(|loaded| loaded.id == id) {
@@ -228,7 +228,7 @@ impl Arms {
         }
         drop(kept);
         let arm = scenario.arm()?;
-        let loaded = Loaded { id, arm };
+        let loaded = LoadedArm { id, arm };
         kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.push(loaded.clone());
         if kept.len() > KEPT {
@@ -254,11 +254,11 @@ fn written(path: &Path) -> Option<(SystemTime, u64)> {
 }
 
 /// A job, and the further statements of its scenario.
-pub struct Placed {
+pub struct PlacedJob {
     /// The scenario.
     pub scenario: Scenario,
     /// The arm.
-    pub loaded: Loaded,
+    pub loaded: LoadedArm,
     /// The plates, and the findings on them.
     pub layout: Layout,
     /// The job.
@@ -266,11 +266,11 @@ pub struct Placed {
 }
 
 /// The job of a scenario.
-pub fn placed(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<Placed, End> {
+pub fn placed(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<PlacedJob, End> {
     let loaded = subject.arms.of(&scenario)?;
     let layout = scenario.place(&loaded.arm, &Watch::silent(cancel))?;
     let job = scenario.job_on(&loaded.arm, &layout)?;
-    Ok(Placed {
+    Ok(PlacedJob {
         scenario,
         loaded,
         layout,

@@ -1,7 +1,7 @@
 //! Questions as a page asks them, and the lines of their answers.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use platewash_editor::{Editor, Keeper, MOST_CONTACT_POINTS, NotWritten, Save, Written};
+use platewash_editor::{Editor, Keeper, MOST_CONTACT_POINTS, Save, SaveError, SaveReport};
 use platewash_scenario::Scenario;
 use platewash_workcell::cancel::CancelToken;
 use serde_json::{Value, json};
@@ -380,7 +380,7 @@ fn a_page_that_others_reach_names_no_files() {
     let named = Editor::of_text("cell", &text, None).unwrap().open_to_others();
     assert!(other(&named, &text).contains("other machines"));
     let folder = tempfile::tempdir().unwrap();
-    let kept = |editor: Editor| editor.kept_by(Box::new(InFolder(folder.path().join("cell.toml"))));
+    let kept = |editor: Editor| editor.kept_by(Box::new(FolderFile(folder.path().join("cell.toml"))));
     let save =
         json!({"session": "sessionofthistest", "disk": null, "force": true, "text": text.replace(urdf, "/etc/passwd")});
     let lines = ask(&kept(kitchen().open_to_others()), "/save", &save);
@@ -398,9 +398,9 @@ fn a_page_that_others_reach_names_no_files() {
 
 /// A file of a test.
 #[derive(Debug)]
-struct InFolder(PathBuf);
+struct FolderFile(PathBuf);
 
-impl Keeper for InFolder {
+impl Keeper for FolderFile {
     fn file(&self) -> String {
         "cell.toml".to_owned()
     }
@@ -417,15 +417,15 @@ impl Keeper for InFolder {
         }
     }
 
-    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, _: &CancelToken) -> Result<Written, NotWritten> {
+    fn write(&self, save: &Save<'_>, still: &dyn Fn() -> bool, _: &CancelToken) -> Result<SaveReport, SaveError> {
         if save.text == "slow" {
             fs::write(&self.0, "meanwhile").unwrap();
         }
         if !still() {
-            return Err(NotWritten::Changed);
+            return Err(SaveError::Changed);
         }
-        fs::write(&self.0, save.text).map_err(|error| NotWritten::Cannot(error.to_string()))?;
-        Ok(Written {
+        fs::write(&self.0, save.text).map_err(|error| SaveError::Cannot(error.to_string()))?;
+        Ok(SaveReport {
             files: vec!["cell.toml".to_owned()],
             words: "PROVED".to_owned(),
         })
@@ -436,7 +436,7 @@ impl Keeper for InFolder {
 fn nothing_is_written_over_what_somebody_else_wrote() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("cell.toml");
-    let editor = kitchen().kept_by(Box::new(InFolder(file.clone())));
+    let editor = kitchen().kept_by(Box::new(FolderFile(file.clone())));
     let save = |text: &str, disk: &Value, force: bool| {
         let lines = ask(
             &editor,

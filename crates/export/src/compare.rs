@@ -9,7 +9,7 @@
 
 use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError};
 use crate::export::{self, ExportError};
-use crate::judged::{self, Judged};
+use crate::judgement::{self, ProgramJudgement};
 use crate::reading::{ReadPoint, Reading, number_length};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
@@ -28,7 +28,7 @@ const MOST_CHANGES: usize = 20;
 
 /// Result of reading a program back and judging it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Compared {
+pub struct ProgramComparison {
     /// Its dialect.
     pub dialect: &'static str,
     /// Differences from the program that was handed over, in the order of its lines; the first of them.
@@ -38,7 +38,7 @@ pub struct Compared {
     /// Tolerance of the tip about the plan that the program states, otherwise the default \[m\].
     pub tolerance_m: f64,
     /// Proof of the program as it stands.
-    pub judged: Judged,
+    pub judged: ProgramJudgement,
     /// Refusal where the tool that the program states is not the plan's.
     pub tool: Option<Refusal>,
     /// True where the program refuses to move if the arm does not stand at the start ([`Reading::checks_start`]).
@@ -91,7 +91,7 @@ pub fn compare(
     arm: &RobotModel,
     files: &[ProgramFile],
     cancel: &CancelToken,
-) -> Result<Compared, CompareError> {
+) -> Result<ProgramComparison, CompareError> {
     let of = |dialect: &&&'static dyn Dialect| files.iter().any(|file| dialect.is_in(file));
     let unknown = || CompareError::Unknown { name: name(files) };
     let dialect = *DIALECTS.iter().find(of).ok_or_else(unknown)?;
@@ -104,7 +104,7 @@ pub(crate) fn compare_in(
     arm: &RobotModel,
     (dialect, files): (&dyn Dialect, &[ProgramFile]),
     cancel: &CancelToken,
-) -> Result<Compared, CompareError> {
+) -> Result<ProgramComparison, CompareError> {
     refuse_other_plan(certified.plan(), files)?;
     let found = dialect.read(files, arm)?;
     // For a program that states no settings, the share of the speed is the one that it states elsewhere, or follows from its
@@ -135,7 +135,7 @@ pub(crate) fn compare_in(
     let mut changes = changes((files, &found), (&expected.files, &said));
     let more_changes = changes.len().saturating_sub(MOST_CHANGES);
     changes.truncate(MOST_CHANGES);
-    Ok(Compared {
+    Ok(ProgramComparison {
         dialect: dialect.name(),
         changes,
         more_changes,
@@ -143,7 +143,7 @@ pub(crate) fn compare_in(
         // One that says nothing else was judged just now, when it was made again.
         judged: match found == expected.reading {
             true => expected.judged,
-            false => judged::judge(certified, &found, arm, settings.tolerance_m, cancel)?,
+            false => judgement::judge(certified, &found, arm, settings.tolerance_m, cancel)?,
         },
         checks_start: found.checks_start,
         tool: found
@@ -178,7 +178,7 @@ fn refuse_other_plan(plan: &Plan, files: &[ProgramFile]) -> Result<(), CompareEr
     Ok(())
 }
 
-impl Compared {
+impl ProgramComparison {
     /// Returns true where nothing was changed but spaces and the notation of numbers.
     #[must_use]
     pub fn is_unchanged(&self) -> bool {
@@ -209,10 +209,10 @@ pub struct Change {
 }
 
 /// A program: its files and its reading.
-type Said<'a> = (&'a [ProgramFile], &'a Reading);
+type ParsedProgram<'a> = (&'a [ProgramFile], &'a Reading);
 
 /// Lists the differences between the lines of two programs.
-pub(crate) fn changes(found: Said<'_>, expected: Said<'_>) -> Vec<Change> {
+pub(crate) fn changes(found: ParsedProgram<'_>, expected: ParsedProgram<'_>) -> Vec<Change> {
     let steps = [found, expected].map(|(_, reading)| by_line(reading));
     let rounding_s = rounding_s(found.1, expected.1);
     let mut all = Vec::new();

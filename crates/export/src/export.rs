@@ -1,7 +1,7 @@
 //! A certified plan becomes a program, which is read back and judged before it is handed over.
 
 use crate::dialect::{Dialect, Program, ProgramFile, ReadError, START_WITHIN_DEG};
-use crate::judged::{self, Judged};
+use crate::judgement::{self, ProgramJudgement};
 use crate::points::Source;
 use crate::reading::Reading;
 use crate::refusal::Refusal;
@@ -19,11 +19,11 @@ const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
 
 /// A program that may be handed over.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Exported {
+pub struct ExportedProgram {
     /// Its files.
     pub files: Vec<ProgramFile>,
     /// Proof of the program.
-    pub judged: Judged,
+    pub judged: ProgramJudgement,
     /// Program as read back.
     pub reading: Reading,
 }
@@ -58,7 +58,7 @@ pub fn export(
     dialect: &dyn Dialect,
     settings: &ExportSettings,
     cancel: &CancelToken,
-) -> Result<Exported, ExportError> {
+) -> Result<ExportedProgram, ExportError> {
     let plan = certified.plan();
     check(certified, arm, settings)?;
     dialect.accepts(&plan.job, arm)?;
@@ -75,7 +75,7 @@ pub(crate) fn again(
     dialect: &dyn Dialect,
     settings: &ExportSettings,
     cancel: &CancelToken,
-) -> Result<Exported, ExportError> {
+) -> Result<ExportedProgram, ExportError> {
     settings.check()?;
     written(certified, arm, dialect, settings, cancel)
 }
@@ -129,7 +129,7 @@ fn written(
     dialect: &dyn Dialect,
     settings: &ExportSettings,
     cancel: &CancelToken,
-) -> Result<Exported, ExportError> {
+) -> Result<ExportedProgram, ExportError> {
     let plan = certified.plan();
     let source = Source::new(plan, arm).map_err(ProveError::from)?;
     let points = source.points(dialect.points(), settings)?;
@@ -137,7 +137,7 @@ fn written(
         dialect: dialect.name(),
         reason,
     };
-    let text = |judged: Option<&Judged>| {
+    let text = |judged: Option<&ProgramJudgement>| {
         let program = Program {
             name: name_of(plan),
             plan,
@@ -157,9 +157,9 @@ fn written(
         }
     };
     let (_, reading) = text(None)?;
-    let judged = judged::judge(certified, &reading, arm, settings.tolerance_m, cancel)?;
+    let judged = judgement::judge(certified, &reading, arm, settings.tolerance_m, cancel)?;
     let (files, reading) = text(Some(&judged))?;
-    Ok(Exported { files, judged, reading })
+    Ok(ExportedProgram { files, judged, reading })
 }
 
 /// Returns the first difference between the program written and the one read back.

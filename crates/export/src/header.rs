@@ -3,7 +3,7 @@
 //! Also here: sentences as lines of a comment that every controller can show.
 
 use crate::dialect::{Dialect, Point};
-use crate::judged::{Case, Judged};
+use crate::judgement::{Case, ProgramJudgement};
 use crate::points::Source;
 use crate::settings::ExportSettings;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -29,7 +29,7 @@ pub(crate) fn lines(
     certified: &Certified<Plan>,
     source: &Source<'_>,
     (dialect, settings): (&dyn Dialect, &ExportSettings),
-    (points, judged): (&[Point], Option<&Judged>),
+    (points, judged): (&[Point], Option<&ProgramJudgement>),
 ) -> Vec<String> {
     let plan = certified.plan();
     let mut lines = vec![
@@ -189,7 +189,7 @@ fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> V
 }
 
 /// Lines on the proof of the text itself.
-fn verdict(judged: &Judged, settings: &ExportSettings) -> Vec<String> {
+fn verdict(judged: &ProgramJudgement, settings: &ExportSettings) -> Vec<String> {
     let corners = judged.cases.iter().any(|case| case.corner_scale.is_some());
     let how = match corners {
         true => ", without corners and with corners of 0.5, 1 and 2 times their size",

@@ -6,7 +6,7 @@
 //! closely where it is too large.
 
 use crate::dialect::{Point, Points};
-use crate::judged::{Passed, rounded_motions};
+use crate::judgement::{TimedPoint, rounded_motions};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_kinematics::{Axes, Frame, JointVector, RobotModel};
@@ -163,7 +163,7 @@ impl<'a> Source<'a> {
 
     /// Deviation of the tip from the plan in each step, for corners of the given size \[m\].
     fn deviations_m(&self, points: &[Point], corner_m: f64) -> Vec<f64> {
-        let passed = |point: &Point| Passed {
+        let passed = |point: &Point| TimedPoint {
             t_s: point.t_s,
             q_rad: point.q_rad,
             qd_rad_s: JointVector::zeros(),

@@ -3,7 +3,7 @@
 use crate::programs::{damaged, edited, file, plan, points, program, ur5};
 use platewash_export::csv::Csv;
 use platewash_export::dialect::{Dialect, ReadError};
-use platewash_export::reading::{Between, Reading};
+use platewash_export::reading::{Interpolation, Reading};
 use platewash_kinematics::{JointVector, RobotModel};
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -33,7 +33,7 @@ proptest! {
         prop_assert!((reading.share() - share).abs() < 1e-5);
         let last_s = program.points.last().unwrap().t_s;
         prop_assert!((reading.share() - share).abs() * last_s < 1e-8);
-        prop_assert_eq!((reading.between, reading.tool), (Between::Cubics, None));
+        prop_assert_eq!((reading.between, reading.tool), (Interpolation::Cubics, None));
         for (read, point) in reading.points.iter().zip(&program.points) {
             prop_assert!((read.t_s - point.t_s / share).abs() < 1e-6);
             prop_assert!((read.q_rad - point.q_rad).amax() < 1e-7);
@@ -65,7 +65,7 @@ fn a_table_by_hand_is_read() {
         let reading = read(&text).unwrap();
         assert_eq!(
             (reading.speed_share, reading.between, reading.tool),
-            (Some(0.25), Between::Cubics, None)
+            (Some(0.25), Interpolation::Cubics, None)
         );
         let [first, second, third] = reading.points.as_slice() else {
             panic!("{reading:?}")
@@ -88,7 +88,7 @@ fn a_table_by_hand_is_read() {
 fn a_table_of_times_and_positions_alone_is_straight_between_its_rows() {
     let text = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0,0,0,0,0,0,0\n1,1,0,0,0,0,0\n2,1,2,0,0,0,0\n";
     let reading = read(text).unwrap();
-    assert_eq!((reading.speed_share, reading.between), (None, Between::Lines));
+    assert_eq!((reading.speed_share, reading.between), (None, Interpolation::Lines));
     let corners: Vec<Option<f64>> = reading.points.iter().map(|point| point.corner_m).collect();
     assert_eq!(corners, [None, Some(0.0), None]);
     assert!(reading.points.iter().all(|point| point.qd_rad_s.is_none()));

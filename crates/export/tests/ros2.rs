@@ -2,9 +2,9 @@
 
 use platewash_certificate::{Certified, certify};
 use platewash_export::dialect::{Dialect, Point, Program, ProgramFile, by_name};
-use platewash_export::reading::{Between, Reading};
+use platewash_export::reading::{Interpolation, Reading};
 use platewash_export::ros2::write::LEAD_IN_S;
-use platewash_export::{Compared, ExportSettings, compare, export};
+use platewash_export::{ExportSettings, ProgramComparison, compare, export};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures;
@@ -58,7 +58,7 @@ fn read(files: &[ProgramFile]) -> Reading {
 /// Refuses a reading that is not the program, at this share of the speed, whatever share it states.
 fn assert_says(reading: &Reading, speed_share: f64) {
     let knots = &KITCHEN.1.knots;
-    assert_eq!(reading.between, Between::Cubics);
+    assert_eq!(reading.between, Interpolation::Cubics);
     assert_eq!(reading.points.len(), knots.t_s.len());
     let mut lines = Vec::new();
     for (k, point) in reading.points.iter().enumerate() {
@@ -213,7 +213,7 @@ fn another_order_of_the_joints_is_the_same_program() {
 }
 
 /// What came of one file of a plan that was handed over at 0.3 of its speed, with a part of a line changed.
-fn compared(name: &str, line: usize, from: &str, to: &str) -> Compared {
+fn compared(name: &str, line: usize, from: &str, to: &str) -> ProgramComparison {
     static CERTIFIED: LazyLock<Certified<Plan>> = LazyLock::new(|| certify(KITCHEN.1.clone(), &KITCHEN.0).unwrap());
     static FILES: LazyLock<Vec<ProgramFile>> = LazyLock::new(|| {
         let settings = ExportSettings {

@@ -16,9 +16,9 @@
 
 use crate::geometry::{Inertial, Primitive, Visual, VisualFinding};
 use crate::limits::JointLimits;
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::srdf::DisabledPairs;
-use crate::trig::{Separate, atan2, sin_cos_lanes};
+use crate::trig::{SeparateMulAdd, atan2, sin_cos_lanes};
 use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
@@ -53,7 +53,7 @@ pub struct RobotModel {
     pub(crate) sha256: String,
     pub(crate) joints: [Joint; AXES],
     pub(crate) limits: JointLimits,
-    pub(crate) folded: [Rigid; AXES],
+    pub(crate) folded: [RigidTransform; AXES],
     pub(crate) links: Vec<Link>,
     pub(crate) last_link: Frame,
     pub(crate) disabled: Option<DisabledPairs>,
@@ -155,7 +155,7 @@ impl RobotModel {
 
     /// `F_i = T_{i−1}_i` at q = 0 between folded joint frames: `T_base_i = T_base_{i−1} · F_i · Rot_z(q_i)`.
     #[must_use]
-    pub fn folded(&self) -> &[Rigid; AXES] {
+    pub fn folded(&self) -> &[RigidTransform; AXES] {
         &self.folded
     }
 }
@@ -165,18 +165,18 @@ impl RobotModel {
 pub struct Frame {
     pub(crate) body: usize,
     /// `T_body_frame`, from the folded joint frame of the body.
-    pub(crate) offset: Rigid,
+    pub(crate) offset: RigidTransform,
 }
 
 impl Frame {
-    pub(crate) fn new(body: usize, offset: Rigid) -> Self {
+    pub(crate) fn new(body: usize, offset: RigidTransform) -> Self {
         Self { body, offset }
     }
 
     /// The base frame.
     #[must_use]
     pub fn base() -> Self {
-        Self::new(0, Rigid::identity())
+        Self::new(0, RigidTransform::identity())
     }
 
     /// Index of the body that carries the frame: 0 for the base, 1–6 for the bodies that joints 1–6 move.
@@ -187,7 +187,7 @@ impl Frame {
 
     /// Pose on the folded joint frame of its body, `T_body_frame`.
     #[must_use]
-    pub fn on_body(&self) -> &Rigid {
+    pub fn on_body(&self) -> &RigidTransform {
         &self.offset
     }
 
@@ -203,12 +203,12 @@ impl Frame {
     pub fn nowhere() -> Self {
         let rotation = Matrix3::repeat(f64::NAN);
         let translation = Vector3::repeat(f64::NAN);
-        Self::new(0, Rigid { rotation, translation })
+        Self::new(0, RigidTransform { rotation, translation })
     }
 
     /// Returns a frame fixed to this one, at `T_this_new`.
     #[must_use]
-    pub fn offset(&self, relative: &Rigid) -> Self {
+    pub fn offset(&self, relative: &RigidTransform) -> Self {
         Self::new(self.body, self.offset.then(relative))
     }
 }
@@ -217,13 +217,13 @@ impl Frame {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPoses {
     /// `T_base_body`; index 0 is the identity, index i the folded frame of joint i (z = its axis).
-    pub(crate) bodies: [Rigid; AXES + 1],
+    pub(crate) bodies: [RigidTransform; AXES + 1],
 }
 
 impl BodyPoses {
     /// `T_base_body`: the identity for the base, then for each joint a frame on its axis, z along it.
     #[must_use]
-    pub fn bodies(&self) -> &[Rigid; AXES + 1] {
+    pub fn bodies(&self) -> &[RigidTransform; AXES + 1] {
         &self.bodies
     }
 
@@ -236,7 +236,7 @@ impl BodyPoses {
     /// `T_base_frame` as matrix and vector.
     #[inline]
     #[must_use]
-    pub fn rigid(&self, frame: &Frame) -> Rigid {
+    pub fn rigid(&self, frame: &Frame) -> RigidTransform {
         self.bodies[frame.body].then(&frame.offset)
     }
 
@@ -252,8 +252,8 @@ impl RobotModel {
     #[must_use]
     pub fn fk(&self, q: &JointVector) -> BodyPoses {
         // All six at once: the lanes have the bits of `sin_cos`, at less than half its cost.
-        let (sines, cosines) = sin_cos_lanes::<Separate, AXES>(q.as_ref());
-        let mut bodies = [Rigid::identity(); AXES + 1];
+        let (sines, cosines) = sin_cos_lanes::<SeparateMulAdd, AXES>(q.as_ref());
+        let mut bodies = [RigidTransform::identity(); AXES + 1];
         for (i, folded) in self.folded().iter().enumerate() {
             bodies[i + 1] = bodies[i].then(folded).turned_about_z(sines[i], cosines[i]);
         }

@@ -7,14 +7,14 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 /// A rigid transform as matrix and vector, `p_a = R p_b + t`: the form in which chains are folded, because
 /// one product is cheaper than with quaternions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rigid {
+pub struct RigidTransform {
     /// Rotation matrix `R_a_b`.
     pub rotation: Matrix3<f64>,
     /// Origin of `b` in `a` \[m\].
     pub translation: Vector3<f64>,
 }
 
-impl Rigid {
+impl RigidTransform {
     /// The identity.
     #[must_use]
     pub fn identity() -> Self {
@@ -57,7 +57,7 @@ impl Rigid {
     }
 }
 
-impl From<&Pose> for Rigid {
+impl From<&Pose> for RigidTransform {
     fn from(pose: &Pose) -> Self {
         Self {
             rotation: *pose.rotation.to_rotation_matrix().matrix(),
@@ -66,8 +66,8 @@ impl From<&Pose> for Rigid {
     }
 }
 
-impl From<&Rigid> for Pose {
-    fn from(rigid: &Rigid) -> Self {
+impl From<&RigidTransform> for Pose {
+    fn from(rigid: &RigidTransform) -> Self {
         let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rigid.rotation));
         Pose::from_parts(rigid.translation.into(), rotation)
     }
@@ -143,7 +143,7 @@ mod tests {
 
         #[test]
         fn inverse_undoes(r in -3.0..3.0f64, p in -3.0..3.0f64, y in -3.0..3.0f64, t in -2.0..2.0f64) {
-            let a = Rigid { rotation: from_rpy([r, p, y]), translation: Vector3::new(t, -t, 0.3) };
+            let a = RigidTransform { rotation: from_rpy([r, p, y]), translation: Vector3::new(t, -t, 0.3) };
             let one = a.then(&a.inverse());
             prop_assert!((one.rotation - Matrix3::identity()).norm() < 1e-14);
             prop_assert!(one.translation.norm() < 1e-14);

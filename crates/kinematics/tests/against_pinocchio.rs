@@ -33,7 +33,7 @@ struct Placement {
 }
 
 #[derive(Deserialize)]
-struct Published {
+struct PublishedSolutions {
     frame: String,
     pose: Placement,
     position_tolerance_m: f64,
@@ -143,7 +143,7 @@ fn jacobians_are_the_derivative_of_the_pose() {
 #[test]
 fn published_matlab_solutions_reach_their_pose_with_matlab_tool0_only() {
     use platewash_kinematics::ToolFrame;
-    let published: Published = read("solutions.json");
+    let published: PublishedSolutions = read("solutions.json");
     assert_eq!((published.frame.as_str(), published.solutions.len()), ("link_6", 3));
     let robot = RobotModel::irb120().unwrap();
     for q in &published.solutions {

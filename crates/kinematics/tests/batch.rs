@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::batch::{self, Backend, BatchError};
 use platewash_kinematics::ik::{IkError, IkSettings, IkSolver, Start};
-use platewash_kinematics::rotation::{Rigid, from_rpy, rotation_vector};
+use platewash_kinematics::rotation::{RigidTransform, from_rpy, rotation_vector};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
 use rand::{RngExt, SeedableRng};
@@ -68,7 +68,7 @@ fn arms() -> Vec<RobotModel> {
 }
 
 fn frames(robot: &RobotModel) -> Vec<Frame> {
-    let offset = Rigid {
+    let offset = RigidTransform {
         rotation: from_rpy([0.3, -0.8, 2.0]),
         translation: Vector3::new(0.05, -0.02, 0.11),
     };
@@ -98,7 +98,7 @@ fn fk_slices(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Backend
     (p, r)
 }
 
-fn pose_difference(scalar: &Rigid, p: &[f64; 3], r: &[f64; 9]) -> f64 {
+fn pose_difference(scalar: &RigidTransform, p: &[f64; 3], r: &[f64; 9]) -> f64 {
     let position = (scalar.translation - Vector3::from(*p)).amax();
     position.max((scalar.rotation - Matrix3::from_row_slice(r)).amax())
 }
@@ -156,7 +156,7 @@ fn the_paths_agree_also_far_beyond_the_limits() {
     let [i, j] = PATHS.map(|path| batch::jacobian(&robot, &frame, &q, Axes::Base, path));
     for k in 0..q.len() {
         let rounding = f64::EPSILON * q[k].amax();
-        let rigid = Rigid {
+        let rigid = RigidTransform {
             rotation: Matrix3::from_row_slice(&a.1[k]),
             translation: Vector3::from(a.0[k]),
         };
@@ -288,7 +288,7 @@ fn warm(robot: &RobotModel, frame: &Frame, count: usize, off: f64) -> (Vec<Pose>
 
 /// Largest of position \[m\] and angle \[rad\] from the target, by the scalar FK.
 fn miss(robot: &RobotModel, frame: &Frame, q: &JointVector, target: &Pose) -> f64 {
-    let (found, target) = (robot.fk(q).rigid(frame), Rigid::from(target));
+    let (found, target) = (robot.fk(q).rigid(frame), RigidTransform::from(target));
     let angle = rotation_vector(&(target.rotation * found.rotation.transpose())).norm();
     (found.translation - target.translation).norm().max(angle)
 }

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::ik::analytic::{
-    AnalyticArm, AnalyticError, Label, Nearest, NotAnalytic, ReachBorder, Rejection,
+    AnalyticArm, AnalyticError, Label, NearestConfiguration, ReachBorder, Rejection, StructureMismatch,
 };
-use platewash_kinematics::rotation::{Rigid, from_rpy, rotation_vector};
+use platewash_kinematics::rotation::{RigidTransform, from_rpy, rotation_vector};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
 use rand::{RngExt, SeedableRng};
@@ -33,7 +33,7 @@ impl Arm {
     }
 
     /// Body 6's pose, by the crate's FK.
-    fn target(&self, q: &JointVector) -> Rigid {
+    fn target(&self, q: &JointVector) -> RigidTransform {
         AnalyticArm::body_target(&self.frame, &self.robot.fk(q).rigid(&self.frame)).unwrap()
     }
 
@@ -45,18 +45,18 @@ impl Arm {
     }
 
     /// Largest error of `q` \[m or rad\].
-    fn error(&self, q: &JointVector, target: &Rigid) -> f64 {
+    fn error(&self, q: &JointVector, target: &RigidTransform) -> f64 {
         let found = self.target(q);
         let angle = rotation_vector(&(found.rotation * target.rotation.transpose())).norm();
         (found.translation - target.translation).norm().max(angle)
     }
 
-    fn nearest(&self, target: &Rigid, start: &JointVector) -> Result<Nearest, AnalyticError> {
+    fn nearest(&self, target: &RigidTransform, start: &JointVector) -> Result<NearestConfiguration, AnalyticError> {
         self.arm.nearest(target, start, self.robot.limits())
     }
 
     /// The nearest answer, checked in every way there is.
-    fn checked(&self, target: &Rigid, start: &JointVector, what: &str) -> Nearest {
+    fn checked(&self, target: &RigidTransform, start: &JointVector, what: &str) -> NearestConfiguration {
         let found = self
             .nearest(target, start)
             .unwrap_or_else(|e| panic!("{}: {what}: {e}", self.robot.name()));
@@ -68,7 +68,7 @@ impl Arm {
     }
 
     /// Every answer within the limits, each checked.
-    fn all(&self, target: &Rigid, previous: &JointVector) -> Vec<(Label, JointVector)> {
+    fn all(&self, target: &RigidTransform, previous: &JointVector) -> Vec<(Label, JointVector)> {
         let solutions = self.arm.solve_all(target, previous, self.robot.limits()).unwrap();
         assert_eq!(solutions.iter().count() + solutions.rejections().count(), 8);
         let all: Vec<_> = solutions.configurations().collect();
@@ -384,7 +384,7 @@ fn targets_beyond_reach_are_refused_with_the_distance() {
         (1.0, false),
         (1e200, false),
     ] {
-        let moved = Rigid {
+        let moved = RigidTransform {
             rotation: target.rotation,
             translation: target.translation + outwards * by,
         };
@@ -409,7 +409,7 @@ fn targets_beyond_reach_are_refused_with_the_distance() {
         let rotation = from_rpy([p.x, p.y, p.z].map(|v| 9.0 * v));
         lateral
             .nearest(
-                &Rigid {
+                &RigidTransform {
                     rotation,
                     translation: p,
                 },
@@ -467,7 +467,7 @@ fn labels_stay_along_paths() {
     let arm = Arm::irb120();
     let down = from_rpy([0.0, PI / 2.0, 0.0]);
     let tip = |p: Vector3<f64>| {
-        let target = Rigid {
+        let target = RigidTransform {
             rotation: down,
             translation: p,
         };
@@ -478,7 +478,7 @@ fn labels_stay_along_paths() {
         tip(Vector3::new(0.40 + radius * angle.cos(), radius * angle.sin(), 0.12))
     };
     let line = |k: f64| tip(Vector3::new(0.38, -0.1 + 0.2 * k, 0.12));
-    let paths: [&dyn Fn(f64) -> Rigid; 2] = [&spiral, &line];
+    let paths: [&dyn Fn(f64) -> RigidTransform; 2] = [&spiral, &line];
     for path in paths {
         let mut q = arm
             .checked(&path(0.0), &JointVector::new(0.0, 0.5, 0.0, 0.0, 1.0, 0.0), "start")
@@ -525,7 +525,7 @@ fn published_solutions_are_found() {
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     let arm = Arm::irb120();
     let frame = arm.robot.frame(json["frame"].as_str().unwrap()).unwrap();
-    let target = Rigid {
+    let target = RigidTransform {
         rotation: Matrix3::identity(),
         translation: Vector3::new(0.0, 0.5, 0.5),
     };
@@ -546,10 +546,10 @@ fn other_structures_are_refused_by_name() {
         let refused = AnalyticArm::recognise(&fixture(&format!("arm_{k}"))).unwrap_err();
         let oblique = matches!(
             refused,
-            NotAnalytic::NotParallel { joints: [1, 2], by_rad } if by_rad > 1e-3
+            StructureMismatch::NotParallel { joints: [1, 2], by_rad } if by_rad > 1e-3
         );
-        let wrist = matches!(refused, NotAnalytic::NotPerpendicular { by_rad, .. } if by_rad > 1e-3)
-            || matches!(refused, NotAnalytic::WristNotSpherical { by_m, .. } if by_m > 1e-3);
+        let wrist = matches!(refused, StructureMismatch::NotPerpendicular { by_rad, .. } if by_rad > 1e-3)
+            || matches!(refused, StructureMismatch::WristNotSpherical { by_m, .. } if by_m > 1e-3);
         println!("arm_{k}: {refused}");
         assert!(oblique || ([4, 6].contains(&k) && wrist), "arm_{k}: {refused}");
     }
@@ -561,14 +561,14 @@ fn other_structures_are_refused_by_name() {
     // The wrist's last axis 1 µm off, then 1e-12 m off.
     let shifted = |by: &str| edited("xyz=\"0.072 0 0\"", &format!("xyz=\"0.072 0 {by}\""));
     match AnalyticArm::recognise(&shifted("1e-6")).unwrap_err() {
-        NotAnalytic::WristNotSpherical { joints: [4, 5], by_m } => assert!((by_m - 1e-6).abs() < 1e-12),
+        StructureMismatch::WristNotSpherical { joints: [4, 5], by_m } => assert!((by_m - 1e-6).abs() < 1e-12),
         other => panic!("{other}"),
     }
     assert!(AnalyticArm::recognise(&shifted("1e-12")).is_ok());
     let flat = edited("xyz=\"0 0 0.27\"", "xyz=\"0 0.1 0\"");
     assert!(matches!(
         AnalyticArm::recognise(&flat),
-        Err(NotAnalytic::NoUpperArm { .. })
+        Err(StructureMismatch::NoUpperArm { .. })
     ));
 }
 

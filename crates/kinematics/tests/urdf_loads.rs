@@ -316,8 +316,9 @@ fn without_tool0_a_tool_needs_a_link_that_carries_it() {
     let said = robot.tool_mount(Some("link_3")).unwrap_err().to_string();
     assert!(said.contains("has no link 'link_3' behind joint 6"), "{said}");
     // The turn that the message names gives the tool0 that was taken away.
-    let turn =
-        platewash_kinematics::rotation::Rigid::from(&platewash_kinematics::Pose::rotation(Vector3::y() * FRAC_PI_2));
+    let turn = platewash_kinematics::rotation::RigidTransform::from(&platewash_kinematics::Pose::rotation(
+        Vector3::y() * FRAC_PI_2,
+    ));
     let found = robot.tool_mount(Some("flange")).unwrap();
     assert!((found.tilt_rad() - FRAC_PI_2).abs() < 1e-12);
     let (q, whole) = (JointVector::new(0.3, -0.2, 0.5, 1.0, -0.8, 2.0), irb120());

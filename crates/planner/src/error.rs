@@ -4,7 +4,7 @@ use crate::infeasible::UnwashablePlate;
 use crate::joint_path::JointPathError;
 use crate::pattern::Shortfall;
 use crate::timing::TimingError;
-use crate::transit::{LiftLineError, TooNear, TransitError};
+use crate::transit::{ClearanceShortfall, LiftLineError, TransitError};
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::{IkPathError, IkSettingsError};
 use platewash_workcell::cancel::Cancelled;
@@ -72,7 +72,7 @@ pub enum PlanError {
         /// The end at fault.
         end: End,
         /// The bodies.
-        too_near: Box<TooNear>,
+        too_near: Box<ClearanceShortfall>,
     },
     /// No end configuration was stated, and none was found that is clear.
     #[error(

@@ -4,7 +4,7 @@
 //! and another place at which it could be washed.
 
 use crate::error::PlanError;
-use crate::redundancy::washable::Cause;
+use crate::redundancy::washability::Cause;
 use crate::redundancy::{Conclusion, RedundancyError};
 use crate::scene::{Filter, Hindrance};
 use crate::transit::TransitError;
@@ -270,17 +270,17 @@ pub enum PlaceSearch {
 }
 
 /// Display of the reason that a plate cannot be washed, without another place for it.
-struct Why<'a>(&'a UnwashablePlate);
+struct UnwashableReason<'a>(&'a UnwashablePlate);
 
 impl UnwashablePlate {
     /// Returns the reason in words that it cannot be washed, or that no way was found; without another place for it.
     #[must_use]
     pub fn why(&self) -> impl fmt::Display + '_ {
-        Why(self)
+        UnwashableReason(self)
     }
 }
 
-impl fmt::Display for Why<'_> {
+impl fmt::Display for UnwashableReason<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(of) = self;
         let ([x, y], plate) = (of.centre_m, of.plate);

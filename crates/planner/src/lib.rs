@@ -13,7 +13,7 @@ mod order;
 mod outlook;
 mod pattern;
 mod pipeline;
-mod planned;
+mod planned_job;
 pub mod redundancy;
 pub mod scene;
 pub mod suggest;
@@ -26,12 +26,12 @@ pub use crate::error::PlanError;
 pub use crate::infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport, PlaceSearch, UnwashablePlate};
 pub use crate::order::{EXACT_UP_TO, Optimality};
 pub use crate::outlook::PlateOutlook;
-pub use crate::pattern::{Promised, Shortfall};
+pub use crate::pattern::{ContactPromise, Shortfall};
 pub use crate::pipeline::{
     check, draw_washable_layout, nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_in_order,
     plan_unexplained, plan_with, unwashable_plates, washable_map,
 };
-pub use crate::planned::{Pace, Planned, TourSummary, TransitSummary, VisitSummary};
+pub use crate::planned_job::{Pace, PlannedJob, TourSummary, TransitSummary, VisitSummary};
 pub use crate::redundancy::Chance;
 pub use crate::redundancy::places::SEARCHED_M;
 pub use crate::washable_map::{MapArea, MapPatch};

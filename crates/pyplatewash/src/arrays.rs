@@ -17,7 +17,7 @@ use pyo3::{PyTypeInfo, intern};
 
 /// Shapes that an argument may have, as words for a message.
 #[derive(Debug, Clone, Copy)]
-pub struct Wanted {
+pub struct ExpectedShape {
     /// Lengths of the trailing axes of one item, e.g. `[4, 4]`.
     pub item: &'static [usize],
     /// Number of items wanted: one, a stack of them, or either.
@@ -35,7 +35,7 @@ pub enum Count {
     Any,
 }
 
-impl Wanted {
+impl ExpectedShape {
     /// Returns the length of the leading axis of a shape that fits, `Some(None)` for one item without that axis; `None`
     /// where the shape does not fit.
     fn items(&self, shape: &[usize]) -> Option<Option<usize>> {
@@ -77,7 +77,7 @@ impl<'py> Numbers<'py> {
     ///
     /// # Errors
     /// `ShapeError`, `InputTypeError` for what holds no real numbers, or whatever a foreign object raises itself.
-    pub fn read(name: &str, value: &Bound<'py, PyAny>, wanted: Wanted) -> PyResult<Self> {
+    pub fn read(name: &str, value: &Bound<'py, PyAny>, wanted: ExpectedShape) -> PyResult<Self> {
         let plain = value.get_type().is(PyUntypedArray::type_object(value.py()));
         let array = match value.cast::<PyArrayDyn<f64>>() {
             Ok(array) if plain && array.is_c_contiguous() && array.is_aligned() => array.clone(),
@@ -111,27 +111,27 @@ impl<'py> Numbers<'py> {
 }
 
 /// One configuration or a stack of them.
-pub const JOINTS: Wanted = Wanted {
+pub const JOINTS: ExpectedShape = ExpectedShape {
     item: &[6],
     count: Count::Any,
 };
 /// One configuration.
-pub const ONE_JOINTS: Wanted = Wanted {
+pub const ONE_JOINTS: ExpectedShape = ExpectedShape {
     item: &[6],
     count: Count::One,
 };
 /// A stack of configurations.
-pub const MANY_JOINTS: Wanted = Wanted {
+pub const MANY_JOINTS: ExpectedShape = ExpectedShape {
     item: &[6],
     count: Count::Stack,
 };
 /// One pose.
-pub const ONE_POSE: Wanted = Wanted {
+pub const ONE_POSE: ExpectedShape = ExpectedShape {
     item: &[4, 4],
     count: Count::One,
 };
 /// A stack of poses.
-pub const MANY_POSES: Wanted = Wanted {
+pub const MANY_POSES: ExpectedShape = ExpectedShape {
     item: &[4, 4],
     count: Count::Stack,
 };
@@ -150,7 +150,7 @@ pub fn joint_vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<JointVecto
 /// # Errors
 /// As [`Numbers::read`].
 pub fn fixed<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
-    let wanted = Wanted {
+    let wanted = ExpectedShape {
         item: const { &[N] },
         count: Count::One,
     };
@@ -165,7 +165,7 @@ pub fn fixed<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[
 /// # Errors
 /// As [`Numbers::read`].
 pub fn rows<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; N]>> {
-    let wanted = Wanted {
+    let wanted = ExpectedShape {
         item: const { &[N] },
         count: Count::Stack,
     };

@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 
 /// Text, scenario, plan, certificate, and the first line of what came of them.
-type Latest = (
+type LastResult = (
     String,
     ScenarioObject,
     Option<PlanObject>,
@@ -82,7 +82,7 @@ impl CellEditorObject {
     }
 
     /// What came last: text, scenario, plan, certificate, and a line about it; None before the first.
-    fn latest(&self, py: Python<'_>) -> PyResult<Option<Latest>> {
+    fn latest(&self, py: Python<'_>) -> PyResult<Option<LastResult>> {
         let Some(latest) = self.inner.latest() else {
             return Ok(None);
         };

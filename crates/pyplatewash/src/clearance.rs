@@ -28,11 +28,11 @@ pub struct ClearanceObject {
     inner: ClearanceModel,
     /// `T_world_base`, where the base is not the world.
     mount: Option<Pose>,
-    made_of: MadeOf,
+    made_of: ModelSource,
 }
 
 /// Source of a clearance model.
-enum MadeOf {
+enum ModelSource {
     /// Robot, tool, plates.
     Arguments(Py<Robot>, Option<Py<PyAny>>, Py<PyTuple>),
     /// A job, or a plan.
@@ -119,7 +119,7 @@ impl ClearanceObject {
         Ok(Self {
             inner,
             mount: None,
-            made_of: MadeOf::Arguments(robot.clone().unbind(), tool.map(Bound::unbind), plates),
+            made_of: ModelSource::Arguments(robot.clone().unbind(), tool.map(Bound::unbind), plates),
         })
     }
 
@@ -141,7 +141,7 @@ impl ClearanceObject {
         Ok(Self {
             inner,
             mount,
-            made_of: MadeOf::Job(job.unbind()),
+            made_of: ModelSource::Job(job.unbind()),
         })
     }
 
@@ -257,14 +257,14 @@ impl ClearanceObject {
 
 impl ClearanceObject {
     fn is_of_job(&self) -> bool {
-        matches!(self.made_of, MadeOf::Job(_))
+        matches!(self.made_of, ModelSource::Job(_))
     }
 
     /// Arguments that make the same model again.
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         match &self.made_of {
-            MadeOf::Arguments(robot, tool, plates) => (robot, tool, plates).into_pyobject(py),
-            MadeOf::Job(job) => (job,).into_pyobject(py),
+            ModelSource::Arguments(robot, tool, plates) => (robot, tool, plates).into_pyobject(py),
+            ModelSource::Job(job) => (job,).into_pyobject(py),
         }
     }
 }

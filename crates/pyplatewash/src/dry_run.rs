@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// Settings of a dry run.
 #[derive(Debug, Clone, Copy)]
-pub struct Asked {
+pub struct DryRunSettings {
     /// Height of the motion above the plates \[m\].
     pub height_m: f64,
     /// Largest speed of the tip \[m/s\].
@@ -22,29 +22,29 @@ pub struct Asked {
 ///
 /// # Errors
 /// `PlanError`; `InputError` for a height or a speed that is none; `ProveError`.
-pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: Asked) -> PyResult<Plan> {
+pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: DryRunSettings) -> PyResult<Plan> {
     let (parent, arm) = (parent.clone(), arm.clone());
     let work = move |cancel: &CancelToken| {
-        let job = dry_run_job(&parent, &arm, asked.height_m, asked.speed_m_s).map_err(Refused::DryRun)?;
+        let job = dry_run_job(&parent, &arm, asked.height_m, asked.speed_m_s).map_err(DryRunFailure::DryRun)?;
         let (parent, _) = certify_with(parent, &arm, cancel)
-            .map_err(Refused::Parent)?
+            .map_err(DryRunFailure::Parent)?
             .into_parts();
-        let planned =
-            plan_in_order(&job, &parent.order, &parent.wash_paths, &Watch::silent(cancel)).map_err(Refused::Plan)?;
-        check_paths(&parent, &planned.plan).map_err(Refused::DryRun)?;
+        let planned = plan_in_order(&job, &parent.order, &parent.wash_paths, &Watch::silent(cancel))
+            .map_err(DryRunFailure::Plan)?;
+        check_paths(&parent, &planned.plan).map_err(DryRunFailure::DryRun)?;
         Ok(planned.plan)
     };
-    patiently(py, work)?.map_err(|refused: Refused| refused.raised(py))
+    patiently(py, work)?.map_err(|refused: DryRunFailure| refused.raised(py))
 }
 
 /// Failure of a dry run: of its job, of its parent's certificate or of its plan.
-enum Refused {
+enum DryRunFailure {
     DryRun(DryRunError),
     Parent(CertifyError),
     Plan(PlanError),
 }
 
-impl Refused {
+impl DryRunFailure {
     fn raised(self, py: Python<'_>) -> PyErr {
         match self {
             Self::DryRun(error) => errors::dry_run(py, &error),

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 
 /// Python's keywords of an export, as they are given.
-pub struct Given<'a, 'py> {
+pub struct ExportKeywords<'a, 'py> {
     /// Largest distance of the tip from the plan \[m\].
     pub tolerance_m: Option<&'a Bound<'py, PyAny>>,
     /// Share of the plan's speed.
@@ -26,7 +26,7 @@ pub struct Given<'a, 'py> {
     pub tip: Option<&'a Bound<'py, PyAny>>,
 }
 
-impl Given<'_, '_> {
+impl ExportKeywords<'_, '_> {
     /// The settings.
     ///
     /// # Errors
@@ -81,8 +81,8 @@ pub fn files(
 ) -> PyResult<Vec<ProgramFile>> {
     let plan = plan.clone();
     let work = move |cancel: &CancelToken| {
-        let certified = certify_with(plan, &arm, cancel).map_err(Refused::Plan)?;
-        export(&certified, &arm, to, &settings, cancel).map_err(Refused::Program)
+        let certified = certify_with(plan, &arm, cancel).map_err(ExportFailure::Plan)?;
+        export(&certified, &arm, to, &settings, cancel).map_err(ExportFailure::Program)
     };
     match patiently(py, work)? {
         Ok(exported) => Ok(exported.files),
@@ -91,12 +91,12 @@ pub fn files(
 }
 
 /// Failure to certify a plan, or to write its program.
-enum Refused {
+enum ExportFailure {
     Plan(CertifyError),
     Program(ExportError),
 }
 
-impl Refused {
+impl ExportFailure {
     fn raised(&self, py: Python<'_>) -> PyErr {
         const UNCERTIFIED: &str = "uncertified";
         let unproved = |error: &ProveError| errors::failure(py, &error.clone().into());

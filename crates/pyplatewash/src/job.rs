@@ -31,15 +31,15 @@ impl PartialEq for WashJobObject {
 
 /// State of a pickled job without its arm, which is pickled beside it.
 #[derive(Serialize, Deserialize)]
-struct Pickled {
+struct PickledJob {
     name: String,
     terms: JobTerms,
     layout: Layout,
 }
 
-impl Pickled {
+impl PickledJob {
     /// Returns the call that restores a job: `_restore` of its class, with this state as text and the arm as its arguments.
-    fn reduced<'py>(&self, job: &Bound<'py, PyAny>, robot: Py<Robot>) -> PyResult<Reduced<'py>> {
+    fn reduced<'py>(&self, job: &Bound<'py, PyAny>, robot: Py<Robot>) -> PyResult<Reduction<'py>> {
         let text = serde_json::to_string(self).map_err(|e| errors::internal(job.py(), &e.to_string()))?;
         Ok((
             job.get_type().getattr("_restore")?,
@@ -60,7 +60,7 @@ impl Pickled {
 }
 
 /// Return value of `__reduce__`: a callable and its arguments.
-type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
+type Reduction<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 impl WashJobObject {
     /// A job on a layout.
@@ -175,9 +175,9 @@ impl WashJobObject {
         format!("WashJob({}, seed={}, {plates})", quoted(self.inner.name()), terms.seed)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduction<'py>> {
         let job = slf.get();
-        let pickled = Pickled {
+        let pickled = PickledJob {
             name: job.inner.name().to_owned(),
             terms: job.inner.terms().clone(),
             layout: job.layout.clone(),
@@ -193,7 +193,7 @@ impl WashJobObject {
         text: &Bound<'_, PyAny>,
         robot: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let (pickled, robot) = Pickled::restored(text, robot)?;
+        let (pickled, robot) = PickledJob::restored(text, robot)?;
         let job = WashJob::new(robot.get().model().clone(), pickled.terms);
         Ok(Self {
             inner: job.map_err(|e| errors::failure(py, &e.into()))?.named(&pickled.name),
@@ -303,9 +303,9 @@ impl PaperJobObject {
         )
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduction<'py>> {
         let job = slf.get();
-        let pickled = Pickled {
+        let pickled = PickledJob {
             name: job.inner.name.clone(),
             terms: job.terms(slf.py())?,
             layout: job.inner.layout.clone(),
@@ -321,7 +321,7 @@ impl PaperJobObject {
         text: &Bound<'_, PyAny>,
         robot: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let (pickled, robot) = Pickled::restored(text, robot)?;
+        let (pickled, robot) = PickledJob::restored(text, robot)?;
         let job = PaperJob::of_terms(pickled.name, pickled.terms, pickled.layout, robot.get().model().clone());
         let inner = job.map_err(|e| errors::failure(py, &e.into()))?;
         let robot = robot.clone().unbind();

@@ -3,18 +3,18 @@
 //! Figures of a plan, and arguments of the methods that show it on a page: checked before any work is done.
 
 use crate::certificate::CertificateObject;
-use crate::errors::{self, FileOf, SystemWord};
+use crate::errors::{self, FileKind, SystemWord};
 use crate::plan::PlanObject;
 use crate::plate::{PlateFields, ToolFields};
 use crate::robot::Robot;
 use crate::scenario::{self, ScenarioObject};
-use crate::simulation::{Done, ExecutionObject, Question};
+use crate::simulation::{ExecutionObject, FinishedSimulation, Question};
 use crate::work::patiently;
 use crate::{argument, arrays};
 use platewash::viewer::bundle::Bundle;
 use platewash::viewer::figures::{Figure, Subject, draw};
 use platewash::viewer::page;
-use platewash::viewer::view::{Beside, Executed, Plate, View};
+use platewash::viewer::view::{ExecutedMotion, Plate, View, ViewExtras};
 use platewash::workcell::plan::Process;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Certificate, Failure, JointVector, SimulationError, SimulationReport, paper_spirals};
@@ -74,7 +74,7 @@ pub fn of_the_plan(
     plan: &PlanObject,
     execution: Option<&ExecutionObject>,
     certificate: Option<&CertificateObject>,
-) -> PyResult<(Option<Certificate>, Option<Arc<Done>>)> {
+) -> PyResult<(Option<Certificate>, Option<Arc<FinishedSimulation>>)> {
     let certificate = certificate.map(|certificate| certificate.inner().clone());
     let hash = plan.inner().seal().ok();
     if certificate.as_ref().is_some_and(|c| c.hash.computed != hash) {
@@ -101,7 +101,7 @@ fn view(
     let (plan, arm) = (plan.inner().clone(), robot.model().clone());
     let made = patiently(py, move |_| {
         let executed = done.map(|done| executed(&done)).transpose()?;
-        let beside = Beside {
+        let beside = ViewExtras {
             certificate: certificate.as_ref(),
             executed: executed.as_ref(),
             region: region.as_ref(),
@@ -114,10 +114,10 @@ fn view(
 }
 
 /// The executed motion with its report, for a page.
-fn executed(done: &Done) -> Result<Executed, SimulationError> {
+fn executed(done: &FinishedSimulation) -> Result<ExecutedMotion, SimulationError> {
     let Question { plan, arm, settings } = &done.question;
     let report = SimulationReport::new(plan, arm, settings, &done.execution)?;
-    Ok(Executed::simulated(&done.execution, &report))
+    Ok(ExecutedMotion::simulated(&done.execution, &report))
 }
 
 /// The page of a plan.
@@ -171,12 +171,12 @@ pub fn _save(py: Python<'_>, text: &Bound<'_, PyAny>, path: &Bound<'_, PyAny>) -
     std::fs::write(&path, text).map_err(|e| {
         let filename = path.display().to_string();
         let message = format!("{filename}: cannot be written: {e}");
-        errors::system_file(py, FileOf::Page, SystemWord::from(&e), &filename, &message)
+        errors::system_file(py, FileKind::Page, SystemWord::from(&e), &filename, &message)
     })
 }
 
 /// An argument that may be left out.
-type Maybe<'py> = Option<Bound<'py, PyAny>>;
+type OptionalArgument<'py> = Option<Bound<'py, PyAny>>;
 
 /// The arm, and a scenario.
 type Surroundings = (Py<Robot>, Option<ScenarioObject>);
@@ -198,7 +198,12 @@ fn surroundings(
 #[pyfunction]
 pub fn _show_arguments<'py>(
     plan: &Bound<'py, PlanObject>,
-    beside: (Maybe<'py>, Maybe<'py>, Maybe<'py>, Maybe<'py>),
+    beside: (
+        OptionalArgument<'py>,
+        OptionalArgument<'py>,
+        OptionalArgument<'py>,
+        OptionalArgument<'py>,
+    ),
     prove: Option<&Bound<'py, PyAny>>,
     simulate: Option<&Bound<'py, PyAny>>,
     height: Option<&Bound<'py, PyAny>>,
@@ -223,7 +228,12 @@ pub fn _show_arguments<'py>(
 pub fn _plan_figure<'py>(
     plan: &Bound<'py, PlanObject>,
     kind: Option<&Bound<'py, PyAny>>,
-    of: (Maybe<'py>, Maybe<'py>, Maybe<'py>, Maybe<'py>),
+    of: (
+        OptionalArgument<'py>,
+        OptionalArgument<'py>,
+        OptionalArgument<'py>,
+        OptionalArgument<'py>,
+    ),
 ) -> PyResult<String> {
     let (py, (execution, certificate, scenario, robot)) = (plan.py(), &of);
     let execution = ExecutionObject::given(execution.as_ref())?.map(|execution| execution.get());

@@ -1,6 +1,6 @@
 //! `Plan`: the plan file.
 
-use crate::errors::{self, FileOf, SystemWord};
+use crate::errors::{self, FileKind, SystemWord};
 use crate::plate::plates;
 use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
@@ -79,7 +79,7 @@ impl PlanObject {
 
     fn read(name: &str, path: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (py, path) = (path.py(), argument::path(name, path)?);
-        let text = file::read_text(&path, MAX_BYTES).map_err(|e| errors::unread(py, FileOf::Plan, &path, &e))?;
+        let text = file::read_text(&path, MAX_BYTES).map_err(|e| errors::unread(py, FileKind::Plan, &path, &e))?;
         let plan = Plan::from_json(&text).map_err(|e| {
             let message = format!("{}: {e}", path.display());
             errors::named(py, "PlanFileError", &message)
@@ -165,7 +165,7 @@ impl PlanObject {
         std::fs::write(&path, self.to_json(py)?).map_err(|e| {
             let filename = path.display().to_string();
             let message = format!("{filename}: cannot be written: {e}");
-            errors::system_file(py, FileOf::Plan, SystemWord::from(&e), &filename, &message)
+            errors::system_file(py, FileKind::Plan, SystemWord::from(&e), &filename, &message)
         })
     }
 
@@ -314,7 +314,7 @@ impl PlanObject {
         tip: Option<&Bound<'py, PyAny>>,
         robot: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let given = export::Given {
+        let given = export::ExportKeywords {
             tolerance_m,
             speed_share,
             corner_m,
@@ -352,7 +352,7 @@ impl PlanObject {
         stands_rad: Option<&Bound<'py, PyAny>>,
         robot: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let given = export::Given {
+        let given = export::ExportKeywords {
             tolerance_m: None,
             speed_share,
             corner_m: None,
@@ -384,7 +384,7 @@ impl PlanObject {
         speed_m_s: Option<&Bound<'_, PyAny>>,
         robot: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let asked = dry_run::Asked {
+        let asked = dry_run::DryRunSettings {
             height_m: argument::number_or("height_m", height_m, HEIGHT_M)?,
             speed_m_s: argument::number_or("speed_m_s", speed_m_s, SPEED_M_S)?,
         };

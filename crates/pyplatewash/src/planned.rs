@@ -12,7 +12,7 @@ use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
 use platewash::scenario::Program;
 use platewash::workcell::words::{counted, quoted};
-use platewash::{Failure, Planned, SweepRow, WashReport, sweep_each};
+use platewash::{Failure, PlannedJob, SweepRow, WashReport, sweep_each};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// A washing, from home to home, planned before anything moves: the `plan`, and how it came about. Immutable.
 #[pyclass(frozen, module = "pyplatewash", name = "Planned")]
 pub struct PlannedObject {
-    inner: Arc<Planned>,
+    inner: Arc<PlannedJob>,
     job: Py<WashJobObject>,
 }
 

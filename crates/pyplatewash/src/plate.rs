@@ -31,7 +31,7 @@ const SAME_M: f64 = 1e-12;
 const FLAT: &str = "flat";
 
 /// Profile, radius and quaternion of a plate, as Python's.
-type Made<'py> = (Option<Bound<'py, PyTuple>>, f64, (f64, f64, f64, f64));
+type PlateValues<'py> = (Option<Bound<'py, PyTuple>>, f64, (f64, f64, f64, f64));
 
 /// Largest difference of the length of a quaternion from 1.
 const UNIT: f64 = 1e-9;
@@ -188,7 +188,7 @@ fn profile(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Knots>> {
 /// What a plate is made of besides numbers that are taken as they are: the knots of its profile as tuples, or `None` where it is flat after
 /// all, its radius \[m\] and its quaternion.
 #[pyfunction]
-pub fn _plate_made<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<Made<'py>> {
+pub fn _plate_made<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<PlateValues<'py>> {
     let fields = PlateFields::of("plate", plate)?;
     let surface = fields.surface(py)?;
     let [w, x, y, z] = fields.quaternion_wxyz;

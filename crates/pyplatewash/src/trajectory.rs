@@ -1,6 +1,6 @@
 //! `Trajectory`: joint motion over time.
 
-use crate::arrays::{self, Count, MANY_JOINTS, Numbers, Wanted};
+use crate::arrays::{self, Count, ExpectedShape, MANY_JOINTS, Numbers};
 use crate::work::released;
 use crate::{argument, errors};
 use numpy::PyArrayDyn;
@@ -10,11 +10,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use rayon::prelude::*;
 
-const TIMES: Wanted = Wanted {
+const TIMES: ExpectedShape = ExpectedShape {
     item: &[],
     count: Count::Any,
 };
-const MANY_TIMES: Wanted = Wanted {
+const MANY_TIMES: ExpectedShape = ExpectedShape {
     item: &[],
     count: Count::Stack,
 };

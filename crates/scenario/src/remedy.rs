@@ -11,7 +11,7 @@ use platewash_certificate::{Certificate, Requirement, prove_with};
 use platewash_kinematics::RobotModel;
 use platewash_planner::scene::Hindrance;
 use platewash_planner::transit::TransitError;
-use platewash_planner::{PlanError, Promised, Watch, plan_unexplained};
+use platewash_planner::{ContactPromise, PlanError, Watch, plan_unexplained};
 use platewash_workcell::cancel::{CancelToken, Cancelled, Deadline};
 use platewash_workcell::job::{End, JobError};
 use platewash_workcell::layout::LayoutError;
@@ -98,7 +98,7 @@ impl fmt::Display for Remedies {
 
 /// A key that is tried.
 #[derive(Debug, Clone, Copy)]
-enum Tried {
+enum TriedKey {
     /// A number, by steps of its grid.
     Number(&'static Grid),
     /// A home that is stated, left out.
@@ -193,7 +193,7 @@ fn is_sampled(scenario: &Scenario) -> bool {
     scenario.plate.is_empty() && scenario.layout.positions_m.is_none()
 }
 
-impl Tried {
+impl TriedKey {
     fn key(&self) -> &'static str {
         match self {
             Self::Number(grid) => grid.key,
@@ -229,20 +229,25 @@ impl Scenario {
         search_time: Duration,
     ) -> Result<Remedies, Cancelled> {
         let broken = certificate.broken().flat_map(|check| of_requirement(check.requirement));
-        self.try_each(arm, once_each(broken.map(Tried::Number).collect()), watch, search_time)
+        self.try_each(
+            arm,
+            once_each(broken.map(TriedKey::Number).collect()),
+            watch,
+            search_time,
+        )
     }
 
     fn try_each(
         &self,
         arm: &Arc<RobotModel>,
-        pointed_to: Vec<Tried>,
+        pointed_to: Vec<TriedKey>,
         watch: &Watch<'_>,
         search_time: Duration,
     ) -> Result<Remedies, Cancelled> {
         let is_over = CancelToken::new();
         let deadline = Deadline::following(search_time, &is_over, watch.cancel);
         let silent = Watch::silent(&is_over);
-        let tried: Vec<Tried> = pointed_to.into_iter().filter(|tried| self.decides(*tried)).collect();
+        let tried: Vec<TriedKey> = pointed_to.into_iter().filter(|tried| self.decides(*tried)).collect();
         let found: Vec<_> = tried
             .par_iter()
             .with_max_len(1)
@@ -263,20 +268,20 @@ impl Scenario {
     }
 
     /// Returns true where a key has an effect in this scenario.
-    fn decides(&self, tried: Tried) -> bool {
+    fn decides(&self, tried: TriedKey) -> bool {
         match tried {
-            Tried::Number(grid) => (grid.get)(self).is_some(),
-            Tried::Home(End::Start) => self.robot.start_deg.is_some(),
-            Tried::Home(End::End) => self.robot.home_deg.is_some(),
+            TriedKey::Number(grid) => (grid.get)(self).is_some(),
+            TriedKey::Home(End::Start) => self.robot.start_deg.is_some(),
+            TriedKey::Home(End::End) => self.robot.home_deg.is_some(),
         }
     }
 
     /// The least change of a key with which the plan is proved, or else with which there is one.
-    fn remedy(&self, arm: &Arc<RobotModel>, tried: Tried, watch: &Watch<'_>) -> Option<Remedy> {
+    fn remedy(&self, arm: &Arc<RobotModel>, tried: TriedKey, watch: &Watch<'_>) -> Option<Remedy> {
         let key = tried.key();
         let grid = match tried {
-            Tried::Number(grid) => grid,
-            Tried::Home(end) => {
+            TriedKey::Number(grid) => grid,
+            TriedKey::Home(end) => {
                 let mut changed = self.clone();
                 match end {
                     End::Start => changed.robot.start_deg = None,
@@ -362,9 +367,9 @@ fn least_steps(trial: impl Fn(i32) -> Trial) -> Option<(Trial, i32)> {
 }
 
 /// The keys that a cause points to, each once; that asks for less clearance comes last.
-fn pointed_to(error: &PlanError) -> Vec<Tried> {
-    use Tried::{Home, Number};
-    let mut all: Vec<Tried> = match error {
+fn pointed_to(error: &PlanError) -> Vec<TriedKey> {
+    use TriedKey::{Home, Number};
+    let mut all: Vec<TriedKey> = match error {
         PlanError::Unwashable(plate) => {
             let hindrances = plate.causes.iter().flat_map(|cause| &cause.worst);
             let mut grids: Vec<&Grid> = hindrances.flat_map(of_hindrance).collect();
@@ -399,7 +404,7 @@ fn pointed_to(error: &PlanError) -> Vec<Tried> {
 }
 
 /// Each key once.
-fn once_each(mut all: Vec<Tried>) -> Vec<Tried> {
+fn once_each(mut all: Vec<TriedKey>) -> Vec<TriedKey> {
     let mut keys: Vec<&str> = Vec::new();
     all.retain(|tried| {
         let is_new = !keys.contains(&tried.key());
@@ -410,11 +415,13 @@ fn once_each(mut all: Vec<Tried>) -> Vec<Tried> {
 }
 
 /// The keys that decide whether a promise about contact is kept.
-fn of_promise(promised: Promised) -> Vec<&'static Grid> {
+fn of_promise(promised: ContactPromise) -> Vec<&'static Grid> {
     match promised {
-        Promised::Strain | Promised::LeastForce | Promised::GreatestForce => vec![&COMPRESSION, &LESS_TILT],
-        Promised::Pressed | Promised::ContactDose => vec![&COMPRESSION, &LESS_TILT, &TURNS],
-        Promised::ContactTime => vec![&SPEED, &COMPRESSION, &TURNS],
+        ContactPromise::Strain | ContactPromise::LeastForce | ContactPromise::GreatestForce => {
+            vec![&COMPRESSION, &LESS_TILT]
+        }
+        ContactPromise::Pressed | ContactPromise::ContactDose => vec![&COMPRESSION, &LESS_TILT, &TURNS],
+        ContactPromise::ContactTime => vec![&SPEED, &COMPRESSION, &TURNS],
     }
 }
 
@@ -424,9 +431,9 @@ fn of_requirement(requirement: Requirement) -> Vec<&'static Grid> {
         Requirement::Swept => vec![&TURNS, &PATH_RADIUS, &LESS_TILT],
         Requirement::Clearance => vec![&LIFT, &CLEARANCE],
         Requirement::Tilt => vec![&TILT_MAX],
-        Requirement::Pressed | Requirement::ContactDose => of_promise(Promised::Pressed),
-        Requirement::ContactTime => of_promise(Promised::ContactTime),
-        Requirement::Strain | Requirement::ContactForce => of_promise(Promised::Strain),
+        Requirement::Pressed | Requirement::ContactDose => of_promise(ContactPromise::Pressed),
+        Requirement::ContactTime => of_promise(ContactPromise::ContactTime),
+        Requirement::Strain | Requirement::ContactForce => of_promise(ContactPromise::Strain),
         _ => Vec::new(),
     }
 }

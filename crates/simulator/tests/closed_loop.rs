@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_simulator::control::{self, ControlError, PaperLaw, Reference, Standing};
+use platewash_simulator::control::{self, ControlError, OperatingPoint, PaperLaw, Reference};
 use platewash_simulator::dynamics::spread;
 use platewash_simulator::{Command, ControlLaw, DynamicsModel, Plant, PlantState};
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, Integrator};
@@ -24,7 +24,7 @@ fn plant() -> (RobotModel, Plant) {
 /// Configurations at which some loop of independent joints is nearest to instability, and some all over the limits.
 ///
 /// Gains go with D, each joint's largest inertia, so that a loop is fastest where the largest eigenvalue of M⁻¹ D is.
-fn everywhere(robot: &RobotModel) -> Vec<Standing> {
+fn everywhere(robot: &RobotModel) -> Vec<OperatingPoint> {
     static FOUND: OnceLock<Vec<JointVector>> = OnceLock::new();
     let find = || {
         let (_, plant) = plant();
@@ -41,7 +41,12 @@ fn everywhere(robot: &RobotModel) -> Vec<Standing> {
             .chain(spread(robot.limits(), 32))
             .collect()
     };
-    FOUND.get_or_init(find).iter().copied().map(Standing::from).collect()
+    FOUND
+        .get_or_init(find)
+        .iter()
+        .copied()
+        .map(OperatingPoint::from)
+        .collect()
 }
 
 /// The state after `seconds` at 1 kHz.

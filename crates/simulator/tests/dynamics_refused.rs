@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{RobotModel, UrdfError};
-use platewash_simulator::dynamics::Unphysical;
+use platewash_simulator::dynamics::MassPropertiesError;
 use platewash_simulator::{DynamicsError, DynamicsModel};
 use platewash_workcell::tool::StraightTool;
 
@@ -44,7 +44,7 @@ fn the_base_needs_no_mass() {
 fn a_violated_triangle_inequality_is_named() {
     let error = refusal("ixx=\"0.0603111\"", "ixx=\"0.0703111\"");
     assert!(
-        matches!(&error, DynamicsError::Link { link, cause: Unphysical::Inertia(_) } if link == "link_2"),
+        matches!(&error, DynamicsError::Link { link, cause: MassPropertiesError::Inertia(_) } if link == "link_2"),
         "{error}"
     );
     let message = error.to_string();
@@ -63,7 +63,7 @@ fn negative_inertia_and_no_mass_are_named() {
     );
     let error = refusal("<mass value=\"1.328\"/>", "<mass value=\"0\"/>");
     assert!(
-        matches!(&error, DynamicsError::Link { link, cause: Unphysical::Mass(_) } if link == "link_4"),
+        matches!(&error, DynamicsError::Link { link, cause: MassPropertiesError::Mass(_) } if link == "link_4"),
         "{error}"
     );
     let negative = edited("<mass value=\"1.328\"/>", "<mass value=\"-1.328\"/>").unwrap_err();
@@ -113,7 +113,7 @@ fn tools_are_checked_and_weigh_what_they_state() {
         matches!(
             error,
             DynamicsError::Tool {
-                cause: Unphysical::Inertia(_)
+                cause: MassPropertiesError::Inertia(_)
             }
         ) && error.to_string().starts_with("tool: ")
     );

@@ -1,10 +1,10 @@
 //! The folder of a study: its file, its manifest, its rows as they are done, and how long each took.
 
 use crate::error::StudyError;
-use crate::kept::{MANIFEST, PARTS, ROWS, check_unchanged, each_row, hashed, read_manifest};
+use crate::folder_reader::{MANIFEST, PARTS, ROWS, check_unchanged, each_row, hashed, read_manifest};
 use crate::lines::{self, Lines};
 use crate::manifest::Manifest;
-use crate::row::Made;
+use crate::row::RowWithPlan;
 use crate::study::Study;
 use platewash_workcell::atomic_file::FolderLock;
 use std::fs::{self, File};
@@ -117,7 +117,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`StudyError::Disk`]; the rows before stay whole.
-    pub fn append(&mut self, made: &Made, took: impl Into<Option<Duration>>) -> Result<(), StudyError> {
+    pub fn append(&mut self, made: &RowWithPlan, took: impl Into<Option<Duration>>) -> Result<(), StudyError> {
         let index = made.row.index;
         let Some(([rows, timings], has)) = self.files.as_mut().zip(self.has.get_mut(index as usize)) else {
             return Ok(());

@@ -6,8 +6,8 @@
 
 mod axis;
 mod error;
+mod folder_reader;
 mod journal;
-mod kept;
 mod lines;
 mod manifest;
 mod resolve;
@@ -19,11 +19,11 @@ mod summary;
 
 pub use axis::{Axis, AxisKind};
 pub use error::StudyError;
+pub use folder_reader::{Places, check, counted, export, read_manifest};
 pub use journal::Journal;
-pub use kept::{Places, check, counted, export, read_manifest};
 pub use manifest::{Manifest, ManifestAxis, ManifestFile, ManifestScenario};
 pub use resolve::{Resolver, judged};
-pub use row::{Keep, Made, Outcome, Place, ROW_SCHEMA, Row};
+pub use row::{Outcome, Place, PlanChoice, ROW_SCHEMA, Row, RowWithPlan};
 pub use run::{Progress, run};
 pub use study::{Base, MOST_ROWS, PartsFile, RowAddress, Study, StudyParts};
 pub use summary::{AxisValue, Summary, summary};

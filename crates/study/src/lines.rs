@@ -118,9 +118,9 @@ mod tests {
     use super::*;
 
     /// A disk with room for so many bytes.
-    struct Full(Vec<u8>, usize);
+    struct FullDisk(Vec<u8>, usize);
 
-    impl Write for Full {
+    impl Write for FullDisk {
         fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
             let room = (self.1 - self.0.len()).min(bytes.len());
             if room == 0 {
@@ -135,7 +135,7 @@ mod tests {
         }
     }
 
-    impl Sink for Full {
+    impl Sink for FullDisk {
         fn cut(&mut self, length: u64) -> io::Result<()> {
             self.0.truncate(length as usize);
             Ok(())
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_full_disk_is_an_error_and_keeps_the_lines_before_whole() {
-        let mut lines = Lines::after(Path::new("rows"), Full(Vec::new(), 8), 0).unwrap();
+        let mut lines = Lines::after(Path::new("rows"), FullDisk(Vec::new(), 8), 0).unwrap();
         lines.append("one").unwrap();
         let error = lines.append("three").unwrap_err();
         assert!(matches!(error, StudyError::Disk { cause, .. } if cause.kind() == io::ErrorKind::StorageFull));

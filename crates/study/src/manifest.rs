@@ -2,7 +2,7 @@
 
 use crate::axis::AxisKind;
 use crate::error::StudyError;
-use crate::kept::MANIFEST;
+use crate::folder_reader::MANIFEST;
 use crate::lines::write_whole;
 use crate::row::ROW_SCHEMA;
 use crate::study::{Base, Study};

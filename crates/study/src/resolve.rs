@@ -1,12 +1,12 @@
 //! Resolver: from a row's values to its result, planned and proved, from the row alone.
 
 use crate::error::StudyError;
-use crate::row::{Made, Outcome, Row};
+use crate::row::{Outcome, Row, RowWithPlan};
 use crate::study::{RowAddress, Study};
 use platewash_certificate::{Certificate, prove_with};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::Files;
-use platewash_planner::{Planned, Watch, plan_with};
+use platewash_planner::{PlannedJob, Watch, plan_with};
 use platewash_scenario::{Failure, Scenario, Solids};
 use platewash_workcell::cancel::CancelToken;
 use serde_json::Value;
@@ -29,7 +29,7 @@ pub fn judged(
     scenario: &Scenario,
     arm: &Arc<RobotModel>,
     cancel: &CancelToken,
-) -> Result<(Planned, Certificate), Failure> {
+) -> Result<(PlannedJob, Certificate), Failure> {
     let watch = Watch::silent(cancel);
     let layout = scenario.place(arm, &watch)?;
     let planned = plan_with(&scenario.job_on(arm, &layout)?, &watch)?;
@@ -43,16 +43,16 @@ pub struct Resolver {
     /// Meshes that were cut, for all scenarios.
     solids: Solids,
     arms: Mutex<HashMap<ArmFiles, Arc<RobotModel>>>,
-    last: Mutex<Option<Read>>,
+    last: Mutex<Option<CachedScenario>>,
     /// [`judged`]; a test has another.
     judge: Judge,
 }
 
 /// Function from a scenario with its arm to a plan and its certificate.
-type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(Planned, Certificate), Failure>;
+type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(PlannedJob, Certificate), Failure>;
 
 /// A scenario with the values that it was made of, but for the seed.
-type Read = ((usize, BTreeMap<String, Value>), Arc<Scenario>);
+type CachedScenario = ((usize, BTreeMap<String, Value>), Arc<Scenario>);
 
 impl Resolver {
     /// Resolver of a study; nothing is read yet.
@@ -71,7 +71,7 @@ impl Resolver {
     ///
     /// # Errors
     /// [`StudyError::NoRow`].
-    pub fn row(&self, index: u64, cancel: &CancelToken) -> Result<Option<Made>, StudyError> {
+    pub fn row(&self, index: u64, cancel: &CancelToken) -> Result<Option<RowWithPlan>, StudyError> {
         let address = self.study.row(index)?;
         let name = self.study.bases[address.base].name.clone();
         let row = Row::new(index, address.key.clone(), name, address.axes.clone());
@@ -79,7 +79,7 @@ impl Resolver {
         Ok(done.unwrap_or_else(|panic| Some(row.ended(Outcome::Crashed, words_of(&*panic)).into())))
     }
 
-    fn done(&self, row: Row, address: &RowAddress, cancel: &CancelToken) -> Option<Made> {
+    fn done(&self, row: Row, address: &RowAddress, cancel: &CancelToken) -> Option<RowWithPlan> {
         let scenario = match self.scenario(address) {
             Ok(scenario) => scenario,
             Err(problem) => return Some(row.ended(Outcome::Error, problem).into()),
@@ -95,12 +95,12 @@ impl Resolver {
     }
 
     /// A row with its plan, where the study keeps it.
-    fn made(&self, row: Row, planned: &Planned) -> Made {
+    fn made(&self, row: Row, planned: &PlannedJob) -> RowWithPlan {
         if !self.study.plans.wants(&row) {
             return row.into();
         }
         match planned.plan.to_json() {
-            Ok(plan) => Made {
+            Ok(plan) => RowWithPlan {
                 row,
                 plan: Some(plan.into_bytes()),
             },
@@ -160,14 +160,14 @@ mod tests {
     #![allow(clippy::panic)]
 
     use super::*;
+    use crate::folder_reader::{read_manifest, rows};
     use crate::journal::Journal;
-    use crate::kept::{read_manifest, rows};
     use crate::run::run;
     use platewash_workcell::cancel::Cancelled;
     use std::path::Path;
 
     /// A planner that fails on seed 2, and else has no plan.
-    fn broken(scenario: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(Planned, Certificate), Failure> {
+    fn broken(scenario: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(PlannedJob, Certificate), Failure> {
         match scenario.seed {
             2 => panic!("index {} is none", 7),
             _ => Err(Failure::NoContact { height_m: 0.0 }),
@@ -207,7 +207,7 @@ mod tests {
 
     #[test]
     fn a_row_that_is_given_up_is_none() {
-        fn given_up(_: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(Planned, Certificate), Failure> {
+        fn given_up(_: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(PlannedJob, Certificate), Failure> {
             Err(Failure::Prove(platewash_certificate::ProveError::Cancelled(Cancelled)))
         }
         let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n";

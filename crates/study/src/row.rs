@@ -2,7 +2,7 @@
 
 use platewash_certificate::{Certificate, Requirement, Verdict};
 use platewash_kinematics::ik::IkPathError;
-use platewash_planner::{InfeasibleReport, PlanError, Planned};
+use platewash_planner::{InfeasibleReport, PlanError, PlannedJob};
 use platewash_scenario::Failure;
 use platewash_workcell::verdict::Infeasibility;
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,7 @@ impl Row {
     }
 
     /// The row with the results of a plan.
-    pub(crate) fn planned(self, planned: &Planned, certificate: &Certificate) -> Self {
+    pub(crate) fn planned(self, planned: &PlannedJob, certificate: &Certificate) -> Self {
         let clearance = certificate.check(Requirement::Clearance);
         Self {
             outcome: Outcome::judged(certificate.verdict),
@@ -239,7 +239,7 @@ fn waypoint(error: &IkPathError) -> Option<usize> {
 /// Choice of the plans that a study keeps beside its rows: the key `plans` of a study file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Keep {
+pub enum PlanChoice {
     /// No plan: a row has its hash, and `study scenario` makes it again.
     #[default]
     None,
@@ -249,7 +249,7 @@ pub enum Keep {
     All,
 }
 
-impl Keep {
+impl PlanChoice {
     /// Checks that the plan of a row is kept; a row without a plan has none to keep.
     #[must_use]
     pub fn wants(self, row: &Row) -> bool {
@@ -264,14 +264,14 @@ impl Keep {
 
 /// A row, and the plan where the study keeps it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Made {
+pub struct RowWithPlan {
     /// Result of the scenario.
     pub row: Row,
-    /// The plan's file, as `run` writes `plan.json`; there exactly where [`Keep::wants`](crate::Keep::wants) it.
+    /// The plan's file, as `run` writes `plan.json`; there exactly where [`PlanChoice::wants`](crate::PlanChoice::wants) it.
     pub plan: Option<Vec<u8>>,
 }
 
-impl From<Row> for Made {
+impl From<Row> for RowWithPlan {
     /// A row whose plan is not kept.
     fn from(row: Row) -> Self {
         Self { row, plan: None }

@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::journal::Journal;
-use crate::row::Made;
+use crate::row::RowWithPlan;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -33,7 +33,7 @@ pub struct Progress {
 pub fn run(
     journal: &mut Journal,
     cancel: &CancelToken,
-    make: impl Fn(u64, &CancelToken) -> Result<Option<Made>, StudyError> + Sync,
+    make: impl Fn(u64, &CancelToken) -> Result<Option<RowWithPlan>, StudyError> + Sync,
     told: impl FnMut(Progress) + Send,
 ) -> Result<(), StudyError> {
     let missing = journal.missing();
@@ -57,7 +57,7 @@ pub fn run(
 
 /// Keeps rows until nobody makes any more.
 fn keep(
-    rows: &Receiver<(Made, Duration)>,
+    rows: &Receiver<(RowWithPlan, Duration)>,
     journal: &mut Journal,
     mut told: impl FnMut(Progress),
 ) -> Result<(), StudyError> {

@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, Values, canonical, spaced};
 use crate::error::StudyError;
-use crate::row::Keep;
+use crate::row::PlanChoice;
 use crate::study::{Base, MOST_ROWS, Study};
 use platewash_kinematics::words::message_in_words;
 use platewash_scenario::{Draft, Program, SHIPPED, ScenarioError, check_seed, source};
@@ -27,7 +27,7 @@ pub(crate) struct Statement {
     pub name: Spanned<String>,
     pub scenario: Spanned<OneOrMore>,
     #[serde(default)]
-    pub plans: Keep,
+    pub plans: PlanChoice,
     pub axis: Option<Spanned<Vec<Spanned<AxisStatement>>>>,
     pub rows: Option<Spanned<Vec<Spanned<toml::Table>>>>,
 }

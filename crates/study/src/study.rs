@@ -3,9 +3,9 @@
 
 use crate::axis::{Axis, Values, canonical};
 use crate::error::StudyError;
-use crate::kept::{PARTS, read_manifest};
+use crate::folder_reader::{PARTS, read_manifest};
 use crate::manifest::Manifest;
-use crate::row::{Keep, Outcome, Row};
+use crate::row::{Outcome, PlanChoice, Row};
 use crate::statement::Source;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use platewash_kinematics::fingerprint::sha256_hex;
@@ -36,7 +36,7 @@ pub struct Study {
     /// The file's text.
     pub text: String,
     /// Whose plans are kept.
-    pub plans: Keep,
+    pub plans: PlanChoice,
     /// The scenarios, the slowest of all axes.
     pub bases: Vec<Base>,
     /// The axes, the last one the fastest; none where rows are listed.

@@ -1,7 +1,7 @@
 //! Summary of the rows of a study: outcomes by axis, durations, the rows to look at.
 
 use crate::error::StudyError;
-use crate::kept::{check_unchanged, read_manifest, rows};
+use crate::folder_reader::{check_unchanged, read_manifest, rows};
 use crate::manifest::Manifest;
 use crate::row::{Outcome, Row};
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! A process that is killed loses no row, and a large study needs little memory.
 
-use platewash_study::{Journal, Made, Resolver, Row, Study, export, run};
+use platewash_study::{Journal, Resolver, Row, RowWithPlan, Study, export, run};
 use platewash_workcell::cancel::CancelToken;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -18,7 +18,7 @@ fn study(seeds: u64) -> Study {
 }
 
 /// A row of a planner that does nothing.
-fn empty(study: &Study, index: u64) -> Made {
+fn empty(study: &Study, index: u64) -> RowWithPlan {
     let address = study.row(index).unwrap();
     let text = format!(
         "{{\"schema\":2,\"index\":{index},\"key\":\"{}\",\"scenario\":\"kitchen\",\"axes\":{},\"outcome\":\"not_found\",\"place\":{{}}}}",

@@ -1,6 +1,6 @@
 //! Rows are the same bytes however they were made, and none is lost.
 
-use platewash_study::{Journal, Made, Outcome, Resolver, Row, Study, StudyError, export, run, summary};
+use platewash_study::{Journal, Outcome, Resolver, Row, RowWithPlan, Study, StudyError, export, run, summary};
 use platewash_workcell::cancel::CancelToken;
 use proptest::prelude::*;
 use std::fs;
@@ -16,7 +16,7 @@ fn study(text: &str) -> Result<Study, StudyError> {
 }
 
 /// A row of a planner that does nothing.
-fn empty(study: &Study, index: u64) -> Made {
+fn empty(study: &Study, index: u64) -> RowWithPlan {
     let address = study.row(index).unwrap();
     let text = format!(
         "{{\"schema\":2,\"index\":{index},\"key\":\"{}\",\"scenario\":\"{}\",\"axes\":{},\"outcome\":\"not_found\",\"reason\":\"none\",\

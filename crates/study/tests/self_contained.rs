@@ -1,7 +1,7 @@
 //! A study has all that its rows name: it is sent to whoever has none of its files, and knows them again.
 
 use platewash_kinematics::irb120::IRB120_URDF;
-use platewash_study::{Journal, Made, Outcome, Resolver, Study, StudyError, StudyParts};
+use platewash_study::{Journal, Outcome, Resolver, RowWithPlan, Study, StudyError, StudyParts};
 use platewash_workcell::cancel::CancelToken;
 use std::fs;
 use std::path::Path;
@@ -34,7 +34,7 @@ fn laid(folder: &Path) -> Study {
     Study::load(&folder.join("study.toml")).unwrap()
 }
 
-fn rows(study: Study) -> Vec<Made> {
+fn rows(study: Study) -> Vec<RowWithPlan> {
     let (rows, cancel) = (study.rows(), CancelToken::new());
     let resolver = Resolver::new(Arc::new(study));
     (0..rows)

@@ -23,7 +23,7 @@ const MOST_KIB: usize = 192 << 10;
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// What the n-th client sends, of which some is broken, some huge, some good.
-fn sent(served: &Served, n: usize) -> Vec<u8> {
+fn sent(served: &ToyServer, n: usize) -> Vec<u8> {
     let good = served.question("/echo", "{}");
     let long = served.question("/echo", &"a".repeat(MOST_BYTES));
     let announced = request("POST /echo HTTP/1.1", &served.headers(MOST_BYTES));
@@ -46,7 +46,7 @@ fn sent(served: &Served, n: usize) -> Vec<u8> {
 }
 
 /// A client that sends what it can without being held up for long, and reads nothing.
-fn client(served: &Served, n: usize) -> TcpStream {
+fn client(served: &ToyServer, n: usize) -> TcpStream {
     let mut stream = served.connect();
     stream.set_write_timeout(Some(Duration::from_millis(50))).unwrap();
     let _ = stream.write_all(&sent(served, n));

@@ -1,7 +1,7 @@
 //! The server as its clients meet it, good ones and others, over TCP.
 
 use crate::wire::{is, read_until};
-use platewash_viewer::server::{Listener, Live, LiveEnd, Page, Server, ServerError, Site};
+use platewash_viewer::server::{Listener, LiveEnd, LiveRun, Page, Server, ServerError, Site};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
@@ -12,28 +12,28 @@ const PAGE: &str = "<!doctype html><title>page</title>";
 /// Long after anything that answers has answered.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-struct Served {
+struct TestServer {
     server: Option<Server>,
     address: SocketAddr,
 }
 
-fn serve(live: Option<Arc<Live>>) -> Served {
+fn serve(live: Option<Arc<LiveRun>>) -> TestServer {
     serve_page(PAGE, live)
 }
 
-fn serve_page(page: &str, live: Option<Arc<Live>>) -> Served {
+fn serve_page(page: &str, live: Option<Arc<LiveRun>>) -> TestServer {
     let listener = Listener::bind("127.0.0.1:0".parse().unwrap()).unwrap();
     let url = listener.url();
     let address = url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
     let page = Page::Fixed(page.to_owned());
     let site = Site { live, ..Site::of(page) };
-    Served {
+    TestServer {
         server: Some(listener.serve(site).unwrap()),
         address: address.parse().unwrap(),
     }
 }
 
-impl Served {
+impl TestServer {
     fn connect(&self) -> TcpStream {
         let stream = TcpStream::connect(self.address).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
@@ -291,7 +291,7 @@ fn events(text: &str) -> Vec<(String, Option<usize>, serde_json::Value)> {
 
 #[test]
 fn a_run_is_told_as_it_goes_and_who_comes_late_is_told_all() {
-    let live = Live::new("a1");
+    let live = LiveRun::new("a1");
     let served = serve(Some(live.clone()));
     let mut early = served.connect();
     let request = format!("GET {} HTTP/1.1\r\nHost: {}\r\n\r\n", live.events(), served.address);
@@ -328,7 +328,7 @@ fn a_run_is_told_as_it_goes_and_who_comes_late_is_told_all() {
 
 #[test]
 fn who_lost_the_connection_is_told_what_it_missed() {
-    let live = Live::new("a1");
+    let live = LiveRun::new("a1");
     let served = serve(Some(live.clone()));
     live.begin();
     (0..10).for_each(|n| live.push([f64::from(n); 20]));
@@ -349,7 +349,7 @@ fn who_lost_the_connection_is_told_what_it_missed() {
 #[test]
 fn who_comes_late_or_again_is_told_the_rest_in_parts() {
     const ROWS: usize = 1003;
-    let live = Live::new("a1");
+    let live = LiveRun::new("a1");
     let served = serve(Some(live.clone()));
     live.begin();
     (0..ROWS).for_each(|n| live.push([n as f64; 20]));
@@ -383,7 +383,7 @@ fn who_comes_late_or_again_is_told_the_rest_in_parts() {
 
 #[test]
 fn a_page_of_another_run_is_told_to_ask_no_more() {
-    let live = Live::new("a1");
+    let live = LiveRun::new("a1");
     let served = serve(Some(live));
     is(&served.get("/events?run=b2"), "204");
     is(&served.ask("HEAD /events HTTP/1.1", ""), "200");
@@ -394,7 +394,7 @@ fn a_page_of_another_run_is_told_to_ask_no_more() {
 
 #[test]
 fn more_followers_than_there_are_places_for_are_refused_and_the_page_still_comes() {
-    let live = Live::new("a1");
+    let live = LiveRun::new("a1");
     let mut served = serve(Some(live));
     let request = format!("GET /events HTTP/1.1\r\nHost: {}\r\n\r\n", served.address);
     let followers: Vec<_> = (0..16)

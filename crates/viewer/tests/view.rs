@@ -7,7 +7,7 @@ use platewash_certificate::{Certificate, Requirement, prove};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_viewer::View;
-use platewash_viewer::view::{Beside, Executed, ViewError};
+use platewash_viewer::view::{ExecutedMotion, ViewError, ViewExtras};
 use platewash_workcell::csv::RecordedMotion;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::fixtures::{contact_kitchen, kitchen, kitchen_tool};
@@ -45,12 +45,12 @@ static KITCHEN: LazyLock<Kitchen> = LazyLock::new(|| {
 
 impl Kitchen {
     fn document(&self) -> Value {
-        let executed = Executed::simulated(&self.execution, &self.report);
+        let executed = ExecutedMotion::simulated(&self.execution, &self.report);
         let region = TaskRegion {
             base_circle_m: Some(0.28),
             polygon_m: Some(vec![[0.0, -0.38], [0.3, -0.38], [0.3, 0.38]]),
         };
-        let beside = Beside {
+        let beside = ViewExtras {
             certificate: Some(&self.certificate),
             executed: Some(&executed),
             region: Some(&region),
@@ -169,9 +169,9 @@ fn what_is_pressed_is_what_is_proved() {
     let certificate = prove(&plan, job.arm()).unwrap();
     let proved = certificate.contact[0];
     let document = |plan: &Plan, certificate| {
-        let beside = Beside {
+        let beside = ViewExtras {
             certificate,
-            ..Beside::default()
+            ..ViewExtras::default()
         };
         serde_json::to_value(View::of_plan(plan, job.arm(), &beside).unwrap()).unwrap()
     };
@@ -225,7 +225,7 @@ fn plates_of_a_profile_are_told_with_their_foot() {
         radius_m: 0.06,
         height_m: 0.004,
     });
-    let view = View::of_plan(&plan, &KITCHEN.arm, &Beside::default()).unwrap();
+    let view = View::of_plan(&plan, &KITCHEN.arm, &ViewExtras::default()).unwrap();
     let document = serde_json::to_value(&view).unwrap();
     let told = |pointer: &str| document.pointer(pointer).cloned().unwrap_or_default();
     assert_eq!(
@@ -262,7 +262,7 @@ fn a_path_that_leaves_something_shows_it() {
     let settings = &plan.job.simulation;
     let execution = simulate(&plan, job.arm(), settings).unwrap();
     let report = SimulationReport::new(&plan, job.arm(), settings, &execution).unwrap();
-    let view = View::of_plan(&plan, job.arm(), &Beside::default()).unwrap();
+    let view = View::of_plan(&plan, job.arm(), &ViewExtras::default()).unwrap();
     let shown = shares(&serde_json::to_value(&view.coverage).unwrap());
     for ((_, share), outcome) in shown.iter().zip(&report.plates) {
         let measured = outcome.planned.fraction;
@@ -339,17 +339,17 @@ fn a_recorded_motion_shows_what_the_simulation_showed() {
     let kitchen = &*KITCHEN;
     let table = platewash_simulator::simulate::table(&kitchen.execution, &kitchen.plan, &kitchen.arm, 0.01).unwrap();
     let recorded = RecordedMotion::from_csv(&table.to_string()).unwrap();
-    let shown = |executed: &Executed| {
-        let beside = Beside {
+    let shown = |executed: &ExecutedMotion| {
+        let beside = ViewExtras {
             executed: Some(executed),
-            ..Beside::default()
+            ..ViewExtras::default()
         };
         let view = View::of_plan(&kitchen.plan, &kitchen.arm, &beside);
         serde_json::to_value(view.unwrap().execution.unwrap()).unwrap()
     };
     let (simulated, read) = (
-        shown(&Executed::simulated(&kitchen.execution, &kitchen.report)),
-        shown(&Executed::recorded(&recorded)),
+        shown(&ExecutedMotion::simulated(&kitchen.execution, &kitchen.report)),
+        shown(&ExecutedMotion::recorded(&recorded)),
     );
     assert_eq!(
         (&read["source"], &read["law"], &read["washed"]),
@@ -368,10 +368,10 @@ fn a_motion_of_another_plan_shows_by_its_error_or_is_refused() {
     let table = platewash_simulator::simulate::table(&kitchen.execution, &kitchen.plan, &kitchen.arm, 0.05).unwrap();
     let recorded = RecordedMotion::from_csv(&table.to_string()).unwrap();
     let view = |recorded: &RecordedMotion| {
-        let executed = Executed::recorded(recorded);
-        let beside = Beside {
+        let executed = ExecutedMotion::recorded(recorded);
+        let beside = ViewExtras {
             executed: Some(&executed),
-            ..Beside::default()
+            ..ViewExtras::default()
         };
         View::of_plan(&kitchen.plan, &kitchen.arm, &beside)
     };
@@ -412,9 +412,9 @@ fn a_plan_that_fails_is_shown_with_what_it_breaks() {
     let mut plan = kitchen.plan.clone();
     plan.job.requirements.clearance_m = 0.06;
     let certificate = prove(&plan, &kitchen.arm).unwrap();
-    let beside = Beside {
+    let beside = ViewExtras {
         certificate: Some(&certificate),
-        ..Beside::default()
+        ..ViewExtras::default()
     };
     let document = serde_json::to_value(View::of_plan(&plan, &kitchen.arm, &beside).unwrap()).unwrap();
     let shown = &document["certificate"];
@@ -441,7 +441,7 @@ fn plans_that_are_none_are_refused_and_odd_ones_shown() {
     let shown = |change: fn(&mut Plan)| {
         let mut plan = kitchen.plan.clone();
         change(&mut plan);
-        View::of_plan(&plan, &kitchen.arm, &Beside::default())
+        View::of_plan(&plan, &kitchen.arm, &ViewExtras::default())
     };
     let none = |plan: &mut Plan| {
         plan.knots.t_s.clear();
@@ -529,7 +529,7 @@ fn a_dry_run_says_so_in_its_document() {
         height_m: 0.05,
     };
     plan.job.dry_run = Some(dry_run.clone());
-    let view = View::of_plan(&plan, &KITCHEN.arm, &Beside::default()).unwrap();
+    let view = View::of_plan(&plan, &KITCHEN.arm, &ViewExtras::default()).unwrap();
     assert_eq!(view.heading.dry_run, Some(dry_run.words()));
 }
 

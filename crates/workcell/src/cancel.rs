@@ -49,11 +49,11 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Deadline that cancels a token after some time, unless it is dropped before.
 #[derive(Debug)]
 pub struct Deadline {
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
 }
 
 #[derive(Debug, Default)]
-struct Shared {
+struct SharedState {
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -75,7 +75,7 @@ impl Deadline {
     #[must_use]
     pub fn following(time: Duration, token: &CancelToken, other: &CancelToken) -> Self {
         let other = other.clone();
-        let shared: Arc<Shared> = Arc::default();
+        let shared: Arc<SharedState> = Arc::default();
         let (theirs, token) = (shared.clone(), token.clone());
         let until = Instant::now() + time;
         let wait = move || {

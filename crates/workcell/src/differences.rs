@@ -29,21 +29,21 @@ pub struct Difference {
 #[must_use]
 pub fn differences<T: Serialize>(found: &T, expected: &T) -> Vec<Difference> {
     let [found, expected] = [found, expected].map(|value| serde_json::to_value(value).unwrap_or(Value::Null));
-    Compared::of(&found, &expected, true)
+    DifferenceList::of(&found, &expected, true)
 }
 
 /// Same as [`differences`] for two JSON values; list elements are matched by position alone.
 pub(crate) fn by_place(found: &Value, expected: &Value) -> Vec<Difference> {
-    Compared::of(found, expected, false)
+    DifferenceList::of(found, expected, false)
 }
 
 /// Comparison of two values so far.
-struct Compared {
+struct DifferenceList {
     by_name: bool,
     all: Vec<Difference>,
 }
 
-impl Compared {
+impl DifferenceList {
     fn of(found: &Value, expected: &Value, by_name: bool) -> Vec<Difference> {
         let mut compared = Self {
             by_name,

@@ -41,7 +41,7 @@ fn words(text: &str, error: &serde_json::Error) -> String {
 }
 
 /// A table or list that contains the current position.
-enum Inside {
+enum Container {
     /// Table, with the key that was read last.
     Table(String),
     /// List, with the index of the element.
@@ -50,20 +50,20 @@ enum Inside {
 
 /// Returns the key at which the JSON ends that was read up to an error, such as `list[2].name`; empty for the whole.
 fn path_at(read: &[u8]) -> String {
-    let mut inside: Vec<Inside> = Vec::new();
+    let mut inside: Vec<Container> = Vec::new();
     let (mut takes_key, mut k) = (false, 0);
     while let Some(&byte) = read.get(k) {
         let is_last = k + 1 == read.len();
         match byte {
             b'{' if !is_last => {
                 takes_key = true;
-                inside.push(Inside::Table(String::new()));
+                inside.push(Container::Table(String::new()));
             }
-            b'[' if !is_last => inside.push(Inside::List(0)),
+            b'[' if !is_last => inside.push(Container::List(0)),
             // An error at its end is one of the whole table or list.
             b'}' | b']' => drop(inside.pop()),
             b',' => match inside.last_mut() {
-                Some(Inside::List(index)) => *index += 1,
+                Some(Container::List(index)) => *index += 1,
                 _ => takes_key = true,
             },
             b'"' => {
@@ -72,7 +72,7 @@ fn path_at(read: &[u8]) -> String {
                 while read.get(k).is_some_and(|&byte| byte != b'"') {
                     k += if read[k] == b'\\' { 2 } else { 1 };
                 }
-                if let Some(Inside::Table(key)) = inside.last_mut().filter(|_| takes_key) {
+                if let Some(Container::Table(key)) = inside.last_mut().filter(|_| takes_key) {
                     *key = String::from_utf8_lossy(&read[start..k.min(read.len())]).into_owned();
                     takes_key = false;
                 }
@@ -84,9 +84,9 @@ fn path_at(read: &[u8]) -> String {
     let mut path = String::new();
     for part in &inside {
         match part {
-            Inside::Table(key) if path.is_empty() || key.is_empty() => path += key,
-            Inside::Table(key) => path += &format!(".{key}"),
-            Inside::List(index) => path += &format!("[{index}]"),
+            Container::Table(key) if path.is_empty() || key.is_empty() => path += key,
+            Container::Table(key) => path += &format!(".{key}"),
+            Container::List(index) => path += &format!("[{index}]"),
         }
     }
     path
@@ -100,7 +100,7 @@ mod tests {
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]
     #[allow(dead_code)]
-    struct Whole {
+    struct Document {
         seed: u64,
         part: Part,
         list: Vec<[f64; 2]>,
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_byte_order_mark_is_passed_over() {
-        assert_eq!(read::<Whole>(&format!("\u{feff}{GOOD}")).unwrap().seed, 1);
+        assert_eq!(read::<Document>(&format!("\u{feff}{GOOD}")).unwrap().seed, 1);
     }
 
     #[test]
@@ -160,7 +160,7 @@ mod tests {
         ] {
             let text = GOOD.replacen(from, to, 1);
             assert_ne!(text, GOOD);
-            assert_eq!(read::<Whole>(&text).unwrap_err().to_string(), told);
+            assert_eq!(read::<Document>(&text).unwrap_err().to_string(), told);
         }
     }
 }

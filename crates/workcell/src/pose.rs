@@ -20,7 +20,7 @@ fn is_unit(q: &Quaternion<f64>) -> bool {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct InFile {
+struct PoseFields {
     position_m: [f64; 3],
     quaternion_wxyz: [f64; 4],
 }
@@ -31,7 +31,7 @@ struct InFile {
 /// Errors of the serializer.
 pub fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
     let q = pose.rotation.quaternion();
-    let in_file = InFile {
+    let in_file = PoseFields {
         position_m: pose.translation.vector.into(),
         quaternion_wxyz: [q.w, q.i, q.j, q.k],
     };
@@ -43,10 +43,10 @@ pub fn serialize<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::
 /// # Errors
 /// A value that is not a pose, or a quaternion whose length is not 1.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pose, D::Error> {
-    let InFile {
+    let PoseFields {
         position_m,
         quaternion_wxyz: [w, x, y, z],
-    } = InFile::deserialize(deserializer)?;
+    } = PoseFields::deserialize(deserializer)?;
     let q = Quaternion::new(w, x, y, z);
     if !is_unit(&q) {
         return Err(D::Error::custom(format!(

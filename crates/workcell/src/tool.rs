@@ -6,7 +6,7 @@ use crate::pose;
 use crate::trig::atan2;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
 
@@ -241,7 +241,7 @@ impl Tool {
     /// Returns the frame of the tip on an arm.
     #[must_use]
     pub fn tip_frame(&self, robot: &RobotModel) -> Frame {
-        self.mounting_frame(robot).offset(&Rigid::from(&self.tip))
+        self.mounting_frame(robot).offset(&RigidTransform::from(&self.tip))
     }
 }
 

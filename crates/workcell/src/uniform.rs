@@ -113,7 +113,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// Test that a point at ρ and z lies in a shape of some radius and half length.
-    type Inside = fn(f64, f64, f64, f64) -> bool;
+    type InsideTest = fn(f64, f64, f64, f64) -> bool;
 
     /// Returns the hull of a prism along z over a regular polygon.
     fn prism(sides: usize, radius: f64, half: f64) -> Shape {
@@ -148,7 +148,7 @@ mod tests {
         /// Sums over a fine grid of points.
         #[test]
         fn shapes_are_the_sums_over_their_points(r in 0.02..0.1f64, h in 0.01..0.2f64, which in 0..3usize) {
-            let (shape, inside): (_, Inside) = match which {
+            let (shape, inside): (_, InsideTest) = match which {
                 0 => (Shape::Cylinder { radius_m: r, half_length_m: h }, |rho, z, r, h| rho < r && z.abs() < h),
                 1 => (Shape::Capsule { radius_m: r, half_length_m: h }, |rho, z, r, h| rho.hypot((z.abs() - h).max(0.0)) < r),
                 _ => (Shape::Sphere { radius_m: r }, |rho, z, r, _| rho.hypot(z) < r),

@@ -1,6 +1,6 @@
 //! Requirements and limits of the job: numbers that the motion keeps, and numbers that it does not.
 
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use platewash::certificate::Requirement::{
     self, Clearance, ContactSpeed, JointAcceleration, LineDeviation, PathDeviation, Reach, Swept, Tilt,
     TipAcceleration, TipSpeed, WashAcceleration, WashPaths, WashSpeed,
@@ -75,7 +75,7 @@ const ASKED: [(&str, Option<Requirement>, Change); 25] = [
 
 pub fn add(edits: &mut Edits) {
     for (what, broken, change) in ASKED {
-        let expected = broken.map_or(Expected::Harmless, |name| Expected::Fails(vec![name]));
+        let expected = broken.map_or(ExpectedResult::Harmless, |name| ExpectedResult::Fails(vec![name]));
         edits.add(Kind::LimitsAsked, what, expected, move |p, _| {
             change(&mut p.job);
             narrow(p);

@@ -3,7 +3,7 @@
 use super::knots::split;
 use super::time::scale;
 use super::{knot_at, middle, nth, retime};
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use platewash::Plan;
 use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
 
@@ -21,14 +21,14 @@ pub fn add(edits: &mut Edits) {
     ] {
         for size in sizes {
             let what = format!("{} {n}, joint {} by {size} rad", kind.name(), joint + 1);
-            edits.add(Kind::Detour, what, Expected::Sampled, move |p, _| {
+            edits.add(Kind::Detour, what, ExpectedResult::Sampled, move |p, _| {
                 detour(p, (kind, n), joint, size)
             });
         }
     }
     for size in [1e-4, 1e-3] {
         let what = format!("wash, joint 2 by {size} rad");
-        edits.add(Kind::Detour, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::Detour, what, ExpectedResult::Sampled, move |p, _| {
             detour(p, (Wash, 1), 1, size)
         });
     }
@@ -44,7 +44,7 @@ pub fn add(edits: &mut Edits) {
         (Wash, 0.5, 20),
     ] {
         let what = format!("{}, {count} knots to and fro, the first at {share}", kind.name());
-        edits.add(Kind::Detour, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::Detour, what, ExpectedResult::Sampled, move |p, _| {
             let knot = middle(p, kind);
             scale(p, SLOWER);
             split(p, knot, share);
@@ -52,9 +52,12 @@ pub fn add(edits: &mut Edits) {
         });
     }
     // About its own axis the tool may turn.
-    edits.add(Kind::Detour, "wash, joint 6 by 0.5 rad", Expected::Harmless, |p, _| {
-        detour(p, (Wash, 2), 5, 0.5)
-    });
+    edits.add(
+        Kind::Detour,
+        "wash, joint 6 by 0.5 rad",
+        ExpectedResult::Harmless,
+        |p, _| detour(p, (Wash, 2), 5, 0.5),
+    );
     edits.harmless(Kind::Time, "a pause on a plate", |p| {
         let time_s = p.segments[nth(p, Wash, 2)].t_start_s;
         pause(p, knot_at(p, time_s));

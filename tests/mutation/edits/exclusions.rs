@@ -1,6 +1,6 @@
 //! Pairs that need not keep clear: those that follow from the arm left out, and others put in.
 
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use crate::mutation::good::good;
 use platewash::Plan;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
@@ -64,7 +64,7 @@ fn added(edits: &mut Edits) {
         ["base_link", "link_5"],
     ] {
         let what = format!("{} and {}", pair[0], pair[1]);
-        edits.add(Kind::Exclusions, what, Expected::Harmless, move |p, _| {
+        edits.add(Kind::Exclusions, what, ExpectedResult::Harmless, move |p, _| {
             leave_out(p, pair)
         });
     }
@@ -78,7 +78,7 @@ fn added(edits: &mut Edits) {
         edits.add(
             Kind::Exclusions,
             what,
-            Expected::Waived(vec![Exclusions]),
+            ExpectedResult::Waived(vec![Exclusions]),
             move |p, _| {
                 p.job.requirements.clearance_m = clearance_m;
                 all_but_one(p);

@@ -1,7 +1,7 @@
 //! Knots moved, exchanged, dropped and added.
 
 use super::{middle, nth, some_knot, within};
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use crate::mutation::sampler::pieces;
 use platewash::Plan;
 use platewash::certificate::Requirement::{HomeToHome, RestAtWashEnds, Segments};
@@ -28,7 +28,7 @@ fn moved(edits: &mut Edits) {
     for kind in KINDS {
         for size in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1] {
             let what = format!("{} by {size} rad", kind.name());
-            edits.add(Kind::KnotMoved, what, Expected::Sampled, move |p, random| {
+            edits.add(Kind::KnotMoved, what, ExpectedResult::Sampled, move |p, random| {
                 let knot = some_knot(p, kind, random);
                 p.knots.q_rad[knot][random.random_range(0..6)] += signed(size, random);
             });
@@ -37,7 +37,7 @@ fn moved(edits: &mut Edits) {
     for kind in [Depart, Transit, Return] {
         for size in [0.5, 2.0] {
             let what = format!("{} by {size} rad", kind.name());
-            edits.add(Kind::KnotMoved, what, Expected::Sampled, move |p, random| {
+            edits.add(Kind::KnotMoved, what, ExpectedResult::Sampled, move |p, random| {
                 let knot = some_knot(p, kind, random);
                 p.knots.q_rad[knot][random.random_range(1..5)] += signed(size, random);
             });
@@ -59,7 +59,7 @@ fn speeds(edits: &mut Edits) {
     for kind in KINDS {
         for size in [1e-4, 1e-2, 1.0] {
             let what = format!("{} by {size} rad/s", kind.name());
-            edits.add(Kind::KnotSpeed, what, Expected::Sampled, move |p, random| {
+            edits.add(Kind::KnotSpeed, what, ExpectedResult::Sampled, move |p, random| {
                 let knot = some_knot(p, kind, random);
                 p.knots.qd_rad_s[knot][random.random_range(0..6)] += signed(size, random);
             });
@@ -87,7 +87,7 @@ fn exchange(plan: &mut Plan, a: usize, b: usize) {
 fn exchanged(edits: &mut Edits) {
     for kind in [Wash, Transit, Approach] {
         let what = format!("neighbours, {}", kind.name());
-        edits.add(Kind::KnotOrder, what, Expected::Sampled, move |p, random| {
+        edits.add(Kind::KnotOrder, what, ExpectedResult::Sampled, move |p, random| {
             let knot = some_knot(p, kind, random);
             exchange(p, knot, knot + 1);
         });
@@ -123,7 +123,7 @@ fn dropped(edits: &mut Edits) {
         (Wash, 150),
     ] {
         let what = format!("{count}, {}", kind.name());
-        edits.add(Kind::KnotDropped, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::KnotDropped, what, ExpectedResult::Sampled, move |p, _| {
             drop_knots(p, middle(p, kind), count);
         });
     }
@@ -148,13 +148,13 @@ pub fn split(plan: &mut Plan, knot: usize, share: f64) {
 fn added(edits: &mut Edits) {
     for (kind, share) in KINDS.into_iter().zip([0.5, 0.3, 0.7, 0.5, 0.125, 0.9]) {
         let what = format!("on the motion, {}", kind.name());
-        edits.add(Kind::KnotAdded, what, Expected::Harmless, move |p, random| {
+        edits.add(Kind::KnotAdded, what, ExpectedResult::Harmless, move |p, random| {
             split(p, some_knot(p, kind, random), share);
         });
     }
     for size in [1e-5, 1e-2] {
         let what = format!("{size} rad off the motion");
-        edits.add(Kind::KnotAdded, what, Expected::Sampled, move |p, random| {
+        edits.add(Kind::KnotAdded, what, ExpectedResult::Sampled, move |p, random| {
             let knot = some_knot(p, Wash, random);
             split(p, knot, 0.5);
             p.knots.q_rad[knot + 1][2] += signed(size, random);

@@ -2,7 +2,7 @@
 
 use super::exclusions::{every_pair, leave_out, restate};
 use super::{middle, nth, within};
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use crate::mutation::good::good;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
@@ -82,7 +82,7 @@ fn near(edits: &mut Edits) {
     for (kind, n) in [(Depart, 0), (Transit, 0), (Transit, 1), (Transit, 2), (Return, 0)] {
         for off_m in [0.05, 0.12, 0.3] {
             let what = format!("a ball {off_m} m in front of the tip, {} {n}", kind.name());
-            edits.add(Kind::Obstacles, what, Expected::Sampled, move |p, _| {
+            edits.add(Kind::Obstacles, what, ExpectedResult::Sampled, move |p, _| {
                 let knots = within(p, nth(p, kind, n));
                 let tip = tip(p, knots.start + knots.len() / 2);
                 let out = Vector3::new(tip.x, tip.y, 0.0).normalize();
@@ -92,7 +92,7 @@ fn near(edits: &mut Edits) {
     }
     for off_m in [0.04, 0.1, 0.25] {
         let what = format!("a ball {off_m} m beside the handle while it washes");
-        edits.add(Kind::Obstacles, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::Obstacles, what, ExpectedResult::Sampled, move |p, _| {
             let tip = tip(p, middle(p, Wash));
             put(p, "ball", ball(0.02), [tip.x + off_m, tip.y, tip.z + 0.1]);
         });
@@ -143,7 +143,7 @@ fn left_out(edits: &mut Edits) {
     edits.add(
         Kind::Obstacles,
         "a post in the way that nothing need keep clear of",
-        Expected::Waived(vec![Exclusions]),
+        ExpectedResult::Waived(vec![Exclusions]),
         move |p, _| {
             post(p);
             let all = every_pair(p)
@@ -155,7 +155,7 @@ fn left_out(edits: &mut Edits) {
     edits.add(
         Kind::Obstacles,
         "a post in the way that the handle need not keep clear of",
-        Expected::Fails(vec![Clearance]),
+        ExpectedResult::Fails(vec![Clearance]),
         move |p, _| {
             post(p);
             leave_out(p, ["handle", "post"]);

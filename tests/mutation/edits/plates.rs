@@ -1,6 +1,6 @@
 //! Plates moved, turned, resized, doubled and removed, alone and together with what names them.
 
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
     ContactHeight, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments, Swept, WashPaths,
@@ -27,13 +27,13 @@ fn shift(plan: &mut Plan, plate: usize, [dx, dy]: [f64; 2]) {
 /// The path is the plate's: it moves with it.
 fn moved(edits: &mut Edits) {
     for (size_m, expected) in [
-        (1e-10, Expected::Harmless),
-        (1e-8, Expected::Harmless),
-        (1e-5, Expected::Sampled),
-        (1.5e-4, Expected::Sampled),
-        (3e-4, Expected::Fails(vec![PathDeviation])),
-        (3e-3, Expected::Fails(vec![PathDeviation, LineDeviation, Reach])),
-        (3e-2, Expected::Fails(vec![PathDeviation, Swept])),
+        (1e-10, ExpectedResult::Harmless),
+        (1e-8, ExpectedResult::Harmless),
+        (1e-5, ExpectedResult::Sampled),
+        (1.5e-4, ExpectedResult::Sampled),
+        (3e-4, ExpectedResult::Fails(vec![PathDeviation])),
+        (3e-3, ExpectedResult::Fails(vec![PathDeviation, LineDeviation, Reach])),
+        (3e-2, ExpectedResult::Fails(vec![PathDeviation, Swept])),
     ] {
         for (way, by) in [("x", [size_m, 0.0]), ("y", [0.0, -size_m])] {
             let what = format!("one by {size_m} m along {way}");
@@ -56,12 +56,14 @@ fn heights(edits: &mut Edits) {
     let raise = |p: &mut Plan, plate: usize, by: f64| p.job.plates[plate].pose.translation.z += by;
     for size_m in [1e-9, 1e-5, -1e-5, 1.9e-4] {
         let what = format!("one higher by {size_m} m");
-        edits.add(Kind::Plates, what, Expected::Sampled, move |p, _| raise(p, 3, size_m));
+        edits.add(Kind::Plates, what, ExpectedResult::Sampled, move |p, _| {
+            raise(p, 3, size_m)
+        });
     }
     for size_m in [1e-3, -1e-3] {
         let names = vec![ContactHeight, PathDeviation];
         let what = format!("all higher by {size_m} m");
-        edits.add(Kind::Plates, what, Expected::Fails(names), move |p, _| {
+        edits.add(Kind::Plates, what, ExpectedResult::Fails(names), move |p, _| {
             (0..4).for_each(|plate| raise(p, plate, size_m))
         });
     }
@@ -137,10 +139,10 @@ fn shapes(edits: &mut Edits) {
         plate.surface = Surface::Disc { radius_m };
     }
     for (what, by_m, expected) in [
-        ("one a hair smaller", -1e-9, Expected::Harmless),
-        ("one smaller", -5e-3, Expected::Harmless),
-        ("one a hair larger", 1e-9, Expected::Sampled),
-        ("one larger", 0.03, Expected::Fails(vec![Swept])),
+        ("one a hair smaller", -1e-9, ExpectedResult::Harmless),
+        ("one smaller", -5e-3, ExpectedResult::Harmless),
+        ("one a hair larger", 1e-9, ExpectedResult::Sampled),
+        ("one larger", 0.03, ExpectedResult::Fails(vec![Swept])),
     ] {
         edits.add(Kind::Plates, what, expected, move |p, _| {
             let radius_m = p.job.plates[0].rim_m() + by_m;
@@ -148,9 +150,9 @@ fn shapes(edits: &mut Edits) {
         });
     }
     for (what, radius_m, expected) in [
-        ("all smaller", 0.14, Expected::Harmless),
-        ("all larger", 0.15, Expected::Sampled),
-        ("all much larger", 0.2, Expected::Fails(vec![Swept])),
+        ("all smaller", 0.14, ExpectedResult::Harmless),
+        ("all larger", 0.15, ExpectedResult::Sampled),
+        ("all much larger", 0.2, ExpectedResult::Fails(vec![Swept])),
     ] {
         edits.add(Kind::Plates, what, expected, move |p, _| {
             p.job.plates.iter_mut().for_each(|plate| resize(plate, radius_m))

@@ -1,7 +1,7 @@
 //! Time scaled, squeezed and stretched.
 
 use super::{middle, nth, retime, within};
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use platewash::Plan;
 use platewash::certificate::Requirement::{JointAcceleration, WashSpeed};
 use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};
@@ -11,19 +11,21 @@ pub fn add(edits: &mut Edits) {
     for factor in [0.9999, 0.99, 0.9, 0.5, 0.1] {
         let what = format!("all times {factor}");
         let names = vec![JointAcceleration, WashSpeed];
-        edits.add(Kind::Time, what, Expected::Fails(names), move |p, _| scale(p, factor));
+        edits.add(Kind::Time, what, ExpectedResult::Fails(names), move |p, _| {
+            scale(p, factor)
+        });
     }
     for factor in [1.0001, 1.5, 20.0] {
         edits.add(
             Kind::Time,
             format!("all times {factor}"),
-            Expected::Harmless,
+            ExpectedResult::Harmless,
             move |p, _| scale(p, factor),
         );
     }
     for factor in [0.97, 1.05] {
         let what = format!("all times {factor}, the knots' speeds as they were");
-        edits.add(Kind::Time, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::Time, what, ExpectedResult::Sampled, move |p, _| {
             retime(p, |_, t| t * factor)
         });
     }
@@ -37,7 +39,7 @@ pub fn add(edits: &mut Edits) {
         (Depart, 3.0),
     ] {
         let what = format!("one interval {factor}, {}", kind.name());
-        edits.add(Kind::Time, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::Time, what, ExpectedResult::Sampled, move |p, _| {
             let knot = middle(p, kind);
             stretch(p, knot..knot + 1, factor);
         });
@@ -50,11 +52,13 @@ pub fn add(edits: &mut Edits) {
         (Depart, 1.3),
     ] {
         let what = format!("a whole segment {factor}, {}", kind.name());
-        edits.add(Kind::Time, what, Expected::Sampled, move |p, _| whole(p, kind, factor));
+        edits.add(Kind::Time, what, ExpectedResult::Sampled, move |p, _| {
+            whole(p, kind, factor)
+        });
     }
     for by_s in [1e-7, 1e-4, 2e-3] {
         let what = format!("one knot {by_s} s later");
-        edits.add(Kind::Time, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::Time, what, ExpectedResult::Sampled, move |p, _| {
             let late = middle(p, Wash);
             retime(p, |k, t| if k == late { t + by_s } else { t });
         });

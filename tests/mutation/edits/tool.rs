@@ -2,7 +2,7 @@
 
 use super::asked::narrow;
 use super::exclusions::restate;
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
     Clearance, ContactHeight, ContactSpeed, Exclusions, LineDeviation, PathDeviation, Reach, Swept, Tilt, Tool,
@@ -22,32 +22,40 @@ fn straight(edits: &mut Edits) {
     type Change = fn(&mut StraightTool);
     let off = vec![ContactHeight, PathDeviation];
     let far = vec![ContactHeight, PathDeviation, LineDeviation];
-    let cases: [(&str, Expected, Change); 15] = [
-        ("a hair longer", Expected::Sampled, |t| t.length_m += 1e-5),
-        ("a little longer", Expected::Sampled, |t| t.length_m += 1.5e-4),
-        ("longer", Expected::Fails(off), |t| t.length_m += 5e-4),
-        ("much shorter", Expected::Fails(far), |t| t.length_m -= 0.02),
-        ("thinner", Expected::Harmless, |t| t.radius_m -= 5e-3),
-        ("a little thicker", Expected::Harmless, |t| t.radius_m += 4e-3),
-        ("thicker", Expected::Fails(vec![Clearance]), |t| t.radius_m += 0.06),
-        ("as thick as the sponge is high", Expected::Sampled, |t| {
+    let cases: [(&str, ExpectedResult, Change); 15] = [
+        ("a hair longer", ExpectedResult::Sampled, |t| t.length_m += 1e-5),
+        ("a little longer", ExpectedResult::Sampled, |t| t.length_m += 1.5e-4),
+        ("longer", ExpectedResult::Fails(off), |t| t.length_m += 5e-4),
+        ("much shorter", ExpectedResult::Fails(far), |t| t.length_m -= 0.02),
+        ("thinner", ExpectedResult::Harmless, |t| t.radius_m -= 5e-3),
+        ("a little thicker", ExpectedResult::Harmless, |t| t.radius_m += 4e-3),
+        ("thicker", ExpectedResult::Fails(vec![Clearance]), |t| {
+            t.radius_m += 0.06
+        }),
+        ("as thick as the sponge is high", ExpectedResult::Sampled, |t| {
             t.radius_m = t.sponge_height_m
         }),
-        ("a bigger sponge", Expected::Sampled, |t| t.sponge_radius_m += 2e-3),
-        ("a sponge like a plate", Expected::Fails(vec![Clearance, Tilt]), |t| {
-            t.sponge_radius_m = 0.12
+        ("a bigger sponge", ExpectedResult::Sampled, |t| {
+            t.sponge_radius_m += 2e-3
         }),
-        ("a small sponge", Expected::Fails(vec![Swept]), |t| {
+        (
+            "a sponge like a plate",
+            ExpectedResult::Fails(vec![Clearance, Tilt]),
+            |t| t.sponge_radius_m = 0.12,
+        ),
+        ("a small sponge", ExpectedResult::Fails(vec![Swept]), |t| {
             t.sponge_radius_m = 0.012
         }),
-        ("a flat sponge", Expected::Fails(vec![Clearance]), |t| {
+        ("a flat sponge", ExpectedResult::Fails(vec![Clearance]), |t| {
             t.sponge_height_m = 5e-3;
             t.sponge_compression_m = 1e-3;
         }),
-        ("a heavy one", Expected::Harmless, |t| t.mass_kg = 12.0),
-        ("a firmer sponge", Expected::Harmless, |t| t.sponge_compression_m *= 0.5),
+        ("a heavy one", ExpectedResult::Harmless, |t| t.mass_kg = 12.0),
+        ("a firmer sponge", ExpectedResult::Harmless, |t| {
+            t.sponge_compression_m *= 0.5
+        }),
         // Free, it is longer: by less than the planner keeps in reserve.
-        ("a softer sponge", Expected::Harmless, |t| {
+        ("a softer sponge", ExpectedResult::Harmless, |t| {
             t.sponge_compression_m += 4e-4
         }),
     ];
@@ -84,7 +92,7 @@ fn as_straight(tool: &tool::Tool) -> StraightTool {
 /// The tip is the middle of the sponge's far face.
 fn tip(edits: &mut Edits) {
     let mut fails = |what, names: &[_], apply: fn(&mut tool::Tool)| {
-        edits.add(Kind::Tool, what, Expected::Fails(names.to_vec()), move |p, _| {
+        edits.add(Kind::Tool, what, ExpectedResult::Fails(names.to_vec()), move |p, _| {
             apply(&mut p.job.workcell.tool)
         })
     };
@@ -135,14 +143,14 @@ fn bodies(edits: &mut Edits) {
         add_body(p, "collar", 0.025, 0.03)
     });
     for (size, at, expected) in [
-        (0.025, 0.03, Expected::Harmless),
-        (0.04, 0.02, Expected::Sampled),
-        (0.06, 0.06, Expected::Sampled),
-        (0.1, 0.02, Expected::Fails(vec![Clearance])),
+        (0.025, 0.03, ExpectedResult::Harmless),
+        (0.04, 0.02, ExpectedResult::Sampled),
+        (0.06, 0.06, ExpectedResult::Sampled),
+        (0.1, 0.02, ExpectedResult::Fails(vec![Clearance])),
         // It ends within the sponge.
-        (0.02, 0.11, Expected::Fails(vec![Tool])),
+        (0.02, 0.11, ExpectedResult::Fails(vec![Tool])),
         // It goes through the plates.
-        (0.02, 0.17, Expected::Fails(vec![Clearance])),
+        (0.02, 0.17, ExpectedResult::Fails(vec![Clearance])),
     ] {
         let what = format!("a ball of {size} m, {at} m from the flange");
         edits.add(Kind::Tool, what, expected, move |p, _| {

@@ -1,6 +1,6 @@
 //! How each plate is washed: paths dropped, exchanged, renamed, and other paths than the tip takes.
 
-use crate::mutation::edit::{Edits, Expected, Kind};
+use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use platewash::Plan;
 use platewash::certificate::Requirement::{LineDeviation, PathDeviation, Reach, WashPaths};
 use platewash::workcell::wash_path::WashPath;
@@ -48,7 +48,7 @@ fn none(edits: &mut Edits) {
     ];
     for (what, change) in cases {
         let names = vec![WashPaths, PathDeviation, LineDeviation, Reach];
-        edits.add(Kind::WashPaths, what, Expected::Fails(names), move |p, _| {
+        edits.add(Kind::WashPaths, what, ExpectedResult::Fails(names), move |p, _| {
             change(&mut p.wash_paths[1])
         });
     }
@@ -58,7 +58,7 @@ fn none(edits: &mut Edits) {
 fn cones(edits: &mut Edits) {
     for tilt_deg in [0.0, 5.0, 10.0, 13.0, 14.5] {
         let what = format!("a cone of {tilt_deg}°");
-        edits.add(Kind::WashPaths, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::WashPaths, what, ExpectedResult::Sampled, move |p, _| {
             p.wash_paths[0].cone_rad = f64::to_radians(tilt_deg);
         });
     }
@@ -69,26 +69,26 @@ fn curves(edits: &mut Edits) {
     for size_m in [1e-12, 1e-7, 5e-5, 1.5e-4, 1e-3, 5e-3] {
         for sign in [1.0, -1.0] {
             let what = format!("a radius by {} m", sign * size_m);
-            edits.add(Kind::WashPaths, what, Expected::Sampled, move |p, _| {
+            edits.add(Kind::WashPaths, what, ExpectedResult::Sampled, move |p, _| {
                 p.wash_paths[3].curve.radius_m += sign * size_m
             });
         }
     }
     for (size_m, names) in [(-2e-3, vec![PathDeviation, Reach]), (2e-3, vec![PathDeviation])] {
         let what = format!("all radii by {size_m} m");
-        edits.add(Kind::WashPaths, what, Expected::Fails(names), move |p, _| {
+        edits.add(Kind::WashPaths, what, ExpectedResult::Fails(names), move |p, _| {
             all(p, |w| w.curve.radius_m += size_m)
         });
     }
     for size in [1e-9, 1e-5, 1e-3, -0.01, 0.5, -1.0] {
         let what = format!("turns by {size}");
-        edits.add(Kind::WashPaths, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::WashPaths, what, ExpectedResult::Sampled, move |p, _| {
             p.wash_paths[1].curve.turns += size
         });
     }
     for size_rad in [1e-9, 1e-5, -1e-3, 0.05, -0.1] {
         let what = format!("start by {size_rad} rad");
-        edits.add(Kind::WashPaths, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::WashPaths, what, ExpectedResult::Sampled, move |p, _| {
             p.wash_paths[1].curve.start_angle_rad += size_rad
         });
     }
@@ -113,7 +113,7 @@ fn curves(edits: &mut Edits) {
 fn lines(edits: &mut Edits) {
     for size_m in [1e-12, 1e-5, -1e-5, 5e-4, -5e-4, 2e-3, -5e-3, 0.01] {
         let what = format!("a lift by {size_m} m");
-        edits.add(Kind::WashPaths, what, Expected::Sampled, move |p, _| {
+        edits.add(Kind::WashPaths, what, ExpectedResult::Sampled, move |p, _| {
             p.wash_paths[2].lift_m += size_m
         });
     }

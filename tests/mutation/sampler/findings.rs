@@ -4,7 +4,7 @@ use platewash::certificate::{Requirement, Sense};
 
 /// The worst value of a requirement among the samples (SI). The truth is at least as bad, up to `slack`.
 #[derive(Debug, Clone, Copy)]
-pub struct Found {
+pub struct WorstSample {
     pub name: Requirement,
     pub value: f64,
     pub limit: f64,
@@ -16,12 +16,12 @@ pub struct Found {
 /// The worst values, a requirement once.
 #[derive(Default)]
 pub struct Findings {
-    all: Vec<Found>,
+    all: Vec<WorstSample>,
     /// The least distance of the pairs that the job alone leaves out \[m\].
     waived_m: Option<f64>,
 }
 
-impl Found {
+impl WorstSample {
     /// Whether the requirement is broken, beyond doubt.
     pub fn is_broken(&self) -> bool {
         match self.sense {
@@ -52,12 +52,12 @@ impl Findings {
     }
 
     /// The worst value of a requirement; `None` where it was not measured.
-    pub fn of(&self, name: Requirement) -> Option<&Found> {
+    pub fn of(&self, name: Requirement) -> Option<&WorstSample> {
         self.all.iter().find(|found| found.name == name)
     }
 
     /// What is broken.
-    pub fn broken(&self) -> impl Iterator<Item = &Found> {
+    pub fn broken(&self) -> impl Iterator<Item = &WorstSample> {
         self.all.iter().filter(|found| found.is_broken())
     }
 
@@ -74,7 +74,7 @@ impl Findings {
 
     fn note(&mut self, name: Requirement, value: f64, limit: f64, slack: f64, sense: Sense) {
         assert!(!value.is_nan(), "{name:?} is not a number");
-        let found = Found {
+        let found = WorstSample {
             name,
             value,
             limit,

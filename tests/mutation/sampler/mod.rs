@@ -15,7 +15,7 @@ mod standing;
 mod swept;
 mod tests;
 
-pub use findings::{Findings, Found};
+pub use findings::{Findings, WorstSample};
 pub use hermite::pieces;
 pub use schedule::is_sound;
 

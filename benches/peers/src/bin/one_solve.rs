@@ -15,7 +15,7 @@
 #![allow(clippy::print_stdout)]
 
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_problems::ours::{Nearest, Path, Solve};
+use platewash_problems::ours::{AnalyticIk, NumericIk, Path};
 use platewash_problems::problems::{Problems, Seeds, THROUGH_M};
 use platewash_problems::solver::Solver;
 use std::error::Error;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let spiral = Problems::spiral(&robot, THROUGH_M)?;
     let random = Problems::random(&robot, CASES)?;
     let solved = match which.as_str() {
-        "warm" => run(&mut Solve::new(&robot, &spiral)?, &spiral, count),
+        "warm" => run(&mut NumericIk::new(&robot, &spiral)?, &spiral, count),
         "path" => {
             let start = spiral.start();
             let mut some = spiral;
@@ -40,8 +40,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             let answers = Path::new(&robot, &some)?.path(&start);
             answers.into_iter().flatten().flatten().count()
         }
-        "cold" => run(&mut Nearest::new(&robot, &random)?, &random, count),
-        "cold-solve" => run(&mut Solve::new(&robot, &random)?, &random, count),
+        "cold" => run(&mut AnalyticIk::new(&robot, &random)?, &random, count),
+        "cold-solve" => run(&mut NumericIk::new(&robot, &random)?, &random, count),
         _ => return Err("one of warm, path, cold, cold-solve, and a number".into()),
     };
     println!("{solved} of {count} solved");

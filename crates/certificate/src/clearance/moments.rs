@@ -6,7 +6,7 @@ use crate::error::ProveError;
 use crate::statements::wash_paths;
 use crate::subject::Subject;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::clearance::{ClearanceModel, Nearest};
+use platewash_workcell::clearance::{ClearanceModel, NearestBodies};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::Workcell;
 
@@ -47,7 +47,7 @@ impl ClearanceRule {
         })
     }
 
-    /// Names of the bodies, in the order of [`Nearest::bodies`].
+    /// Names of the bodies, in the order of [`NearestBodies::bodies`].
     #[must_use]
     pub fn body_names(&self) -> Vec<&str> {
         self.model.body_names()
@@ -55,7 +55,7 @@ impl ClearanceRule {
 
     /// Returns the nearest of the pairs that count at `q` \[rad\] in a segment, or outside of all segments. `None` where no pair counts.
     #[must_use]
-    pub fn nearest(&self, q: &JointVector, segment: Option<usize>) -> Option<Nearest> {
+    pub fn nearest(&self, q: &JointVector, segment: Option<usize>) -> Option<NearestBodies> {
         let touchable = segment.and_then(|segment| self.touchable.get(segment));
         self.model.nearest(q, touchable.map_or(&[], |plates| plates.as_slice()))
     }

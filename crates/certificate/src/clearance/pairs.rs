@@ -6,9 +6,9 @@
 //! clear.
 
 use crate::clearance::far::far;
-use crate::clearance::search::{FINE_M, Found, Goal, Search};
+use crate::clearance::search::{FINE_M, Goal, PairDistance, Search};
 use crate::motion::timeline::Timeline;
-use crate::report::check::{Check, Measure, Sense, Status, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
@@ -114,7 +114,7 @@ pub(crate) fn judge(
     let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
     let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
     let beside = |task: &Task| task.rule == PairRule::Clearance && model.is_beside_obstacle(task.pair);
-    let mut found: Vec<Option<Found>> = tasks
+    let mut found: Vec<Option<PairDistance>> = tasks
         .par_iter()
         .map(|task| if beside(task) { None } else { searched(task) })
         .collect();
@@ -130,7 +130,7 @@ pub(crate) fn judge(
             .filter(|(_, task)| beside(task))
             .for_each(|(found, task)| {
                 *found = match far.get(&task.pair) {
-                    Some(at_least_m) => Some(Found::never_nearer(*at_least_m)),
+                    Some(at_least_m) => Some(PairDistance::never_nearer(*at_least_m)),
                     None => searched(task),
                 };
             });
@@ -156,7 +156,7 @@ pub(crate) fn judge(
 }
 
 /// Least distance found at a single moment over the pairs that must keep clear \[m\].
-fn least_seen(found: &[Option<Found>], tasks: &[Task]) -> f64 {
+fn least_seen(found: &[Option<PairDistance>], tasks: &[Task]) -> f64 {
     let must = found
         .iter()
         .zip(tasks)
@@ -165,9 +165,10 @@ fn least_seen(found: &[Option<Found>], tasks: &[Task]) -> f64 {
     seen.fold(f64::INFINITY, f64::min)
 }
 
-fn line((a, b): (&str, &str), task: &Task, found: Option<Found>, limit_m: f64) -> PairBound {
+fn line((a, b): (&str, &str), task: &Task, found: Option<PairDistance>, limit_m: f64) -> PairBound {
     let measured = found.filter(|f| f.seen_m.is_finite());
-    let judged = |found: Found| Check::measured(Requirement::Clearance, measure(limit_m, &found), Worst::default());
+    let judged =
+        |found: PairDistance| Check::measured(Requirement::Clearance, measure(limit_m, &found), WorstCase::default());
     let status = match (task.rule, found.map_or(Status::NotProved, |found| judged(found).status)) {
         (PairRule::Touching, _) => Status::Proved,
         (PairRule::Waived, Status::Violated | Status::NotProved) => Status::Waived,
@@ -185,7 +186,7 @@ fn line((a, b): (&str, &str), task: &Task, found: Option<Found>, limit_m: f64) -
     }
 }
 
-fn measure(limit_m: f64, found: &Found) -> Measure {
+fn measure(limit_m: f64, found: &PairDistance) -> Measure {
     Measure {
         bound: Some(found.at_least_m).filter(|b| *b > f64::NEG_INFINITY),
         seen: Some(found.seen_m).filter(|s| *s < f64::INFINITY),
@@ -221,11 +222,11 @@ pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
             sense: if limit_m > 0.0 { Sense::AtLeast } else { Sense::Above },
             unit: Unit::Metre,
         }),
-        worst: worst.map_or_else(Worst::default, |l| Worst {
+        worst: worst.map_or_else(WorstCase::default, |l| WorstCase {
             time_s: l.time_s,
             place_m: l.place_m,
             pair: Some(l.pair.clone()),
-            ..Worst::default()
+            ..WorstCase::default()
         }),
         discrepancies: Vec::new(),
         more_discrepancies: 0,

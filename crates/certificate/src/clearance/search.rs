@@ -10,7 +10,7 @@ use crate::motion::timeline::{Interval, Timeline};
 use platewash_kinematics::{BodyPoses, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ITERATIVE_ERROR_M;
-use platewash_workcell::clearance::motion::{Measured, PartPair, PartPairs};
+use platewash_workcell::clearance::motion::{PartDistance, PartPair, PartPairs};
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ pub(crate) struct Goal {
 
 /// Result for a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Found {
+pub(crate) struct PairDistance {
     /// Lower bound on the distance \[m\]; −∞ where nothing could be shown.
     pub at_least_m: f64,
     /// Least distance found at a single moment \[m\]; +∞ before the first one.
@@ -56,7 +56,7 @@ pub(crate) struct Found {
     pub place_m: [f64; 3],
 }
 
-impl Found {
+impl PairDistance {
     /// Returns the result of a pair that is never nearer than `at_least_m` \[m\] and was not examined further.
     pub fn never_nearer(at_least_m: f64) -> Self {
         Self {
@@ -132,35 +132,35 @@ pub(crate) struct Search<'a> {
     cancel: &'a CancelToken,
     open: BinaryHeap<Candidate>,
     looked_at: usize,
-    found: Found,
+    found: PairDistance,
 }
 
 /// Pair of parts with a lower bound on their distance in the middle of an interval \[m\], ordered so that a heap yields the nearest first.
-struct Near {
+struct QueuedPair {
     gap_m: f64,
     inner: usize,
 }
 
-impl Ord for Near {
+impl Ord for QueuedPair {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         let nearer = other.gap_m.total_cmp(&self.gap_m);
         nearer.then(other.inner.cmp(&self.inner))
     }
 }
 
-impl PartialOrd for Near {
+impl PartialOrd for QueuedPair {
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Near {
+impl PartialEq for QueuedPair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Near {}
+impl Eq for QueuedPair {}
 
 /// Interval for two bodies, of which the fixed one has many parts that stand still.
 struct Stay<'a> {
@@ -182,7 +182,7 @@ impl<'a> Search<'a> {
         parts: &'a PartPairs<'a>,
         during: &[Range<usize>],
         goal: Goal,
-    ) -> Found {
+    ) -> PairDistance {
         let mut search = Self {
             robot,
             timeline,
@@ -191,7 +191,7 @@ impl<'a> Search<'a> {
             cancel,
             open: BinaryHeap::new(),
             looked_at: 0,
-            found: Found::never_nearer(f64::INFINITY),
+            found: PairDistance::never_nearer(f64::INFINITY),
         };
         for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
             for part in parts.outermost() {
@@ -237,7 +237,7 @@ impl<'a> Search<'a> {
     }
 
     /// Records a distance at a moment.
-    fn see(&mut self, measured: &Measured, time_s: f64) {
+    fn see(&mut self, measured: &PartDistance, time_s: f64) {
         if measured.distance_m < self.found.seen_m {
             self.found.seen_m = measured.distance_m;
             self.found.time_s = time_s;
@@ -320,12 +320,12 @@ impl<'a> Search<'a> {
         let near = |inner: usize| {
             let pair = parts.get(inner);
             let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(stay.poses));
-            Near { gap_m, inner }
+            QueuedPair { gap_m, inner }
         };
         let mut open: BinaryHeap<_> = parts.within(part).map(near).collect();
         let mut bound = f64::INFINITY;
         let mut direction = NO_NORMAL;
-        while let Some(Near { gap_m, inner }) = open.pop() {
+        while let Some(QueuedPair { gap_m, inner }) = open.pop() {
             if self.accepts(part, gap_m - stay.fall) {
                 return bound.min(gap_m - stay.fall);
             }

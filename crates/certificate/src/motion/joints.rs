@@ -2,7 +2,7 @@
 //! rounding that the bounds include.
 
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::Schedule;
 use crate::subject::Limits;
@@ -86,11 +86,11 @@ fn check(
     let Some(extreme) = extreme else {
         return Check::not_judged(name);
     };
-    let worst = Worst {
+    let worst = WorstCase {
         time_s: Some(time_of(&pieces[extreme.piece], name, extreme.joint)),
         joint: Some(extreme.joint),
         segment: schedule.and_then(|s| s.segment_of(extreme.piece)),
-        ..Worst::default()
+        ..WorstCase::default()
     };
     let number = |v: f64| Some(v).filter(|v| v.is_finite() || *v == f64::INFINITY && sense == Sense::AtLeast);
     let measure = Measure {

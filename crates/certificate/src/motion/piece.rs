@@ -230,9 +230,9 @@ mod tests {
 
     /// A number as a sum of two, right to 2⁻¹⁰⁴ of it (Dekker, Numer. Math. 18, 1971).
     #[derive(Clone, Copy)]
-    struct Twice(f64, f64);
+    struct DoubleDouble(f64, f64);
 
-    impl Twice {
+    impl DoubleDouble {
         fn sum(a: f64, b: f64) -> Self {
             let s = a + b;
             let t = s - a;
@@ -260,10 +260,13 @@ mod tests {
     /// Accelerations of one joint at both ends of a piece, from its knots as they stand \[rad/s²\]: (6m − 4v₀ − 2v₁)/h and
     /// (2v₀ + 4v₁ − 6m)/h.
     fn accelerations([from, to]: [f64; 2], [q0, q1]: [f64; 2], [v0, v1]: [f64; 2]) -> [f64; 2] {
-        let h = Twice::sum(to, -from);
-        let m = Twice::sum(q1, -q0).over(h).times(6.0);
+        let h = DoubleDouble::sum(to, -from);
+        let m = DoubleDouble::sum(q1, -q0).over(h).times(6.0);
         [[-4.0, -2.0, 1.0], [2.0, 4.0, -1.0]].map(|[a, b, sign]| {
-            let sum = m.times(sign).plus(Twice(a * v0, 0.0)).plus(Twice(b * v1, 0.0));
+            let sum = m
+                .times(sign)
+                .plus(DoubleDouble(a * v0, 0.0))
+                .plus(DoubleDouble(b * v1, 0.0));
             sum.over(h).0
         })
     }

@@ -3,7 +3,7 @@
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Moment, Stretch};
-use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
@@ -42,7 +42,7 @@ pub(crate) struct Tips {
 
 /// Normal against which the tilt is measured.
 #[derive(Debug, Clone, Copy)]
-enum Against {
+enum TiltNormal {
     /// A constant normal: that of the line of an approach or retreat, or of a flat face.
     Fixed(Vector3<f64>),
     /// The normal of the face under the tip.
@@ -83,7 +83,7 @@ impl Tips {
             if !face.surface().is_flat() {
                 // No limit is asked of it.
                 let tracker = BoundTracker::new(1.0, TILT_RESOLUTION);
-                let upright = Against::Fixed(*face.upright());
+                let upright = TiltNormal::Fixed(*face.upright());
                 tips.upright.push((i, tilted(arm, tracker, of(span), (&face, upright))));
             }
             if span.kind == SegmentKind::Wash {
@@ -211,7 +211,7 @@ pub(crate) fn check(
     requirement: Requirement,
     tracker: &BoundTracker,
     (limit, unit): (f64, Unit),
-    worst: Worst,
+    worst: WorstCase,
 ) -> Check {
     let finite = |v: f64| Some(v).filter(|v| v.is_finite());
     let measure = Measure {
@@ -225,25 +225,25 @@ pub(crate) fn check(
 }
 
 /// Returns position and time of the worst value of a tracked quantity.
-pub(crate) fn worst(tracker: &BoundTracker, pieces: &[Piece], schedule: Option<&Schedule>) -> Worst {
+pub(crate) fn worst(tracker: &BoundTracker, pieces: &[Piece], schedule: Option<&Schedule>) -> WorstCase {
     match schedule {
         Some(schedule) => in_segment(tracker, pieces, schedule),
-        None => Worst {
+        None => WorstCase {
             time_s: Some(tracker.time_s),
             place_m: Some(tracker.place),
-            ..Worst::default()
+            ..WorstCase::default()
         },
     }
 }
 
-fn in_segment(tracker: &BoundTracker, pieces: &[Piece], schedule: &Schedule) -> Worst {
+fn in_segment(tracker: &BoundTracker, pieces: &[Piece], schedule: &Schedule) -> WorstCase {
     let segment = schedule.segment_at(pieces, tracker.time_s);
-    Worst {
+    WorstCase {
         time_s: Some(tracker.time_s),
         place_m: Some(tracker.place),
         plate: segment.and_then(|(i, _)| schedule.spans.get(i)).map(|s| s.plate),
         segment,
-        ..Worst::default()
+        ..WorstCase::default()
     }
 }
 
@@ -269,18 +269,18 @@ fn cosine(sine: f64) -> f64 {
 
 /// Returns the normal for the tilt during a span: that of the line over the end of its path, or that of the face. Without a path there is
 /// no line, and the face counts.
-fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> Against {
+fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
     if face.surface().is_flat() {
-        return Against::Fixed(*face.upright());
+        return TiltNormal::Fixed(*face.upright());
     }
     let feet = || {
         let plate = subject.plates().get(span.plate)?;
         Some(subject.path_of(span.plate)?.feet(plate))
     };
     match (span.kind, feet()) {
-        (SegmentKind::Approach, Some([start, _])) => Against::Fixed(face.normal_under(&start)),
-        (SegmentKind::Retreat, Some([_, end])) => Against::Fixed(face.normal_under(&end)),
-        _ => Against::Local,
+        (SegmentKind::Approach, Some([start, _])) => TiltNormal::Fixed(face.normal_under(&start)),
+        (SegmentKind::Retreat, Some([_, end])) => TiltNormal::Fixed(face.normal_under(&end)),
+        _ => TiltNormal::Local,
     }
 }
 
@@ -289,14 +289,14 @@ fn tilted(
     arm: &Arm<'_>,
     mut tracker: BoundTracker,
     pieces: &[Piece],
-    (face, against): (&Face<'_>, Against),
+    (face, against): (&Face<'_>, TiltNormal),
 ) -> BoundTracker {
     match against {
-        Against::Fixed(normal) => {
+        TiltNormal::Fixed(normal) => {
             let bend = |s: &Stretch<'_>| s.sag(arm.derivatives(s).second_of_axis());
             observe(arm, &mut tracker, &[pieces], &|m| sine_of_tilt(&m.axis, &normal), &bend);
         }
-        Against::Local => {
+        TiltNormal::Local => {
             let sine = |m: &Moment| sine_of_tilt(&m.axis, &face.normal_under(&m.position));
             let bend = |s: &Stretch<'_>| {
                 let bounds = arm.derivatives(s);

@@ -1,7 +1,7 @@
 //! Distance of joint 5 from 0 while the sponge is at a plate, always on the same side: where axes 4 and 6 are in line the wrist would flip.
 
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
@@ -50,12 +50,12 @@ pub(crate) fn check(subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&S
         sense: Sense::AtLeast,
         unit: Unit::Radian,
     };
-    let place = Worst {
+    let place = WorstCase {
         time_s: Some(nearest_0(&pieces[piece])),
         joint: Some(JOINT),
         plate: Some(worst.plate),
         segment: schedule.segment_of(piece),
-        ..Worst::default()
+        ..WorstCase::default()
     };
     Some(Check::measured(Requirement::Wrist, measure, place))
 }

@@ -5,7 +5,7 @@
 use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Status};
 use crate::report::requirement::Requirement;
-use crate::report::rests_on::RestsOn;
+use crate::report::verdict_basis::VerdictBasis;
 use crate::washing::contact::PlateContact;
 use crate::washing::coverage::PlateCoverage;
 use nalgebra::Point3;
@@ -94,7 +94,7 @@ pub struct Certificate {
     /// Clearance of each pair under each rule.
     pub clearance: Vec<PairBound>,
     /// Basis of the verdict.
-    pub rests_on: RestsOn,
+    pub rests_on: VerdictBasis,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks for it

@@ -86,7 +86,7 @@ pub struct Measure {
 /// Position and time of the worst case. Fields that do not apply are `None`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Worst {
+pub struct WorstCase {
     /// Time \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
@@ -130,7 +130,7 @@ pub struct Check {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measure: Option<Measure>,
     /// Position and time at which the number is worst.
-    pub worst: Worst,
+    pub worst: WorstCase,
     /// Discrepancies, for requirements about statements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub discrepancies: Vec<Discrepancy>,
@@ -176,7 +176,7 @@ impl Check {
             requirement,
             status,
             measure: None,
-            worst: Worst::default(),
+            worst: WorstCase::default(),
             discrepancies,
             more_discrepancies,
         }
@@ -184,7 +184,7 @@ impl Check {
 
     /// A requirement about a number. It is proved when the bound keeps the limit, violated when a value seen breaks it. A number
     /// that does not occur (no bound, nothing seen) breaks nothing.
-    pub(crate) fn measured(requirement: Requirement, measure: Measure, worst: Worst) -> Self {
+    pub(crate) fn measured(requirement: Requirement, measure: Measure, worst: WorstCase) -> Self {
         let keeps = |value: f64| measure.keeps(value);
         let status = match (measure.bound, measure.seen) {
             (Some(bound), _) if keeps(bound) => Status::Proved,
@@ -215,7 +215,7 @@ impl Check {
             requirement,
             status: Status::NotProved,
             measure: None,
-            worst: Worst::default(),
+            worst: WorstCase::default(),
             discrepancies: Vec::new(),
             more_discrepancies: 0,
         }

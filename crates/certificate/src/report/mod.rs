@@ -14,6 +14,6 @@ pub(crate) mod certificate;
 pub(crate) mod check;
 pub(crate) mod headline;
 pub(crate) mod requirement;
-pub(crate) mod rests_on;
 pub(crate) mod table;
+pub(crate) mod verdict_basis;
 pub(crate) mod words;

@@ -2,7 +2,7 @@
 
 use crate::clearance::pairs::{PairBound, PairRule};
 use crate::report::certificate::Certificate;
-use crate::report::check::{Check, Measure, Sense, Status, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::report::words::{decimals, kept, number};
 use crate::washing::contact::{PlateContact, ProvedShare};
@@ -172,7 +172,7 @@ impl Check {
     }
 }
 
-impl fmt::Display for Worst {
+impl fmt::Display for WorstCase {
     /// Writes pair, joint, segment, plate, time and position, as far as they apply.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&place(self))
@@ -330,7 +330,7 @@ fn word(status: Status) -> &'static str {
     }
 }
 
-fn place(worst: &Worst) -> String {
+fn place(worst: &WorstCase) -> String {
     let parts = [
         worst
             .pair

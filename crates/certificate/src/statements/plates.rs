@@ -9,7 +9,7 @@ use crate::washing::face::PLACE_M;
 use crate::washing::reach;
 use nalgebra::Vector3;
 use platewash_kinematics::Pose;
-use platewash_workcell::clearance::{ClearanceError, Standing};
+use platewash_workcell::clearance::{ClearanceError, FixedBody};
 use platewash_workcell::job::{Overlap, PlateOverlap};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::{millimetres, printable};
@@ -140,8 +140,8 @@ pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
     };
     let mut reaching = subject.job.standing_overlaps(subject.robot)?;
     reaching.retain(|found| match &found.standing {
-        Standing::Obstacle(name) => !(is_floor(name) && found.other.starts_with("plate ")),
-        Standing::Parts(_) | Standing::Plate(_) => true,
+        FixedBody::Obstacle(name) => !(is_floor(name) && found.other.starts_with("plate ")),
+        FixedBody::Parts(_) | FixedBody::Plate(_) => true,
     });
     let reaches = !reaching.is_empty();
     wrong.extend(reaching.into_iter().map(|found| {

@@ -1,6 +1,6 @@
 //! Files that are hardly plans: an error or a requirement that is not kept, soon, and never a panic.
 
-use crate::tests::made::{good, irb120, post, resealed};
+use crate::tests::maker::{good, irb120, post, resealed};
 use crate::{Certificate, ProveError, Verdict, prove, prove_with};
 use nalgebra::Point3;
 use platewash_kinematics::JointVector;

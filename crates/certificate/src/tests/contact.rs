@@ -1,7 +1,7 @@
 //! Bounds of the contact, against the same model on fine squares: never above it, and little below.
 
 use crate::tests::foundation::raster;
-use crate::tests::made::{Recipe, irb120};
+use crate::tests::maker::{Recipe, irb120};
 use crate::{PlateContact, Requirement, Status, prove};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;

@@ -2,7 +2,7 @@
 //! that of the wash.
 
 use crate::tests::contact::{disc, rings, washed};
-use crate::tests::made::{Recipe, irb120};
+use crate::tests::maker::{Recipe, irb120};
 use crate::{Certificate, PlateContact, Requirement, prove};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::{Knot, Surface};

@@ -2,7 +2,7 @@
 //! proved. What it has to spare is taken from its certificate.
 
 use crate::tests::contact::{disc, profile, rings};
-use crate::tests::made::{Recipe, irb120};
+use crate::tests::maker::{Recipe, irb120};
 use crate::{Certificate, Measure, Requirement, Status, prove};
 use platewash_workcell::plan::Plan;
 use rayon::prelude::*;

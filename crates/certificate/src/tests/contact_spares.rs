@@ -6,7 +6,7 @@
 
 use crate::Requirement::{self, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Pressed, Strain};
 use crate::tests::contact::{disc, rings, washed};
-use crate::tests::made::{Recipe, irb120, tool};
+use crate::tests::maker::{Recipe, irb120, tool};
 use crate::{Certificate, prove};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plan::Plan;
@@ -23,13 +23,13 @@ struct Kind {
     /// Refused by the first of these, and by none but these.
     by: &'static [Requirement],
     /// The one that is asked about contact, with limits a little beyond what is proved.
-    asks: fn(&mut ContactRequirements, &Proved),
+    asks: fn(&mut ContactRequirements, &ProvedBounds),
     /// An edit of a size: of 0 none, of 1 far more than any plan bears.
     edit: fn(&mut Plan, f64),
 }
 
 /// Bounds proved for a plan's plate: the greatest strain, the least and the greatest force \[N\].
-struct Proved {
+struct ProvedBounds {
     strain: f64,
     force_n: [f64; 2],
 }
@@ -47,12 +47,13 @@ const NOTHING: ContactRequirements = ContactRequirements {
     dose_share: 0.0,
 };
 
-const CONTACT: fn(&mut ContactRequirements, &Proved) = |asked, _| asked.share = 0.95;
-const TIME: fn(&mut ContactRequirements, &Proved) = |asked, _| asked.time_share = 0.9;
-const DOSE: fn(&mut ContactRequirements, &Proved) = |asked, _| asked.dose_share = 0.9;
-const STRAIN: fn(&mut ContactRequirements, &Proved) = |asked, proved| asked.strain = 1.1 * proved.strain;
-const LEAST_FORCE: fn(&mut ContactRequirements, &Proved) = |asked, proved| asked.force_n[0] = 0.8 * proved.force_n[0];
-const GREATEST_FORCE: fn(&mut ContactRequirements, &Proved) =
+const CONTACT: fn(&mut ContactRequirements, &ProvedBounds) = |asked, _| asked.share = 0.95;
+const TIME: fn(&mut ContactRequirements, &ProvedBounds) = |asked, _| asked.time_share = 0.9;
+const DOSE: fn(&mut ContactRequirements, &ProvedBounds) = |asked, _| asked.dose_share = 0.9;
+const STRAIN: fn(&mut ContactRequirements, &ProvedBounds) = |asked, proved| asked.strain = 1.1 * proved.strain;
+const LEAST_FORCE: fn(&mut ContactRequirements, &ProvedBounds) =
+    |asked, proved| asked.force_n[0] = 0.8 * proved.force_n[0];
+const GREATEST_FORCE: fn(&mut ContactRequirements, &ProvedBounds) =
     |asked, proved| asked.force_n[1] = 1.1 * proved.force_n[1];
 
 static KINDS: [Kind; 18] = [
@@ -282,7 +283,7 @@ fn refused(plan: &Plan) -> Vec<Requirement> {
 }
 
 /// A plan with what an edit needs to be asked, and what is proved of it.
-fn asking(plan: &Plan, kind: &Kind, proved: &Proved) -> Plan {
+fn asking(plan: &Plan, kind: &Kind, proved: &ProvedBounds) -> Plan {
     let mut plan = plan.clone();
     (kind.asks)(asked(&mut plan), proved);
     plan
@@ -326,7 +327,7 @@ fn a_world_within_what_a_plan_bears_is_proved_and_one_beyond_refused() {
         let certificate = judged(plan);
         assert_eq!(certificate.broken().count(), 0, "{name}: {certificate}");
         let contact = &certificate.contact[0];
-        Proved {
+        ProvedBounds {
             strain: contact.strain.bound.unwrap(),
             force_n: [contact.least_force_n, contact.greatest_force_n].map(|force| force.bound.unwrap()),
         }

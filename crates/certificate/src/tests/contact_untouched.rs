@@ -3,7 +3,7 @@
 
 use crate::tests::contact::{disc, spiral, washed};
 use crate::tests::foundation::raster;
-use crate::tests::made::{Recipe, irb120};
+use crate::tests::maker::{Recipe, irb120};
 use crate::{Requirement, Status, prove};
 use platewash_workcell::surface::{Knot, Surface};
 

@@ -1,7 +1,7 @@
 //! A dense sampler that shares no code with the certificate but the motion's knots, forward kinematics and distances: it must
 //! never find anything worse than a certified bound, and the bounds must not be far from what it finds.
 
-use crate::tests::made::{Recipe, good, irb120};
+use crate::tests::maker::{Recipe, good, irb120};
 use crate::{Certificate, PairRule, Requirement, prove};
 use nalgebra::Vector3;
 use platewash_workcell::clearance::ClearanceModel;
@@ -9,7 +9,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::WashCurve;
 
-struct Sampled {
+struct MotionSample {
     time: f64,
     kind: SegmentKind,
     tip: Vector3<f64>,
@@ -17,7 +17,7 @@ struct Sampled {
     q: platewash_kinematics::JointVector,
 }
 
-fn sampled(plan: &Plan, per_knot: usize) -> Vec<Sampled> {
+fn sampled(plan: &Plan, per_knot: usize) -> Vec<MotionSample> {
     let robot = irb120();
     let motion = plan.knots.motion().unwrap();
     let frame = plan.job.workcell.tool.tip_frame(&robot);
@@ -28,7 +28,7 @@ fn sampled(plan: &Plan, per_knot: usize) -> Vec<Sampled> {
             let q = motion.at(time).unwrap().q;
             let pose = robot.pose(&q, &frame);
             let kind = plan.segments.iter().find(|s| time <= s.t_end_s).unwrap().kind;
-            all.push(Sampled {
+            all.push(MotionSample {
                 time,
                 kind,
                 tip: pose.translation.vector,
@@ -79,7 +79,7 @@ fn nothing_worse_than_a_bound_is_ever_found() {
 }
 
 /// Speeds and accelerations by differences between samples of the position.
-fn rates(plan: &Plan, certificate: &Certificate, samples: &[Sampled]) {
+fn rates(plan: &Plan, certificate: &Certificate, samples: &[MotionSample]) {
     let mut worst = [0.0_f64; 4];
     for three in samples.windows(3) {
         let [a, b, c] = three else { unreachable!() };
@@ -114,8 +114,9 @@ fn rates(plan: &Plan, certificate: &Certificate, samples: &[Sampled]) {
     assert!((certificate.duration_s - duration).abs() < 1e-12);
 }
 
-fn poses(plan: &Plan, certificate: &Certificate, samples: &[Sampled]) {
-    let at_plate = |s: &&Sampled| matches!(s.kind, SegmentKind::Approach | SegmentKind::Wash | SegmentKind::Retreat);
+fn poses(plan: &Plan, certificate: &Certificate, samples: &[MotionSample]) {
+    let at_plate =
+        |s: &&MotionSample| matches!(s.kind, SegmentKind::Approach | SegmentKind::Wash | SegmentKind::Retreat);
     let tilt = samples
         .iter()
         .filter(at_plate)
@@ -146,7 +147,7 @@ fn poses(plan: &Plan, certificate: &Certificate, samples: &[Sampled]) {
     assert!(off_line <= certified, "{off_line} {certified}");
 }
 
-fn distances(plan: &Plan, certificate: &Certificate, samples: &[Sampled]) {
+fn distances(plan: &Plan, certificate: &Certificate, samples: &[MotionSample]) {
     let model = ClearanceModel::new(&irb120(), &plan.job.workcell, &plan.job.plates).unwrap();
     let names: Vec<_> = model
         .pair_names()

@@ -1,6 +1,6 @@
 //! The elastic foundation once more, on squares of 0.25 mm and dense moments: its own formulas, from knots, positions and nothing else.
 
-use crate::tests::made::irb120;
+use crate::tests::maker::irb120;
 use nalgebra::Vector3;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;
@@ -15,7 +15,7 @@ const STEP_S: f64 = 2e-3;
 
 /// Results of a raster of the model, the smaller ones of both extremes of the plate's height.
 #[derive(Debug)]
-pub struct Found {
+pub struct RasterResult {
     /// Shares of the area.
     pub contact: f64,
     pub time: f64,
@@ -110,7 +110,7 @@ fn moments(plan: &Plan) -> Vec<Moment> {
 }
 
 /// Everything that the model says of the wash of a plan's first plate.
-pub fn raster(plan: &Plan) -> Found {
+pub fn raster(plan: &Plan) -> RasterResult {
     let moments = moments(plan);
     let (plate, sponge) = (&plan.job.plates[0], &plan.job.workcell.tool.sponge);
     let wanted = plan.job.requirements.contact.unwrap();
@@ -223,7 +223,7 @@ pub fn raster(plan: &Plan) -> Found {
     }
     let most = |i: usize| loads.iter().map(|l| l[i]).fold(0.0, f64::max);
     let least = loads.iter().map(|l| l[0]).fold(f64::INFINITY, f64::min);
-    Found {
+    RasterResult {
         contact: sums[1] / sums[0],
         time: sums[2] / sums[0],
         dose: sums[3] / sums[0],

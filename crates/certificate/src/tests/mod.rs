@@ -9,7 +9,7 @@ mod contact_spares;
 mod contact_untouched;
 mod differential;
 mod foundation;
-mod made;
+mod maker;
 mod mutations;
 mod obstacles;
 mod program;

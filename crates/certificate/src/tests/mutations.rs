@@ -1,7 +1,7 @@
 //! Every requirement is broken on purpose, the plan sealed again, and the right one must say so.
 
 use crate::Requirement::{self, *};
-use crate::tests::made::{Recipe, good, irb120, resealed, tool};
+use crate::tests::maker::{Recipe, good, irb120, resealed, tool};
 use crate::{Certificate, PairRule, Status, Verdict, prove};
 use platewash_kinematics::JointVector;
 use platewash_workcell::job::Overlap;
@@ -146,7 +146,7 @@ fn pairs_that_are_left_out_follow_from_the_arm() {
     });
     // Pairs are left out by names: those of two bodies that have one.
     let told = breaks_at_least(&[Exclusions], |p| {
-        p.job.workcell.obstacles.push(crate::tests::made::post("link_3"))
+        p.job.workcell.obstacles.push(crate::tests::maker::post("link_3"))
     });
     assert!(
         told.to_string()
@@ -228,7 +228,7 @@ fn waiving_one_pair_waives_no_other() {
 #[test]
 fn obstacles_keep_clear_too() {
     let mut plan = good();
-    let mut far = crate::tests::made::post("far");
+    let mut far = crate::tests::maker::post("far");
     far.pose.translation.x = -0.9;
     plan.job.workcell.obstacles.push(far);
     plan.job.workcell.exclusions =

@@ -1,7 +1,7 @@
 //! Obstacles of every kind around a plan: what is proved of pairs is never more than what is found at any moment, whether they were dismissed many at
 //! once or looked at one by one.
 
-use crate::tests::made::{good, irb120, resealed};
+use crate::tests::maker::{good, irb120, resealed};
 use crate::{Requirement, Status, prove};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;

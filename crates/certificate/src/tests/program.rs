@@ -1,6 +1,6 @@
 //! The motion of a program: what an independent sampler finds is within the bounds, and what leaves the plan is said.
 
-use crate::tests::made::{good, irb120};
+use crate::tests::maker::{good, irb120};
 use crate::{Certified, Check, ProgramLimits, ProgramProof, Requirement, Status, certify, prove_program};
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::CancelToken;

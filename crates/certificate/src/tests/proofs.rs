@@ -1,7 +1,7 @@
 //! Results of a proof besides its requirements: a certified value, a motion alone, the basis of the verdict.
 
 use crate::Requirement::{Clearance, JointSpeed, TipSpeed};
-use crate::tests::made::{good, irb120, resealed};
+use crate::tests::maker::{good, irb120, resealed};
 use crate::{CertifyError, PairRule, ProveError, Status, certify, prove, prove_motion};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::plan::Process;
@@ -87,7 +87,7 @@ fn a_motion_alone_keeps_clear_of_everything_all_the_time() {
 #[test]
 fn what_the_verdict_rests_on_is_told() {
     let mut plan = good();
-    let mut post = crate::tests::made::post("post");
+    let mut post = crate::tests::maker::post("post");
     post.pose.translation.x = -0.9;
     plan.job.workcell.obstacles.push(post);
     plan.job.home_rad[1][5] = 0.5;

@@ -1,7 +1,7 @@
 //! The basis of a verdict in words: different jobs read differently, and a name never reads as more than a name.
 
-use crate::RestsOn;
-use crate::tests::made::{good, post};
+use crate::VerdictBasis;
+use crate::tests::maker::{good, post};
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::words::rounded;
@@ -11,9 +11,9 @@ use platewash_workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
 use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ObstacleShape};
 
 /// The line of that name, where the terms are changed.
-fn told(name: &str, change: impl Fn(&mut RestsOn)) -> String {
+fn told(name: &str, change: impl Fn(&mut VerdictBasis)) -> String {
     let job = good().job;
-    let mut rests = RestsOn {
+    let mut rests = VerdictBasis {
         workcell: job.workcell,
         plates: job.plates,
         requirements: job.requirements,
@@ -111,9 +111,9 @@ fn bodies_of_the_tool_are_told_with_where_they_are_and_how_they_lie() {
         "\"handle\", a cylinder of radius 20 and length 125 mm at (0, 0, 62.5) mm of the flange; tip at (0, 0, 150) mm of the flange"
     );
     // About its own axis, the tip points where it pointed.
-    let about_z = |r: &mut RestsOn| r.workcell.tool.tip.rotation = turned(40.0, Vector3::z());
+    let about_z = |r: &mut VerdictBasis| r.workcell.tool.tip.rotation = turned(40.0, Vector3::z());
     assert_eq!(told("tool", about_z), straight);
-    let bend = |r: &mut RestsOn| {
+    let bend = |r: &mut VerdictBasis| {
         let tool = &mut r.workcell.tool;
         tool.bodies[0].pose.translation.x = 6.0004e-3;
         tool.bodies[0].pose.rotation = turned(-30.0, Vector3::y());

@@ -2,16 +2,16 @@
 
 use crate::error::ProveError;
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
 use crate::washing::instants::Instants;
-use crate::washing::pressing::{self, Extreme, FRICTION, Known, Pressing};
+use crate::washing::pressing::{self, DiscWashBounds, Extreme, FRICTION, Pressing};
 use crate::washing::shares::{Fineness, Share, Shares, shares};
 use nalgebra::Vector3;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::contact::{Foundation, Wanted};
+use platewash_workcell::contact::{ContactThresholds, Foundation};
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
@@ -98,7 +98,7 @@ impl PlateContact {
 }
 
 /// Wash whose contact is judged, with the data it needs.
-pub(crate) struct Pressed<'a> {
+pub(crate) struct ContactInputs<'a> {
     pub plate: &'a Plate,
     pub index: usize,
     pub foundation: &'a Foundation,
@@ -107,7 +107,7 @@ pub(crate) struct Pressed<'a> {
     /// Moments of the approaches to the plate and the retreats from it.
     pub around: &'a [Instants],
     /// Bounds of the wash that a disc needs.
-    pub known: Known,
+    pub known: DiscWashBounds,
     /// True where every line along the tool's axis meets the face once, from above, during the wash.
     pub meets: bool,
     /// Same as `meets`, from approach to retreat.
@@ -115,7 +115,7 @@ pub(crate) struct Pressed<'a> {
     pub cancel: &'a CancelToken,
 }
 
-impl Pressed<'_> {
+impl ContactInputs<'_> {
     /// Bounds the contact.
     ///
     /// # Errors
@@ -186,7 +186,7 @@ impl Pressed<'_> {
     /// Computes the shares, refined until they suffice or the smallest cells are reached.
     fn shares(&self) -> Shares {
         let wanted = self.wanted;
-        let asked = Wanted {
+        let asked = ContactThresholds {
             compression_m: wanted.compression_m,
             height_error_m: wanted.height_error_m,
             time_s: wanted.time_s,
@@ -257,10 +257,10 @@ fn of_share(requirement: Requirement, plate: usize, share: &ProvedShare) -> Chec
         sense: Sense::AtLeast,
         unit: Unit::Share,
     };
-    let worst = Worst {
+    let worst = WorstCase {
         plate: Some(plate),
         place_m: share.worst_m,
-        ..Worst::default()
+        ..WorstCase::default()
     };
     Check::measured(requirement, measure, worst)
 }
@@ -290,12 +290,12 @@ fn of_extreme(
         unit,
     };
     let segment = schedule.and_then(|s| s.at_plate(pieces, (worst.plate, of(worst).time_s)));
-    let place = Worst {
+    let place = WorstCase {
         plate: Some(worst.plate),
         time_s: Some(of(worst).time_s),
         place_m: Some(of(worst).place_m),
         segment,
-        ..Worst::default()
+        ..WorstCase::default()
     };
     Check::measured(requirement, measure, place)
 }

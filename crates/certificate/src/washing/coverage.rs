@@ -10,18 +10,18 @@ use crate::error::ProveError;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Stretch};
 use crate::motion::tip_limits::Tips;
-use crate::report::check::{Check, Measure, Sense, Unit, Worst};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
-use crate::washing::contact::{CELLS_M, PlateContact, Pressed};
+use crate::washing::contact::{CELLS_M, ContactInputs, PlateContact};
 use crate::washing::face::{Face, norm};
 use crate::washing::instants::Instants;
-use crate::washing::pressing::Known;
-use crate::washing::reach::Touched;
+use crate::washing::pressing::DiscWashBounds;
+use crate::washing::reach::ReachedNeighbour;
 use crate::washing::shares::{Fineness, shares};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::contact::{Foundation, Wanted};
+use platewash_workcell::contact::{ContactThresholds, Foundation};
 use platewash_workcell::coverage::{CoverageSettings, coverage};
 use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::plate::Plate;
@@ -51,7 +51,7 @@ pub struct PlateCoverage {
     pub beyond_rim_allowed_m: f64,
     /// Neighbouring plates that the sponge may touch there.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub touches: Vec<Touched>,
+    pub touches: Vec<ReachedNeighbour>,
 }
 
 /// Results for one wash.
@@ -185,7 +185,7 @@ impl Washing<'_> {
         let sponge = &self.subject.job.workcell.tool.sponge;
         // Whatever its stiffness: no dose is asked for.
         let foundation = Foundation::stiff(sponge, [0.0; 2]);
-        let wanted = Wanted {
+        let wanted = ContactThresholds {
             compression_m: 0.0,
             height_error_m: 0.0,
             time_s: 0.0,
@@ -213,14 +213,14 @@ impl Washing<'_> {
         let instants_of = |pieces| Instants::new(self.arm, pieces, self.plate, (&foundation, error_m));
         let instants = instants_of(self.pieces);
         let around: Vec<_> = self.around.iter().map(|pieces| instants_of(pieces)).collect();
-        let pressed = Pressed {
+        let pressed = ContactInputs {
             plate: self.plate,
             index: self.index,
             foundation: &foundation,
             wanted,
             instants: &instants,
             around: &around,
-            known: Known {
+            known: DiscWashBounds {
                 height_m: self.tips.greatest_height_of(self.span),
                 cosine: self.tips.least_upright_cosine_of(self.span),
                 distance_m: line.within_m,
@@ -263,9 +263,9 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
         sense: Sense::AtLeast,
         unit: Unit::Share,
     };
-    let place = Worst {
+    let place = WorstCase {
         plate: Some(worst.plate),
-        ..Worst::default()
+        ..WorstCase::default()
     };
     Check::measured(Requirement::Swept, measure, place)
 }

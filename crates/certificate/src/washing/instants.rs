@@ -54,7 +54,7 @@ pub(crate) struct Jerk {
 }
 
 /// Data needed to bound a stretch.
-struct Look<'a> {
+struct StretchInputs<'a> {
     arm: &'a Arm<'a>,
     plate: &'a Plate,
     foundation: &'a Foundation,
@@ -64,7 +64,7 @@ struct Look<'a> {
 impl Instants {
     /// Returns the moments of the pieces, for a sponge on a plate that may lie higher or lower by `error_m`.
     pub fn new(arm: &Arm<'_>, pieces: &[Piece], plate: &Plate, (foundation, error_m): (&Foundation, f64)) -> Self {
-        let look = Look {
+        let look = StretchInputs {
             arm,
             plate,
             foundation,
@@ -82,7 +82,7 @@ impl Instants {
     }
 
     /// Adds a stretch whose first end has been added already.
-    fn add(&mut self, look: &Look<'_>, stretch: &Stretch<'_>, depth: u32) {
+    fn add(&mut self, look: &StretchInputs<'_>, stretch: &Stretch<'_>, depth: u32) {
         let bounds = look.arm.derivatives(stretch);
         let drift = drift(stretch, &bounds);
         let sags = look.sags(stretch, &bounds, &drift);
@@ -152,7 +152,7 @@ pub(crate) fn drift(stretch: &Stretch<'_>, bounds: &Derivatives) -> Drift {
     }
 }
 
-impl Look<'_> {
+impl StretchInputs<'_> {
     /// Bounds the sags over a stretch: see the head of this file.
     fn sags(&self, stretch: &Stretch<'_>, bounds: &Derivatives, drift: &Drift) -> Sags {
         let h = stretch.length_s();

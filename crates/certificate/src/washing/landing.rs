@@ -11,7 +11,7 @@
 //!
 //! - Over a disc the lowest point of its rim is at H = p_z + b a_z − s ‖a_xy‖, with p the tip and a the tool's axis. H ≥ min of its
 //!   values at the ends of a stretch less h²/8 (sup ‖p̈‖ + (b + s) sup ‖ä‖): H is the least of functions p_z + b a_z + s d·a_xy, one for
-//!   each horizontal direction d. Over other faces it does not touch where no column of its far face is compressed (`contact/stands.rs`).
+//!   each horizontal direction d. Over other faces it does not touch where no column of its far face is compressed (`contact/plate_load.rs`).
 //! - What touches is a point of the sponge: within ρ = s / cos τ of the tip where b = 0 on a disc, wherever the tip is at the face or
 //!   above it; the free one reaches b beyond the tip, and its side wall s tan τ behind it on a disc, elsewhere no more than its height:
 //!   ρ² = s² + max(b, s tan τ + tolerance)², or s² + max(b, height)². Such a point r moves at v + ω × r, no faster than G,
@@ -27,7 +27,7 @@ use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Derivatives, Moment, Stretch};
 use crate::motion::tip_limits::{self, Tips};
-use crate::report::check::{Check, Unit, Worst};
+use crate::report::check::{Check, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
@@ -35,7 +35,7 @@ use crate::washing::contact::tighter;
 use crate::washing::face::Face;
 use crate::washing::instants;
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Bends, Columns, Foundation, Standing, Touching};
+use platewash_workcell::contact::{Bends, Columns, Foundation, SpongeState, TouchRegion};
 use platewash_workcell::job::LINE_TOLERANCE_M;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Sponge;
@@ -45,7 +45,7 @@ use platewash_workcell::trajectory::SegmentKind;
 const RESOLUTION: f64 = 2e-3;
 
 /// Limits for the segments of some kinds.
-struct Asked<'a> {
+struct TouchSpeedLimit<'a> {
     kinds: &'a [SegmentKind],
     /// Greatest touching speed \[m/s\].
     limit: f64,
@@ -63,14 +63,14 @@ pub(crate) fn check(
         return Check::not_judged(Requirement::ContactSpeed);
     };
     let wanted = &subject.job.requirements;
-    let judged = |asked: &Asked<'_>| judge(arm, subject, (pieces, schedule), tips, asked);
+    let judged = |asked: &TouchSpeedLimit<'_>| judge(arm, subject, (pieces, schedule), tips, asked);
     let as_washed = FarFace {
         beyond_m: 0.0,
         error_m: 0.0,
     };
     let limit = subject.limits.wash_speed_m_s;
     if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
-        return judged(&Asked {
+        return judged(&TouchSpeedLimit {
             kinds: &[SegmentKind::Approach, SegmentKind::Retreat],
             limit,
             far: as_washed,
@@ -81,7 +81,7 @@ pub(crate) fn check(
         error_m: wanted.contact.map_or(0.0, |contact| contact.height_error_m),
     };
     let of = |kind, stated: Option<f64>| {
-        judged(&Asked {
+        judged(&TouchSpeedLimit {
             kinds: &[kind],
             limit: stated.map_or(limit, |stated| stated.min(limit)),
             far: stated.map_or(as_washed, |_| free),
@@ -98,7 +98,7 @@ fn judge(
     subject: &Subject<'_>,
     (pieces, schedule): (&[Piece], &Schedule),
     tips: &Tips,
-    asked: &Asked<'_>,
+    asked: &TouchSpeedLimit<'_>,
 ) -> Check {
     let limit = asked.limit;
     let mut tracker = BoundTracker::new(limit, RESOLUTION * limit);
@@ -128,7 +128,7 @@ fn judge(
     let worst = if tracker.seen > 0.0 {
         tip_limits::worst(&tracker, pieces, Some(schedule))
     } else {
-        Worst::default()
+        WorstCase::default()
     };
     tip_limits::check(
         Requirement::ContactSpeed,
@@ -181,7 +181,7 @@ pub(crate) struct Rim<'a> {
 /// Parts of the sponge's face that may touch over a stretch.
 struct Parts<'a> {
     columns: &'a Columns,
-    touching: Vec<Touching>,
+    touching: Vec<TouchRegion>,
 }
 
 impl<'a> Rim<'a> {
@@ -226,7 +226,7 @@ impl<'a> Rim<'a> {
         }
     }
 
-    fn stand(&self, (columns, bends): &(Columns, Bends<'_>), m: &Moment) -> Standing {
+    fn stand(&self, (columns, bends): &(Columns, Bends<'_>), m: &Moment) -> SpongeState {
         let side = self.plate.pose.inverse_transform_vector(&m.side);
         columns.stand(bends, &instants::pose(self.plate, m), &side, self.far.error_m)
     }

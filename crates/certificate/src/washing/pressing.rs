@@ -9,18 +9,18 @@
 //! wash. The least force is that of the wash, as the sponge meets the plate and leaves it with none.
 //!
 //! On a disc all of this follows from the height of the tip and the tilt alone (`contact/level.rs`), on other faces from columns at the
-//! moments of the wash and what they may do between them (`contact/stands.rs`).
+//! moments of the wash and what they may do between them (`contact/plate_load.rs`).
 //!
 //! On a face that is no disc the bounds come from branch and bound over the wash, the worst stretch first.
 //!
 //! The wash is cut into stretches of many moments each. What the plate asks of the foam over a stretch follows from where the columns
-//! stand at both ends of it and from how the sponge may move between them (`contact/stands.rs`): loosely over a long stretch or with few
+//! stand at both ends of it and from how the sponge may move between them (`contact/plate_load.rs`): loosely over a long stretch or with few
 //! columns. Of each quantity the stretch with the worst bound is looked at more closely, with more columns or in halves, until that is as
 //! near to what is shown of a single moment, with the most columns, as [`NEAR`] asks. It asks the same whatever the requirements are.
 
 use crate::washing::instants::Instants;
 use crate::washing::turning_frame::TurningFrame;
-use platewash_workcell::contact::{Bends, Columns, Foundation, Level, Moment, Press, Seen, Standing};
+use platewash_workcell::contact::{Bends, Columns, Foundation, Level, Moment, PlateLoad, Press, SpongeState};
 use platewash_workcell::plate::Plate;
 
 /// Friction between a wet sponge and a plate, least and greatest: an assumption.
@@ -28,7 +28,7 @@ pub(crate) const FRICTION: [f64; 2] = [0.3, 1.0];
 
 /// Proved bounds of a wash on a disc.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Known {
+pub(crate) struct DiscWashBounds {
     /// Upper bound on the height of the tip over or under the face \[m\].
     pub height_m: f64,
     /// Lower bound on cos τ, with τ the tilt of the tool.
@@ -90,7 +90,7 @@ impl Pressing {
     }
 
     /// Bounds the load during a wash on a disc.
-    pub fn on_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, known: &Known) -> Self {
+    pub fn on_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, known: &DiscWashBounds) -> Self {
         let mut all = Self::new();
         let rim_m = plate.rim_m();
         let press = |height_m: [f64; 2], cosine: f64, distance_m: f64| {
@@ -106,7 +106,7 @@ impl Pressing {
             let distance_m = tip.xy().norm();
             let [low, high] = [1.0, -1.0].map(|up| press([tip.z + up * known.error_m; 2], cosine, distance_m));
             let wholly_on = distance_m + foundation.radius_m / cosine <= rim_m;
-            let seen = Seen {
+            let seen = PlateLoad {
                 volume_m3: [low.volume_m3[1], high.volume_m3[0]],
                 deepest_m: high.deepest_m[usize::from(wholly_on)],
                 deepest_at_m: [tip.x, tip.y, 0.0],
@@ -150,7 +150,7 @@ impl Pressing {
             let attained = press(tip.z, cosine, distance_m);
             let wholly_on = distance_m + foundation.radius_m / cosine <= plate.rim_m();
             if cosine > 0.0 {
-                let seen = Seen {
+                let seen = PlateLoad {
                     volume_m3: [f64::INFINITY, attained.volume_m3[0]],
                     deepest_m: attained.deepest_m[usize::from(wholly_on)],
                     deepest_at_m: [tip.x, tip.y, 0.0],
@@ -193,7 +193,7 @@ impl Pressing {
     }
 
     /// Updates the attained values with those of one moment.
-    pub fn see(&mut self, seen: &Seen, time_s: f64, place_m: [f64; 3]) {
+    pub fn see(&mut self, seen: &PlateLoad, time_s: f64, place_m: [f64; 3]) {
         let [least, most] = &mut self.volume;
         if seen.volume_m3[0] < least.seen {
             (least.seen, least.time_s, least.place_m) = (seen.volume_m3[0], time_s, place_m);
@@ -251,7 +251,7 @@ struct Search<'a> {
     error_m: f64,
     looks: [Columns; LOOKS],
     /// State of the columns by column grid and moment; `None` until it is computed.
-    standings: [Vec<Option<Standing>>; LOOKS],
+    standings: [Vec<Option<SpongeState>>; LOOKS],
     spans: Vec<Span>,
     /// Worst value at a single moment, per quantity.
     at_moments: [f64; QUANTITIES],

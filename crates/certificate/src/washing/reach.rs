@@ -11,7 +11,7 @@
 use crate::motion::piece::Piece;
 use crate::motion::tip::Arm;
 use crate::motion::tip_limits::Tips;
-use crate::report::check::{Check, Discrepancy, Measure, Sense, Unit, Worst};
+use crate::report::check::{Check, Discrepancy, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 const LINE_HALVINGS: u32 = 12;
 
 /// Proved bounds of the tip on which the reach of the sponge depends.
-pub(crate) struct Proved<'a> {
+pub(crate) struct ReachInputs<'a> {
     pub arm: &'a Arm<'a>,
     pub pieces: &'a [Piece],
     pub schedule: &'a Schedule,
@@ -37,7 +37,7 @@ pub(crate) struct Proved<'a> {
     pub path_deviation_m: Option<f64>,
 }
 
-impl Proved<'_> {
+impl ReachInputs<'_> {
     /// Returns the spans at a plate, with their indices.
     fn spans_at(&self, plate: usize) -> impl Iterator<Item = (usize, &Span)> {
         let spans = self.schedule.spans.iter().enumerate();
@@ -46,7 +46,7 @@ impl Proved<'_> {
 }
 
 /// Fills in the reach of the sponge beyond the rim of each plate, and the plates it may touch there.
-pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &Proved<'_>) {
+pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &ReachInputs<'_>) {
     let most_tilted = cos(subject.limits.tilt_rad);
     for wash in washes {
         let index = wash.swept.plate;
@@ -87,7 +87,7 @@ fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
 
 /// Returns an upper bound on the distance of the tip from the pole of a plate, seen along its axis, in its wash and in all approaches and
 /// retreats at the plate, and the greatest distance found \[m\]. The bound is infinite where nothing is proved.
-fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: &Proved<'_>) -> [f64; 2] {
+fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: &ReachInputs<'_>) -> [f64; 2] {
     let along_path_m = (proved.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
     let tips = proved.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
         // The wash of another entry.
@@ -122,16 +122,16 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
         sense: Sense::AtMost,
         unit: Unit::Metre,
     };
-    let place = Worst {
+    let place = WorstCase {
         plate: Some(worst.plate),
-        ..Worst::default()
+        ..WorstCase::default()
     };
     Check::measured(Requirement::Reach, measure, place)
 }
 
 /// Neighbouring plate that the sponge reaches while it works on another plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Touched {
+pub struct ReachedNeighbour {
     /// Index of the neighbouring plate.
     pub plate: usize,
     /// Upper bound on the reach over its rim \[m\].
@@ -175,13 +175,13 @@ fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f
 
 /// Returns the plates beside `plate` and no higher ([`Plate::may_touch_beside`]) that a sponge reaches if it gets `beyond_rim_m` beyond the
 /// rim of `plate`, in order.
-pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<Touched> {
+pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<ReachedNeighbour> {
     let Some(own) = subject.plates().get(plate) else {
         return Vec::new();
     };
     let others = subject.plates().iter().enumerate();
     let others = others.filter(|(index, other)| *index != plate && own.may_touch_beside(other));
-    let depths = others.map(|(plate, other)| Touched {
+    let depths = others.map(|(plate, other)| ReachedNeighbour {
         plate,
         depth_m: beyond_rim_m - own.gap_beside_m(other),
     });
@@ -213,7 +213,7 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
 
 /// Plates that are swept besides the plate being washed.
 #[derive(Debug, Default)]
-pub(crate) struct Swept {
+pub(crate) struct SweptNeighbours {
     /// Plates that lie apart from the one being washed.
     pub apart: Vec<Discrepancy>,
     /// Plates that overlap it.
@@ -223,9 +223,9 @@ pub(crate) struct Swept {
 /// Finds plates of which more than the rim may be swept while another one is washed. The tilt of the tool is limited by its own
 /// requirement. On a face that is no disc that tilt is about the normal; `upright_cosine` then gives the bound proved about the plate's
 /// axis.
-pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> Swept {
+pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> SweptNeighbours {
     let tilted_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
-    let mut swept = Swept::default();
+    let mut swept = SweptNeighbours::default();
     for (i, own) in subject.plates().iter().enumerate() {
         // Without a path it is not washed at all.
         let Some(radius_m) = subject.path_radius_m(i) else {

@@ -55,7 +55,7 @@ struct State {
 
 /// Upper bounds in the turning frame, at a moment or over a stretch. The head of this file defines the symbols.
 #[derive(Debug, Clone, Copy, Default)]
-struct Greatest {
+struct UpperBounds {
     speed: f64,
     acceleration: f64,
     a1: f64,
@@ -116,7 +116,7 @@ impl<'a> TurningFrame<'a> {
             let angle = self.angles[from] + rate * (time(at) - time(from));
             self.states[at].seen(rate, &direction(angle))
         };
-        let mut greatest = Greatest::default();
+        let mut greatest = UpperBounds::default();
         let mut before = seen(from);
         for k in from..to {
             let after = seen(k + 1);
@@ -128,14 +128,14 @@ impl<'a> TurningFrame<'a> {
     }
 
     /// Returns the amounts by which the values between a moment and the next may exceed those at both.
-    fn between(&self, at: usize, rate: f64) -> Greatest {
+    fn between(&self, at: usize, rate: f64) -> UpperBounds {
         let (Some(drift), Some(jerk)) = (self.instants.drifts.get(at), self.instants.jerks.get(at)) else {
-            return Greatest::UNKNOWN;
+            return UpperBounds::UNKNOWN;
         };
         let half_s = 0.5 * drift.length_s;
         let square = rate * rate;
         let first_of_axis = drift.bending + rate * drift.axis;
-        Greatest {
+        UpperBounds {
             speed: 0.5 * half_s * half_s * (jerk.tip_m_s3 + rate * drift.tip_m_s2),
             acceleration: half_s * (jerk.tip_m_s3 + 2.0 * rate * drift.tip_m_s2 + square * drift.tip_m_s),
             a1: half_s * first_of_axis,
@@ -147,7 +147,7 @@ impl<'a> TurningFrame<'a> {
 
 impl State {
     /// Returns the values seen from a frame that turns at `rate` and in which the direction `d` is at rest.
-    fn seen(&self, rate: f64, d: &Vector3<f64>) -> Greatest {
+    fn seen(&self, rate: f64, d: &Vector3<f64>) -> UpperBounds {
         let omega = Vector3::z() * rate;
         let round = |v: &Vector3<f64>| omega.cross(v);
         let Self {
@@ -158,7 +158,7 @@ impl State {
             first,
             second,
         } = self;
-        Greatest {
+        UpperBounds {
             speed: (speed - round(tip)).norm(),
             acceleration: (acceleration - round(speed) * 2.0 + round(&round(tip))).norm(),
             a1: (first - round(axis)).norm(),
@@ -168,7 +168,7 @@ impl State {
     }
 }
 
-impl Greatest {
+impl UpperBounds {
     /// Bounds where nothing is known: infinite.
     const UNKNOWN: Self = Self {
         speed: f64::INFINITY,

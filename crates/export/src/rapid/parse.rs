@@ -17,7 +17,7 @@ const DEEPEST: usize = 8;
 
 /// A token and its line, from 1.
 #[derive(Debug, Clone)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedToken {
     pub(crate) token: Token,
     pub(crate) line: usize,
 }
@@ -50,9 +50,9 @@ pub(crate) struct Procedure {
     /// Its name, as it stands.
     pub(crate) name: String,
     /// Tokens between the brackets behind its name.
-    pub(crate) parameters: Vec<Placed>,
+    pub(crate) parameters: Vec<PlacedToken>,
     /// Tokens before `ENDPROC`.
-    pub(crate) body: Vec<Placed>,
+    pub(crate) body: Vec<PlacedToken>,
 }
 
 /// The modules of a program; names in small letters.
@@ -80,7 +80,7 @@ pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
 }
 
 /// The tokens of a file, but for the header of files that a controller has saved.
-fn placed(file: &ProgramFile) -> Result<Vec<Placed>, ReadError> {
+fn placed(file: &ProgramFile) -> Result<Vec<PlacedToken>, ReadError> {
     let mut all = Vec::new();
     let text = file.text.trim_start_matches('\u{feff}');
     let mut marks = 0;
@@ -104,7 +104,7 @@ fn placed(file: &ProgramFile) -> Result<Vec<Placed>, ReadError> {
         {
             continue;
         }
-        let add = |token| all.push(Placed { token, line });
+        let add = |token| all.push(PlacedToken { token, line });
         reading::line(text, '!', add).map_err(|reason| ReadError::at(&file.name, line, reason))?;
     }
     Ok(all)
@@ -192,12 +192,12 @@ impl Modules {
 #[derive(Debug, Clone)]
 pub(crate) struct Cursor<'a> {
     file: &'a str,
-    tokens: &'a [Placed],
+    tokens: &'a [PlacedToken],
     at: usize,
 }
 
 impl<'a> Cursor<'a> {
-    pub(crate) fn new(file: &'a str, tokens: &'a [Placed]) -> Self {
+    pub(crate) fn new(file: &'a str, tokens: &'a [PlacedToken]) -> Self {
         Self { file, tokens, at: 0 }
     }
 
@@ -274,7 +274,11 @@ impl<'a> Cursor<'a> {
     }
 
     /// The tokens before the first one that ends them, which is taken, too.
-    pub(crate) fn up_to(&mut self, ends: impl Fn(&Token) -> bool, expected: &str) -> Result<Vec<Placed>, ReadError> {
+    pub(crate) fn up_to(
+        &mut self,
+        ends: impl Fn(&Token) -> bool,
+        expected: &str,
+    ) -> Result<Vec<PlacedToken>, ReadError> {
         let from = self.at;
         while !ends(self.next(expected)?) {}
         Ok(self.tokens[from..self.at - 1].to_vec())

@@ -8,10 +8,10 @@
 //! Numbers are IEEE singles, as on the controller.
 
 use crate::dialect::{Place, ProgramFile, ReadError};
-use crate::rapid::parse::{self, Cursor, Data, Modules, Placed, Procedure, Value, modules};
+use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
 use crate::rapid::{self};
-use crate::reading::{Between, ReadPoint, ReadTool, Reading, Token};
+use crate::reading::{Interpolation, ReadPoint, ReadTool, Reading, Token};
 use platewash_kinematics::JointVector;
 use std::collections::HashMap;
 
@@ -115,7 +115,7 @@ fn check_blocks(found: &Modules) -> Result<(), ReadError> {
             let tokens = procedure.parameters.iter().chain(&procedure.body);
             tokens.collect::<Vec<_>>()
         });
-        let same = |(a, b): &(&&Placed, &&Placed)| a.token.is_same(&b.token);
+        let same = |(a, b): &(&&PlacedToken, &&PlacedToken)| a.token.is_same(&b.token);
         let same = found.iter().zip(&expected).take_while(same).count();
         if same < found.len().max(expected.len()) {
             let line = found
@@ -587,7 +587,7 @@ impl<'a> Run<'a> {
         Ok(Reading {
             speed_share,
             points: self.points,
-            between: Between::RoundedLines,
+            between: Interpolation::RoundedLines,
             tool: self.tool,
             checks_start: self.start_rad.is_some(),
         })

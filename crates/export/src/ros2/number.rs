@@ -32,7 +32,7 @@ pub(crate) fn quoted(text: &str) -> String {
 
 /// Number in a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Said {
+pub(crate) enum ParsedNumber {
     /// A finite number that every reader takes for a float.
     Float(f64),
     /// A whole number.
@@ -44,7 +44,7 @@ pub(crate) enum Said {
 }
 
 /// Reads a number's text.
-pub(crate) fn read(text: &str) -> Said {
+pub(crate) fn read(text: &str) -> ParsedNumber {
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, Some(exponent)),
@@ -63,21 +63,21 @@ pub(crate) fn read(text: &str) -> Said {
         && fraction.is_none_or(|f| !f.is_empty() && digits(f))
         && power.is_none_or(|p| !p.is_empty() && digits(p));
     if !is_number {
-        return Said::Nothing;
+        return ParsedNumber::Nothing;
     }
     if fraction.is_none() && exponent.is_none() {
-        return text.parse().map_or(Said::Nothing, Said::Whole);
+        return text.parse().map_or(ParsedNumber::Nothing, ParsedNumber::Whole);
     }
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => {
             let signed = exponent.is_none_or(|e| e.starts_with(['-', '+']));
             if fraction.is_some() && signed {
-                Said::Float(value)
+                ParsedNumber::Float(value)
             } else {
-                Said::TextInYaml11(value)
+                ParsedNumber::TextInYaml11(value)
             }
         }
-        _ => Said::Nothing,
+        _ => ParsedNumber::Nothing,
     }
 }
 
@@ -98,12 +98,12 @@ mod tests {
     #[test]
     fn what_is_no_float_is_told() {
         for (text, said) in [
-            ("1", Said::Whole(1)),
-            ("-3", Said::Whole(-3)),
-            ("1e-05", Said::TextInYaml11(1e-5)),
-            ("1.0e5", Said::TextInYaml11(1e5)),
-            ("1.0e+5", Said::Float(1e5)),
-            ("+0.5", Said::Float(0.5)),
+            ("1", ParsedNumber::Whole(1)),
+            ("-3", ParsedNumber::Whole(-3)),
+            ("1e-05", ParsedNumber::TextInYaml11(1e-5)),
+            ("1.0e5", ParsedNumber::TextInYaml11(1e5)),
+            ("1.0e+5", ParsedNumber::Float(1e5)),
+            ("+0.5", ParsedNumber::Float(0.5)),
         ] {
             assert_eq!(read(text), said, "{text}");
         }
@@ -133,7 +133,7 @@ mod tests {
             "é",
         ];
         for text in nothing {
-            assert_eq!(read(text), Said::Nothing, "{text}");
+            assert_eq!(read(text), ParsedNumber::Nothing, "{text}");
         }
     }
 
@@ -149,7 +149,7 @@ mod tests {
             let value = f64::from_bits(bits);
             prop_assume!(value.is_finite());
             let text = float(value);
-            prop_assert_eq!(read(&text), Said::Float(if value == 0.0 { 0.0 } else { value }), "{}", text);
+            prop_assert_eq!(read(&text), ParsedNumber::Float(if value == 0.0 { 0.0 } else { value }), "{}", text);
             prop_assert_eq!(serde_json::from_str::<f64>(&text).unwrap(), value);
         }
 

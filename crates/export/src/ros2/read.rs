@@ -7,9 +7,9 @@
 //! not read.
 
 use crate::dialect::{Place, ProgramFile, ReadError};
-use crate::reading::{Between, ReadPoint, Reading};
+use crate::reading::{Interpolation, ReadPoint, Reading};
 use crate::ros2::node::{self, Entry, Fault, Kind, Node};
-use crate::ros2::number::{self, Said};
+use crate::ros2::number::{self, ParsedNumber};
 use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::words::quoted;
@@ -73,7 +73,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     Ok(Reading {
         speed_share: None,
         points,
-        between: Between::Cubics,
+        between: Interpolation::Cubics,
         tool: None,
         checks_start: false,
     })
@@ -274,8 +274,8 @@ fn duration(node: &Node<'_>) -> Result<i64, Fault> {
     let whole = |key: &str, most: i64| {
         let node = fields.needed(key)?;
         match said(node) {
-            Said::Whole(found) if (0..=most).contains(&found) => Ok(found),
-            Said::Whole(found) => broken(
+            ParsedNumber::Whole(found) if (0..=most).contains(&found) => Ok(found),
+            ParsedNumber::Whole(found) => broken(
                 node.line,
                 ("duration", TYPE),
                 format!("expected {key} from 0 to {most}; found {found}"),
@@ -318,7 +318,7 @@ fn speed_share(text: &str) -> Option<Result<f64, Fault>> {
     let mut head = text.lines().enumerate().take_while(|(_, line)| line.starts_with('#'));
     let (line, stated) = head.find_map(|(k, line)| Some((k + 1, line.strip_prefix(write::SPEED_SHARE)?)))?;
     Some(match number::read(stated.trim_end()) {
-        Said::Float(share) if share > 0.0 && share <= 1.0 => Ok(share),
+        ParsedNumber::Float(share) if share > 0.0 && share <= 1.0 => Ok(share),
         _ => Err(Fault::new(
             line,
             "expected a speed share above 0.0 and at most 1.0; found another value",
@@ -356,25 +356,25 @@ fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
     }
 }
 
-fn said(node: &Node<'_>) -> Said {
+fn said(node: &Node<'_>) -> ParsedNumber {
     match &node.kind {
         Kind::Plain(text) | Kind::OfJson(text) => number::read(text),
-        _ => Said::Nothing,
+        _ => ParsedNumber::Nothing,
     }
 }
 
 fn float(node: &Node<'_>) -> Result<f64, Fault> {
     let found = node.kind.told();
     let reason = match said(node) {
-        Said::Float(value) => return Ok(value),
-        Said::TextInYaml11(value) if matches!(node.kind, Kind::OfJson(_)) => return Ok(value),
-        Said::Whole(whole) => {
+        ParsedNumber::Float(value) => return Ok(value),
+        ParsedNumber::TextInYaml11(value) if matches!(node.kind, Kind::OfJson(_)) => return Ok(value),
+        ParsedNumber::Whole(whole) => {
             format!("expected a float, which ROS 2 does not take a whole number for; write {whole}.0 for {found}")
         }
-        Said::TextInYaml11(_) => format!(
+        ParsedNumber::TextInYaml11(_) => format!(
             "expected a float; {found} is a text in YAML 1.1, which ROS 2 reads: a float has a point, and its exponent a sign, as in 1.0e-5"
         ),
-        Said::Nothing => format!("expected a float, finite and in decimals; found {found}"),
+        ParsedNumber::Nothing => format!("expected a float, finite and in decimals; found {found}"),
     };
     Err(Fault::new(node.line, reason))
 }

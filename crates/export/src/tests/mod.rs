@@ -5,7 +5,9 @@ mod toy;
 use crate::dialect::ProgramFile;
 use crate::export::{self, ExportError};
 use crate::tests::toy::Toy;
-use crate::{CompareError, Compared, ExportSettings, Exported, Refusal, compare, contact_not_judged, judged};
+use crate::{
+    CompareError, ExportSettings, ExportedProgram, ProgramComparison, Refusal, compare, contact_not_judged, judgement,
+};
 use nalgebra::{Translation3, UnitQuaternion};
 use platewash_certificate::{Certified, Requirement, certify};
 use platewash_kinematics::urdf::MeshSource;
@@ -28,7 +30,7 @@ fn kitchen() -> &'static Certified<Plan> {
     })
 }
 
-fn export(settings: &ExportSettings) -> Result<Exported, ExportError> {
+fn export(settings: &ExportSettings) -> Result<ExportedProgram, ExportError> {
     export::export(kitchen(), &arm(), &Toy, settings, &CancelToken::new())
 }
 
@@ -39,7 +41,7 @@ fn refused(settings: &ExportSettings) -> Refusal {
     }
 }
 
-fn bound(exported: &Exported, requirement: Requirement) -> f64 {
+fn bound(exported: &ExportedProgram, requirement: Requirement) -> f64 {
     let worst = exported.judged.worst();
     let check = worst.iter().find(|check| check.requirement == requirement).unwrap();
     check.measure.unwrap().bound.unwrap()
@@ -267,7 +269,7 @@ fn points_that_would_be_too_close_are_refused() {
 fn a_program_that_does_not_hold_is_refused_by_name() {
     let mut exported = export(&ExportSettings::default()).unwrap();
     exported.reading.points.iter_mut().for_each(|point| point.t_s *= 0.5);
-    let judged = judged::judge(kitchen(), &exported.reading, &arm(), 2e-4, &CancelToken::new()).unwrap();
+    let judged = judgement::judge(kitchen(), &exported.reading, &arm(), 2e-4, &CancelToken::new()).unwrap();
     assert!(!judged.holds());
     let refusal = judged.accepted().unwrap_err();
     assert!(
@@ -298,7 +300,7 @@ fn nothing_is_handed_over_when_it_is_given_up() {
 }
 
 /// Compares a program whose text is changed.
-fn compared(change: impl Fn(&str) -> String) -> Result<Compared, CompareError> {
+fn compared(change: impl Fn(&str) -> String) -> Result<ProgramComparison, CompareError> {
     let settings = ExportSettings {
         speed_share: 0.8,
         ..ExportSettings::default()
@@ -322,7 +324,7 @@ fn text() -> String {
 }
 
 /// Subjects of the changes.
-fn about(compared: &Compared) -> Vec<&str> {
+fn about(compared: &ProgramComparison) -> Vec<&str> {
     compared.changes.iter().map(|change| change.what.as_str()).collect()
 }
 

@@ -4,7 +4,7 @@
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
 use crate::dialect::Place;
-use crate::reading::{Between, ReadPoint, ReadTool, Reading};
+use crate::reading::{Interpolation, ReadPoint, ReadTool, Reading};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{JointVector, Pose};
@@ -105,7 +105,7 @@ pub(crate) struct Controller {
 }
 
 /// Values of an instruction's parameters, in their order; `None` where not given.
-type Given = Vec<Option<Value>>;
+type ParameterValues = Vec<Option<Value>>;
 
 impl Controller {
     /// The parameters of an instruction that is read.
@@ -127,7 +127,7 @@ impl Controller {
     }
 
     /// One of [`INSTRUCTIONS`].
-    pub(crate) fn instruction(&mut self, name: &str, given: &Given, place: Place) -> Result<(), String> {
+    pub(crate) fn instruction(&mut self, name: &str, given: &ParameterValues, place: Place) -> Result<(), String> {
         match name {
             "set_tcp" => {
                 self.check_standing("the tip")?;
@@ -166,7 +166,7 @@ impl Controller {
         }
     }
 
-    fn movej(&mut self, given: &Given, place: Place) -> Result<(), String> {
+    fn movej(&mut self, given: &ParameterValues, place: Place) -> Result<(), String> {
         let q_rad = joints(given)?;
         for (k, name) in [(1, "a"), (2, "v")] {
             if given.get(k).is_some_and(Option::is_some) {
@@ -202,7 +202,7 @@ impl Controller {
         Ok(())
     }
 
-    fn servoj(&mut self, given: &Given, place: Place) -> Result<(), String> {
+    fn servoj(&mut self, given: &ParameterValues, place: Place) -> Result<(), String> {
         match self.stage {
             Stage::Before => {
                 return Err("servoj before the arm is at its start; expected movej to the start first".to_owned());
@@ -261,21 +261,21 @@ impl Controller {
         Ok(Reading {
             speed_share: Some(speed_share),
             points: self.points,
-            between: Between::Lines,
+            between: Interpolation::Lines,
             tool,
             checks_start: false,
         })
     }
 }
 
-fn required<'a>(given: &'a Given, k: usize, name: &str) -> Result<&'a Value, String> {
+fn required<'a>(given: &'a ParameterValues, k: usize, name: &str) -> Result<&'a Value, String> {
     match given.get(k) {
         Some(Some(value)) => Ok(value),
         _ => Err(format!("expected an argument \"{name}\"")),
     }
 }
 
-fn positive(given: &Given, k: usize, name: &str) -> Result<f64, String> {
+fn positive(given: &ParameterValues, k: usize, name: &str) -> Result<f64, String> {
     let found = required(given, k, name)?.number()?;
     match found > 0.0 {
         true => Ok(found),
@@ -283,7 +283,7 @@ fn positive(given: &Given, k: usize, name: &str) -> Result<f64, String> {
     }
 }
 
-fn within(given: &Given, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), String> {
+fn within(given: &ParameterValues, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), String> {
     let Some(Some(value)) = given.get(k) else { return Ok(()) };
     let found = value.number()?;
     match (least..=most).contains(&found) {
@@ -292,7 +292,7 @@ fn within(given: &Given, k: usize, name: &str, [least, most]: [f64; 2]) -> Resul
     }
 }
 
-fn joints(given: &Given) -> Result<JointVector, String> {
+fn joints(given: &ParameterValues) -> Result<JointVector, String> {
     let value = required(given, 0, "q")?;
     if let Value::Pose(_) = value {
         return Err("expected joint positions, found a pose: which branch it means is the controller's".to_owned());
@@ -308,7 +308,7 @@ fn joints(given: &Given) -> Result<JointVector, String> {
     }
 }
 
-fn load(given: &Given) -> Result<(f64, [f64; 3]), String> {
+fn load(given: &ParameterValues) -> Result<(f64, [f64; 3]), String> {
     let mass_kg = positive(given, 0, "m")?;
     let com_m = match given.get(1) {
         Some(Some(cog)) => cog.list::<3>()?,

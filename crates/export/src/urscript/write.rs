@@ -5,7 +5,7 @@
 
 use crate::dialect::{Point, Program, START_WITHIN_DEG};
 use crate::header::wrapped;
-use platewash_kinematics::rotation::{Rigid, rotation_vector};
+use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector};
 use std::fmt::Write;
@@ -72,7 +72,7 @@ fn head(program: &Program<'_>) -> String {
 /// Lines for the tool: its tip and its weight.
 fn tool(program: &Program<'_>) -> String {
     let tool = program.tool();
-    let tip = Rigid::from(&tool.tip);
+    let tip = RigidTransform::from(&tool.tip);
     let turn = rotation_vector(&tip.rotation);
     let pose = list(tip.translation.iter().chain(turn.iter()).copied());
     let mut text = format!(

@@ -10,7 +10,7 @@
 //! where it is well defined only. Most α are 0 or π/2, which cost nothing.
 
 use crate::model::Frame;
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};
 use nalgebra::{Matrix3, Vector3};
@@ -47,7 +47,7 @@ pub(crate) struct Link {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chain {
     /// Frame of joint 1 at q = 0, `S`, or the frame itself on the base.
-    pub start: Rigid,
+    pub start: RigidTransform,
     /// Offsets `o` added to the joint positions \[rad\]; 0 beyond the frame.
     pub offsets: [f64; AXES],
     /// Joints between the base and the frame.
@@ -103,7 +103,7 @@ impl Chain {
 }
 
 /// Slides the joints' origins along their axes so that translations lose an entry; returns the new start.
-fn slide(mut start: Rigid, splits: &mut [Split]) -> Rigid {
+fn slide(mut start: RigidTransform, splits: &mut [Split]) -> RigidTransform {
     for k in 0..splits.len() {
         let by = if k == 0 {
             splits[0].translation.z
@@ -126,7 +126,7 @@ fn slide(mut start: Rigid, splits: &mut [Split]) -> Rigid {
 }
 
 /// Returns the z–x–z angles. For parallel axes φ is along the translation, which then has an entry less.
-fn split(rigid: &Rigid) -> Split {
+fn split(rigid: &RigidTransform) -> Split {
     let r = &rigid.rotation;
     let sin = r.m13.hypot(r.m23);
     let t = rigid.translation;

@@ -5,7 +5,7 @@ use crate::batch::forward::{Tips, dot, frames, frames_and_lines, gather, moment,
 use crate::batch::kernel::{Kernel, LANES, Vector};
 use crate::batch::vector::{Backend, run};
 use crate::batch::{BatchError, CHUNK, same_length};
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ pub fn fk(robot: &RobotModel, frame: &Frame, q: &[JointVector], path: Backend) -
     let (mut positions, mut rotations) = (vec![[0.0; 3]; q.len()], vec![[0.0; 9]; q.len()]);
     evaluate(&Chain::new(robot, frame), q, &mut positions, &mut rotations, path);
     let pose = |(p, r): (&[f64; 3], &[f64; 9])| {
-        Pose::from(&Rigid {
+        Pose::from(&RigidTransform {
             rotation: Matrix3::from_row_slice(r),
             translation: Vector3::from(*p),
         })

@@ -1,12 +1,12 @@
 //! Four lanes in a register, on two paths: the only `unsafe` of this crate.
 //!
 //! A kernel is written once, over [`Vector`], and compiled twice: for [`Avx2`] within a function that has these
-//! instructions enabled, and for [`Portable`] without. `run` enters the one that the processor has.
+//! instructions enabled, and for [`PortableVector`] without. `run` enters the one that the processor has.
 
 #![allow(unsafe_code)]
 
 use crate::batch::kernel::{Kernel, LANES, Vector};
-use crate::trig::Separate;
+use crate::trig::SeparateMulAdd;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Instructions that a batch runs on.
@@ -43,17 +43,17 @@ pub(crate) fn run<K: Kernel>(path: Backend, kernel: K) {
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = path;
-    kernel.run::<Portable>();
+    kernel.run::<PortableVector>();
 }
 
 /// Four doubles on any processor.
 #[derive(Clone, Copy)]
-struct Portable([f64; LANES]);
+struct PortableVector([f64; LANES]);
 
 /// An operator, lane by lane.
 macro_rules! portable {
     ($trait:ident, $name:ident, $operator:tt) => {
-        impl $trait for Portable {
+        impl $trait for PortableVector {
             type Output = Self;
             #[inline(always)]
             fn $name(mut self, other: Self) -> Self {
@@ -70,8 +70,8 @@ portable!(Sub, sub, -=);
 portable!(Mul, mul, *=);
 portable!(Div, div, /=);
 
-impl Vector for Portable {
-    type Rounding = Separate;
+impl Vector for PortableVector {
+    type Rounding = SeparateMulAdd;
 
     #[inline(always)]
     fn from_array(lanes: [f64; LANES]) -> Self {
@@ -110,7 +110,7 @@ impl Vector for Portable {
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use crate::batch::kernel::{Kernel, LANES, Vector};
-    use crate::trig::Fused;
+    use crate::trig::FusedMulAdd;
     use std::arch::x86_64::{
         __m256d, _CMP_GT_OQ, _mm256_add_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_fmadd_pd,
         _mm256_fmsub_pd, _mm256_fnmadd_pd, _mm256_mul_pd, _mm256_sub_pd,
@@ -148,7 +148,7 @@ mod avx2 {
     instruction!(Div, div, _mm256_div_pd);
 
     impl Vector for Avx2 {
-        type Rounding = Fused;
+        type Rounding = FusedMulAdd;
 
         #[inline(always)]
         fn from_array(lanes: [f64; LANES]) -> Self {

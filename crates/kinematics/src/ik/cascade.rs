@@ -1,6 +1,6 @@
 //! The cascade that users call: seed, QP, listed starts, random restarts. See the [module](super) text.
 
-use crate::ik::analytic::{AnalyticArm, AnalyticError, NotAnalytic, Solutions};
+use crate::ik::analytic::{AnalyticArm, AnalyticError, Solutions, StructureMismatch};
 use crate::ik::dls::{self, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
 use crate::ik::starts::Starts;
 use crate::ik::{
@@ -8,7 +8,7 @@ use crate::ik::{
     Start, qp,
 };
 use crate::model::Frame;
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::{AXES, JointVector, Pose, RobotModel};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -34,7 +34,7 @@ pub struct IkSolver<'a> {
 pub enum AllBranchesError {
     /// The arm has no closed form.
     #[error("this arm has no analytic inverse kinematics: {0}")]
-    NotAnalytic(NotAnalytic),
+    NotAnalytic(StructureMismatch),
     /// The frame is not carried by the last link.
     #[error("the frame is not fixed to what joint 6 moves")]
     Frame,
@@ -43,8 +43,8 @@ pub enum AllBranchesError {
     Input(#[from] AnalyticError),
 }
 
-impl From<NotAnalytic> for AllBranchesError {
-    fn from(reason: NotAnalytic) -> Self {
+impl From<StructureMismatch> for AllBranchesError {
+    fn from(reason: StructureMismatch) -> Self {
         Self::NotAnalytic(reason)
     }
 }
@@ -147,7 +147,8 @@ impl<'a> IkSolver<'a> {
     /// [`AllBranchesError`] if the arm has no closed form, or for input that is not finite. No solution is no error: see
     /// [`Solutions::rejections`].
     pub fn solve_all(&self, target: &Pose, previous: &JointVector) -> Result<Solutions, AllBranchesError> {
-        let target = AnalyticArm::body_target(&self.frame, &Rigid::from(target)).ok_or(AllBranchesError::Frame)?;
+        let target =
+            AnalyticArm::body_target(&self.frame, &RigidTransform::from(target)).ok_or(AllBranchesError::Frame)?;
         let solutions = match &self.analytic {
             Some(arm) => arm.solve_all(&target, previous, self.robot.limits()),
             None => AnalyticArm::recognise(&self.robot)?.solve_all(&target, previous, self.robot.limits()),
@@ -258,7 +259,7 @@ impl<'a> IkSolver<'a> {
         Task {
             robot: &self.robot,
             frame: self.frame,
-            target: Rigid::from(target),
+            target: RigidTransform::from(target),
             tolerance: [
                 self.settings.position_tolerance_m,
                 self.settings.orientation_tolerance_rad,
@@ -285,7 +286,7 @@ impl<'a> IkSolver<'a> {
     }
 
     /// True if the target lies beyond [`RobotModel::reach_bound`]: then no start can help.
-    pub(crate) fn beyond_reach(&self, target: &Rigid) -> bool {
+    pub(crate) fn beyond_reach(&self, target: &RigidTransform) -> bool {
         let (centre, bound) = self.robot.reach_bound(&self.frame);
         (target.translation - centre.coords).norm() > bound + self.settings.position_tolerance_m
     }

@@ -8,7 +8,7 @@
 
 use crate::ik::settings::IkSettings;
 use crate::model::{Axes, BodyPoses, Frame, Jacobian, manipulability};
-use crate::rotation::{Rigid, rotation_vector};
+use crate::rotation::{RigidTransform, rotation_vector};
 use crate::{AXES, JointVector, RobotModel};
 use nalgebra::{Matrix6, Vector6};
 
@@ -23,13 +23,13 @@ const STAGNATION_WINDOW: usize = 8;
 pub(crate) const CLAMPED_IN_A_ROW: usize = 3;
 
 /// Joints that may move; the others keep their positions.
-pub(crate) type Free = [bool; AXES];
+pub(crate) type FreeJoints = [bool; AXES];
 
 /// Every joint may move.
-pub(crate) const ALL_FREE: Free = [true; AXES];
+pub(crate) const ALL_FREE: FreeJoints = [true; AXES];
 
 /// Descends from `start` (within the limits) moving the free joints only.
-pub(crate) fn descend(task: &Task<'_>, start: Iterate, free: &Free, settings: &IkSettings) -> Descent {
+pub(crate) fn descend(task: &Task<'_>, start: Iterate, free: &FreeJoints, settings: &IkSettings) -> Descent {
     let limits = task.robot.limits();
     let mut here = start;
     let mut boost = 1.0;
@@ -81,7 +81,7 @@ pub(crate) fn descend(task: &Task<'_>, start: Iterate, free: &Free, settings: &I
 }
 
 /// Returns the damped step on the free joints; `None` if the normal matrix is not positive definite (NaN).
-fn step(jacobian: &Matrix6<f64>, error: &Vector6<f64>, lambda: f64, free: &Free) -> Option<JointVector> {
+fn step(jacobian: &Matrix6<f64>, error: &Vector6<f64>, lambda: f64, free: &FreeJoints) -> Option<JointVector> {
     let mut jacobian = *jacobian;
     for (mut column, _) in jacobian.column_iter_mut().zip(free).filter(|(_, free)| !**free) {
         column.fill(0.0);
@@ -213,7 +213,7 @@ pub(crate) const ON_LIMIT_RAD: f64 = 1e-6;
 pub(crate) struct Task<'a> {
     pub robot: &'a RobotModel,
     pub frame: Frame,
-    pub target: Rigid,
+    pub target: RigidTransform,
     /// Tolerances on position \[m\] and orientation \[rad\].
     pub tolerance: [f64; 2],
 }

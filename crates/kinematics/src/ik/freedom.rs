@@ -6,7 +6,7 @@
 //! 2015). The allowed deviations form a convex set: a box, a disc, and a point or everything.
 
 use crate::model::Jacobian;
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::trig::atan2;
 use nalgebra::{Matrix3, Matrix6, RowVector3, Unit, UnitQuaternion, Vector3, Vector6};
 use std::f64::consts::PI;
@@ -86,7 +86,7 @@ pub(crate) struct Deviation(pub Vector6<f64>);
 
 impl Deviation {
     /// Returns the deviation of `frame` from `target`, both `T_base_…`.
-    pub fn of(frame: &Rigid, target: &Rigid) -> Self {
+    pub fn of(frame: &RigidTransform, target: &RigidTransform) -> Self {
         let origin = target.rotation.tr_mul(&(frame.translation - target.translation));
         let r = target.rotation.tr_mul(&frame.rotation);
         let (tilt, _) = lean(&r);
@@ -94,7 +94,7 @@ impl Deviation {
     }
 
     /// Returns the derivative by the joints, from the Jacobian of the frame in base axes.
-    pub fn jacobian(frame: &Rigid, target: &Rigid, jacobian: &Jacobian) -> Matrix6<f64> {
+    pub fn jacobian(frame: &RigidTransform, target: &RigidTransform, jacobian: &Jacobian) -> Matrix6<f64> {
         let r = target.rotation.tr_mul(&frame.rotation);
         let to_target = target.rotation.transpose();
         let linear = to_target * jacobian.fixed_rows::<3>(0);
@@ -130,7 +130,7 @@ impl Deviation {
     }
 
     /// Returns the pose that deviates by this much from `target`.
-    pub fn applied_to(&self, target: &Rigid) -> Rigid {
+    pub fn applied_to(&self, target: &RigidTransform) -> RigidTransform {
         let v = &self.0;
         let angle = f64::sqrt(v[3] * v[3] + v[4] * v[4]);
         // Leaning towards (x, y) is turning about (−y, x).
@@ -141,7 +141,7 @@ impl Deviation {
             UnitQuaternion::identity()
         };
         let turn = swing * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), v[5]);
-        target.then(&Rigid {
+        target.then(&RigidTransform {
             rotation: *turn.to_rotation_matrix().matrix(),
             translation: v.fixed_rows::<3>(0).into_owned(),
         })

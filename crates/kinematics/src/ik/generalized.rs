@@ -21,7 +21,7 @@
 use crate::ik::dls::{self, ALL_FREE, Iterate, Stop, Task};
 use crate::ik::freedom::{Deviation, TaskFreedom, TaskFreedomError, Yaw};
 use crate::ik::{IkError, IkFailure, IkSolver};
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::trig::sin_cos;
 use crate::{AXES, Axes, JointVector, Pose};
 use clarabel::algebra::CscMatrix;
@@ -113,7 +113,7 @@ type Row = (Vec<(usize, f64)>, f64);
 struct Search<'s> {
     solver: &'s IkSolver<'s>,
     asked: &'s GeneralizedTask<'s>,
-    target: Rigid,
+    target: RigidTransform,
     lowest: JointVector,
     highest: JointVector,
     best: (f64, JointVector),
@@ -247,7 +247,7 @@ impl Search<'_> {
             .collect()
     }
 
-    fn task(&self, target: Rigid) -> Task<'_> {
+    fn task(&self, target: RigidTransform) -> Task<'_> {
         let settings = &self.solver.settings;
         Task {
             robot: &self.solver.robot,

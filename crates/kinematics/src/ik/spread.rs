@@ -10,7 +10,7 @@
 
 use crate::ik::dls::{self, ALL_FREE, Task};
 use crate::ik::{IkError, IkSolver};
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, JointVector, Pose};
 use nalgebra::{Matrix3, Vector3};
@@ -55,7 +55,7 @@ impl IkSolver<'_> {
     pub fn spread(&self, target: &Pose, near: &JointVector, starts: usize) -> Result<Vec<JointVector>, IkError> {
         let task = self.task(target)?;
         crate::ik::cascade::check_seed(near)?;
-        let mut found = Found {
+        let mut found = FoundAnswers {
             solver: self,
             task: &task,
             near,
@@ -83,7 +83,7 @@ impl IkSolver<'_> {
     }
 
     /// Returns the listed starts with joint 1 turned towards the target, the `count` nearest in pose, nearest first.
-    fn facing(&self, target: &Rigid, count: usize) -> Vec<JointVector> {
+    fn facing(&self, target: &RigidTransform, count: usize) -> Vec<JointVector> {
         let axis = Axis::of(self);
         let entries = self.starts.entries().iter();
         let turned = entries.map(|(q, pose)| {
@@ -124,11 +124,11 @@ impl Axis {
     }
 
     /// Returns a pose turned about the axis.
-    fn turned(&self, pose: &Rigid, by_rad: f64) -> Rigid {
+    fn turned(&self, pose: &RigidTransform, by_rad: f64) -> RigidTransform {
         let (s, c) = sin_cos(by_rad);
         let cross = self.along.cross_matrix();
         let turn = Matrix3::identity() + cross * s + cross * cross * (1.0 - c);
-        Rigid {
+        RigidTransform {
             rotation: turn * pose.rotation,
             translation: self.point + turn * (pose.translation - self.point),
         }
@@ -136,14 +136,14 @@ impl Axis {
 }
 
 /// Answers found so far.
-struct Found<'a> {
+struct FoundAnswers<'a> {
     solver: &'a IkSolver<'a>,
     task: &'a Task<'a>,
     near: &'a JointVector,
     answers: Vec<JointVector>,
 }
 
-impl Found<'_> {
+impl FoundAnswers<'_> {
     /// Returns the start with joint 1 turned towards the target.
     fn turned(&self, start: &JointVector) -> JointVector {
         let axis = Axis::of(self.solver);

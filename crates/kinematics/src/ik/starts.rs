@@ -5,7 +5,7 @@
 //! metres plus 0.05 of the squared chord between the rotations.
 
 use crate::model::Frame;
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::{JointVector, RobotModel, halton};
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ const ROTATION_WEIGHT: f64 = 0.05;
 /// List of starts for one frame of one arm.
 #[derive(Debug, Clone)]
 pub(crate) struct Starts {
-    entries: Vec<(JointVector, Rigid)>,
+    entries: Vec<(JointVector, RigidTransform)>,
 }
 
 impl Starts {
@@ -32,12 +32,12 @@ impl Starts {
     }
 
     /// Returns all starts, with the frame's pose at each.
-    pub fn entries(&self) -> &[(JointVector, Rigid)] {
+    pub fn entries(&self) -> &[(JointVector, RigidTransform)] {
         &self.entries
     }
 
     /// Returns the `count` starts nearest to the target, nearest first (ties by position in the list).
-    pub fn nearest(&self, target: &Rigid, count: usize) -> Vec<JointVector> {
+    pub fn nearest(&self, target: &RigidTransform, count: usize) -> Vec<JointVector> {
         let ranked = self.entries.iter().map(|(q, pose)| (distance(pose, target), q));
         let mut ranked: Vec<_> = ranked.collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -46,7 +46,7 @@ impl Starts {
 }
 
 /// Distance of a pose from the target: squared metres plus a weighted squared chord.
-pub(crate) fn distance(pose: &Rigid, target: &Rigid) -> f64 {
+pub(crate) fn distance(pose: &RigidTransform, target: &RigidTransform) -> f64 {
     let chord = (pose.rotation - target.rotation).norm_squared();
     (pose.translation - target.translation).norm_squared() + ROTATION_WEIGHT * chord
 }

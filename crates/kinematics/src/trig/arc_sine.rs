@@ -1,6 +1,6 @@
 //! Inverse cosine and sine: one polynomial on [0, 1/2] and a square root, without a branch.
 
-use crate::trig::mul_add::{Separate, polynomial};
+use crate::trig::mul_add::{SeparateMulAdd, polynomial};
 use crate::trig::sin_cos::SIGN;
 use std::f64::consts::FRAC_PI_2;
 
@@ -78,7 +78,7 @@ fn first_third(x: f64) -> (bool, f64, f64) {
     let z = if large { rest } else { x * x };
     let s = if large { rest.sqrt() } else { x };
     let z2 = z * z;
-    let p = polynomial::<Separate>(&LOW, z, z2) + z2 * z2 * z2 * polynomial::<Separate>(&HIGH, z, z2);
+    let p = polynomial::<SeparateMulAdd>(&LOW, z, z2) + z2 * z2 * z2 * polynomial::<SeparateMulAdd>(&HIGH, z, z2);
     (large, s, s * (z * p))
 }
 

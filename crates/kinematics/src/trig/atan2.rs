@@ -1,6 +1,6 @@
 //! The inverse functions: one division, one short polynomial and a table of angles.
 
-use crate::trig::mul_add::{Separate, polynomial};
+use crate::trig::mul_add::{SeparateMulAdd, polynomial};
 use crate::trig::sin_cos::SIGN;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -116,7 +116,7 @@ fn ordinary(y: f64, x: f64) -> f64 {
     let turn = u64::from(steep ^ backward) << 63;
     let t = f64::from_bits(tangent.to_bits() ^ turn);
     let z = t * t;
-    let bend = t * z * polynomial::<Separate>(&ARCTAN, z, z * z);
+    let bend = t * z * polynomial::<SeparateMulAdd>(&ARCTAN, z, z * z);
     let (high, low) = ANGLES[usize::from(steep) + 2 * usize::from(backward)][step & 7];
     let angle = high + (t + (bend + low));
     f64::from_bits(angle.to_bits() ^ (y.to_bits() & SIGN))

@@ -1,7 +1,7 @@
 //! a·b + c with one rounding or two: the only difference between the portable and the vector kernels.
 
-/// Rounding of a·b + c. A kernel that is generic over this is written once; it gives the portable bits with [`Separate`] and the fastest
-/// code with [`Fused`].
+/// Rounding of a·b + c. A kernel that is generic over this is written once; it gives the portable bits with [`SeparateMulAdd`] and the fastest
+/// code with [`FusedMulAdd`].
 pub trait MulAdd {
     /// Returns a·b + c.
     fn mul_add(a: f64, b: f64, c: f64) -> f64;
@@ -10,21 +10,21 @@ pub trait MulAdd {
 /// Rounds the product, then the sum: the same bits on every machine and at every optimisation level, because Rust never contracts the two
 /// into one instruction.
 #[derive(Debug, Clone, Copy)]
-pub struct Separate;
+pub struct SeparateMulAdd;
 
 /// Rounds once. Meant for functions with `#[target_feature(enable = "avx2,fma")]`, where it is one
 /// instruction; elsewhere it calls the C library's `fma`, with the same bits but slowly.
 #[derive(Debug, Clone, Copy)]
-pub struct Fused;
+pub struct FusedMulAdd;
 
-impl MulAdd for Separate {
+impl MulAdd for SeparateMulAdd {
     #[inline(always)]
     fn mul_add(a: f64, b: f64, c: f64) -> f64 {
         a * b + c
     }
 }
 
-impl MulAdd for Fused {
+impl MulAdd for FusedMulAdd {
     #[inline(always)]
     fn mul_add(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)

@@ -1,6 +1,6 @@
 //! Sine and cosine together: three-part reduction by π/2, then one polynomial each, without a branch.
 
-use crate::trig::mul_add::{MulAdd, Separate, polynomial};
+use crate::trig::mul_add::{MulAdd, SeparateMulAdd, polynomial};
 
 /// Largest |angle| \[rad\] of the fast path. Up to here a quadrant number has at most 16 bits, so that its products with [`HALF_PI_HIGH`]
 /// and [`HALF_PI_MIDDLE`] (37 bits each) are exact.
@@ -55,7 +55,7 @@ pub(crate) const SIGN: u64 = 1 << 63;
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.abs() <= BOUND {
-        one_lane::<Separate>(angle)
+        one_lane::<SeparateMulAdd>(angle)
     } else {
         beyond_bound(angle)
     }
@@ -78,7 +78,7 @@ pub fn cos(angle: f64) -> f64 {
 /// Sines and cosines of `N` angles \[rad\], the formula of [`sin_cos`] in a form that the compiler turns into
 /// vector instructions.
 ///
-/// With [`Separate`] each lane has the bits of [`sin_cos`]; with [`Fused`](crate::trig::Fused) it is within
+/// With [`SeparateMulAdd`] each lane has the bits of [`sin_cos`]; with [`FusedMulAdd`](crate::trig::FusedMulAdd) it is within
 /// 2⁻⁵² of them. A lane beyond the bound of the fast path, or not finite, is computed as [`sin_cos`] does.
 #[inline(always)]
 #[must_use]

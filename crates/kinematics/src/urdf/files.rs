@@ -10,10 +10,10 @@ pub type HeldFiles = BTreeMap<PathBuf, Arc<[u8]>>;
 
 /// Source of input files. It has no effect on the contents, so all sources compare as equal.
 #[derive(Debug, Clone, Default)]
-pub struct Files(From);
+pub struct Files(FileSource);
 
 #[derive(Debug, Clone, Default)]
-enum From {
+enum FileSource {
     #[default]
     Disk,
     /// The disk; everything that is read is kept, and so is the first file that could not be read.
@@ -39,13 +39,13 @@ impl Files {
     /// Returns the disk as a source that keeps everything that is read; [`recorded`](Self::recorded) returns it.
     #[must_use]
     pub fn recording() -> Self {
-        Self(From::Recorded(Arc::default()))
+        Self(FileSource::Recorded(Arc::default()))
     }
 
     /// Returns files that were read before, under the same names, as a source; no other files exist in it.
     #[must_use]
     pub fn held(files: Arc<HeldFiles>) -> Self {
-        Self(From::Held(files))
+        Self(FileSource::Held(files))
     }
 
     /// Returns the files that were read so far, if this source records them.
@@ -53,7 +53,7 @@ impl Files {
     /// # Errors
     /// The first file that exists and could not be read, with the reason.
     pub fn recorded(&self) -> Result<HeldFiles, (PathBuf, FileError)> {
-        let From::Recorded(record) = &self.0 else {
+        let FileSource::Recorded(record) = &self.0 else {
             return Ok(HeldFiles::new());
         };
         let record = record.lock().unwrap_or_else(PoisonError::into_inner);
@@ -67,9 +67,9 @@ impl Files {
     #[must_use]
     pub fn is_file(&self, path: &Path) -> bool {
         match &self.0 {
-            From::Disk => path.is_file(),
-            From::Held(files) => files.contains_key(path),
-            From::Recorded(record) => {
+            FileSource::Disk => path.is_file(),
+            FileSource::Held(files) => files.contains_key(path),
+            FileSource::Recorded(record) => {
                 let is_there = path.is_file();
                 if is_there {
                     // It may be refused by its name alone, which whoever has no files must do, too.
@@ -87,8 +87,8 @@ impl Files {
     /// [`FileError`], without the file's name.
     pub fn read_bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
         match &self.0 {
-            From::Disk => file::read_bytes(path, limit),
-            From::Recorded(record) => {
+            FileSource::Disk => file::read_bytes(path, limit),
+            FileSource::Recorded(record) => {
                 let read = file::read_bytes(path, limit);
                 let mut record = record.lock().unwrap_or_else(PoisonError::into_inner);
                 match &read {
@@ -97,7 +97,7 @@ impl Files {
                 }
                 read
             }
-            From::Held(files) => match files.get(path) {
+            FileSource::Held(files) => match files.get(path) {
                 Some(bytes) if bytes.len() as u64 > limit => Err(FileError::TooLong { limit }),
                 Some(bytes) => Ok(bytes.to_vec()),
                 None => Err(FileError::System {

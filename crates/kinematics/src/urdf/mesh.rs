@@ -120,11 +120,11 @@ impl MeshSource {
     }
 
     /// Reads a mesh file of a link, with its scale.
-    fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<OfLink, UrdfError> {
+    fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<LinkMesh, UrdfError> {
         let of = |error: MeshError| error.of(link);
         let file = self.open(name, scale).map_err(of)?;
         let link = link.to_owned();
-        Ok(OfLink { link, file })
+        Ok(LinkMesh { link, file })
     }
 
     /// Reads a mesh file, with its scale.
@@ -230,12 +230,12 @@ struct MeshFile {
 }
 
 /// Mesh file of a link.
-struct OfLink {
+struct LinkMesh {
     link: String,
     file: MeshFile,
 }
 
-impl OfLink {
+impl LinkMesh {
     fn wrong(&self, detail: String) -> UrdfError {
         self.file.wrong(detail).of(&self.link)
     }

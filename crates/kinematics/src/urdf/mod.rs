@@ -26,8 +26,8 @@ use crate::AXES;
 use crate::fingerprint::sha256_hex;
 use crate::geometry::{Inertial, Shape};
 use crate::model::{Frame, Joint, Link, RobotModel};
-use crate::rotation::Rigid;
-use crate::urdf::shapes::Looks;
+use crate::rotation::RigidTransform;
+use crate::urdf::shapes::VisualReader;
 use crate::urdf::tree::{Tree, finite, pose, rigid};
 use crate::words::message_in_words;
 use nalgebra::{Matrix3, Vector3};
@@ -64,7 +64,7 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     });
     let (folded, frames) = fold(&tree)?;
     let last_link = frames[tree.position(&tree.axes[AXES - 1].child.link)];
-    let mut looks = Looks::new(&robot, meshes);
+    let mut looks = VisualReader::new(&robot, meshes);
     let links = tree
         .links
         .iter()
@@ -128,7 +128,7 @@ fn convert_link(
     link: &urdf_rs::Link,
     frame: Frame,
     meshes: &MeshSource,
-    looks: &mut Looks<'_>,
+    looks: &mut VisualReader<'_>,
 ) -> Result<Link, UrdfError> {
     Ok(Link {
         name: link.name.clone(),
@@ -141,9 +141,9 @@ fn convert_link(
 
 /// Folds every fixed transform: joint frames with z along the axis, and each link as an offset from the
 /// body that carries it.
-fn fold(tree: &Tree<'_>) -> Result<([Rigid; AXES], Vec<Frame>), UrdfError> {
-    let mut folded = [Rigid::identity(); AXES];
-    let mut frames = vec![Frame::new(0, Rigid::identity())];
+fn fold(tree: &Tree<'_>) -> Result<([RigidTransform; AXES], Vec<Frame>), UrdfError> {
+    let mut folded = [RigidTransform::identity(); AXES];
+    let mut frames = vec![Frame::new(0, RigidTransform::identity())];
     for link in &tree.links[1..] {
         let joint = tree.joint_above(&link.name);
         let at = format!("joint '{}'", joint.name);
@@ -153,7 +153,7 @@ fn fold(tree: &Tree<'_>) -> Result<([Rigid; AXES], Vec<Frame>), UrdfError> {
         frames.push(match axis_index {
             None => placed,
             Some(i) => {
-                let align = Rigid {
+                let align = RigidTransform {
                     rotation: frame_with_z_along(&unit_axis(joint)?),
                     translation: Vector3::zeros(),
                 };

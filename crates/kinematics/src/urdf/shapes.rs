@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use urdf_rs::Geometry;
 
 /// Contents of a geometry element.
-pub(crate) enum Stated<'a> {
+pub(crate) enum GeometryElement<'a> {
     /// Solid.
     Solid(Shape),
     /// Mesh: its file and its scale.
@@ -26,7 +26,7 @@ pub(crate) enum Stated<'a> {
 ///
 /// # Errors
 /// [`UrdfError`] for a solid without size.
-pub(crate) fn stated<'a>(geometry: &'a Geometry, link: &str) -> Result<Stated<'a>, UrdfError> {
+pub(crate) fn stated<'a>(geometry: &'a Geometry, link: &str) -> Result<GeometryElement<'a>, UrdfError> {
     let shape = match geometry {
         Geometry::Box { size } => {
             positive(link, "box", &size.0)?;
@@ -53,9 +53,11 @@ pub(crate) fn stated<'a>(geometry: &'a Geometry, link: &str) -> Result<Stated<'a
             positive(link, "sphere", &[*radius])?;
             Shape::Sphere { radius_m: *radius }
         }
-        Geometry::Mesh { filename, scale } => return Ok(Stated::Mesh(filename, scale.map_or([1.0; 3], |s| s.0))),
+        Geometry::Mesh { filename, scale } => {
+            return Ok(GeometryElement::Mesh(filename, scale.map_or([1.0; 3], |s| s.0)));
+        }
     };
-    Ok(Stated::Solid(shape))
+    Ok(GeometryElement::Solid(shape))
 }
 
 fn positive(link: &str, shape: &'static str, sizes: &[f64]) -> Result<(), UrdfError> {
@@ -135,8 +137,8 @@ pub(crate) fn primitives(link: &urdf_rs::Link, meshes: &MeshSource) -> Result<Ve
 
 fn shape(geometry: &Geometry, link: &str, meshes: &MeshSource) -> Result<Shape, UrdfError> {
     match stated(geometry, link)? {
-        Stated::Solid(shape) => Ok(shape),
-        Stated::Mesh(file, scale) => Ok(Shape::Hull {
+        GeometryElement::Solid(shape) => Ok(shape),
+        GeometryElement::Mesh(file, scale) => Ok(Shape::Hull {
             points: meshes.vertices(link, file, scale)?,
         }),
     }
@@ -160,7 +162,7 @@ enum VisualError {
 }
 
 /// State for reading the visuals of a description one link after the other.
-pub(crate) struct Looks<'a> {
+pub(crate) struct VisualReader<'a> {
     meshes: &'a MeshSource,
     colours: BTreeMap<&'a str, [f64; 4]>,
     visuals_left: usize,
@@ -169,7 +171,7 @@ pub(crate) struct Looks<'a> {
     pub findings: Vec<VisualFinding>,
 }
 
-impl<'a> Looks<'a> {
+impl<'a> VisualReader<'a> {
     pub fn new(robot: &'a urdf_rs::Robot, meshes: &'a MeshSource) -> Self {
         Self {
             meshes,
@@ -204,8 +206,8 @@ impl<'a> Looks<'a> {
 
     fn shape(&mut self, link: &urdf_rs::Link, geometry: &urdf_rs::Geometry) -> Result<VisualShape, UrdfError> {
         Ok(match stated(geometry, &link.name)? {
-            Stated::Solid(shape) => VisualShape::Solid(shape),
-            Stated::Mesh(file, scale) => {
+            GeometryElement::Solid(shape) => VisualShape::Solid(shape),
+            GeometryElement::Mesh(file, scale) => {
                 let triangles = self.meshes.triangles(&link.name, file, scale, self.triangles_left)?;
                 self.triangles_left -= triangles.len();
                 VisualShape::Mesh(triangles.into())

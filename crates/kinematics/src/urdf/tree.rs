@@ -5,7 +5,7 @@
 //! Numbers of a description: finite, and no longer than an arm can be.
 
 use crate::limits::JointLimits;
-use crate::rotation::{Rigid, from_rpy};
+use crate::rotation::{RigidTransform, from_rpy};
 use crate::urdf::error::UrdfError;
 use crate::words::is_hidden;
 use crate::{AXES, JointVector, Pose};
@@ -258,10 +258,10 @@ fn effort(joint: &urdf_rs::Joint) -> Result<Option<f64>, UrdfError> {
 /// Greatest length that is accepted \[m\]; a larger one is probably in millimetres.
 pub(crate) const LARGEST_LENGTH_M: f64 = 100.0;
 
-pub(crate) fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<Rigid, UrdfError> {
+pub(crate) fn rigid(origin: &urdf_rs::Pose, at: &str) -> Result<RigidTransform, UrdfError> {
     length(at, "origin xyz", &origin.xyz.0)?;
     finite(at, "origin rpy", &origin.rpy.0)?;
-    Ok(Rigid {
+    Ok(RigidTransform {
         rotation: from_rpy(origin.rpy.0),
         translation: origin.xyz.0.into(),
     })

@@ -7,7 +7,7 @@ mod waypoints;
 
 pub use finding::PaperFinding;
 pub use motion::{ClosestApproach, MotionReport, Violation, ViolationKind};
-pub use waypoints::{PlateReport, Unreached, WaypointReport};
+pub use waypoints::{PlateReport, UnreachedWaypoint, WaypointReport};
 
 use crate::error::PaperError;
 use crate::run::PaperRun;

@@ -1,6 +1,6 @@
 //! The report as a person reads it.
 
-use super::{ClosestApproach, MotionReport, PaperReport, Unreached, Violation, ViolationKind};
+use super::{ClosestApproach, MotionReport, PaperReport, UnreachedWaypoint, Violation, ViolationKind};
 use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
 use platewash_workcell::coverage::Coverage;
 use platewash_workcell::words::quoted;
@@ -127,7 +127,7 @@ fn percent(c: &Coverage) -> String {
     format!("{:.1} ± {:.1}", 100.0 * c.fraction, 50.0 * c.error())
 }
 
-fn unreached(f: &mut Formatter<'_>, what: &str, count: usize, worst: Option<&Unreached>) -> fmt::Result {
+fn unreached(f: &mut Formatter<'_>, what: &str, count: usize, worst: Option<&UnreachedWaypoint>) -> fmt::Result {
     let Some(u) = worst else { return Ok(()) };
     let [x, y, z] = u.target_m.map(|v| 1e3 * v);
     writeln!(

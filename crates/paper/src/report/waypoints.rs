@@ -34,7 +34,7 @@ pub struct PlateReport {
     /// Largest orientation error of the inverse kinematics \[rad\].
     pub worst_ik_orientation_error_rad: f64,
     /// The unreached waypoint that is farthest away.
-    pub worst_unreached: Option<Unreached>,
+    pub worst_unreached: Option<UnreachedWaypoint>,
     /// Nearest approach of the commanded motion.
     pub planned_clearance: Option<ClosestApproach>,
     /// Nearest approach of the executed motion.
@@ -61,7 +61,7 @@ pub struct WaypointReport {
     /// Waypoints solved.
     pub reached: usize,
     /// The unreached waypoint that is farthest away.
-    pub worst_unreached: Option<Unreached>,
+    pub worst_unreached: Option<UnreachedWaypoint>,
     /// Distance of the executed tip from the path, root mean square \[m\].
     pub tracking_rms_m: f64,
     /// Distance of the executed tip from the path, at most \[m\].
@@ -74,7 +74,7 @@ pub struct WaypointReport {
 
 /// A waypoint that was not reached.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Unreached {
+pub struct UnreachedWaypoint {
     /// Index of the waypoint on the plate, from 0; of one between plates, over all transits.
     pub waypoint: usize,
     /// Position of the waypoint \[m\].
@@ -105,14 +105,14 @@ pub(super) fn transits(run: &PaperRun, near: &[[Nearness; 2]]) -> WaypointReport
 }
 
 /// A step, and how near the arm comes there, commanded and executed.
-type Near<'a> = (&'a Step, &'a [Nearness; 2]);
+type StepNearness<'a> = (&'a Step, &'a [Nearness; 2]);
 
-fn steps<'a>(run: &'a PaperRun, near: &'a [[Nearness; 2]], are: impl Fn(&Step) -> bool) -> Vec<Near<'a>> {
+fn steps<'a>(run: &'a PaperRun, near: &'a [[Nearness; 2]], are: impl Fn(&Step) -> bool) -> Vec<StepNearness<'a>> {
     run.steps.iter().zip(near).filter(|(step, _)| are(step)).collect()
 }
 
 impl WaypointReport {
-    fn new(steps: &[Near<'_>]) -> Self {
+    fn new(steps: &[StepNearness<'_>]) -> Self {
         let (tracking_rms_m, tracking_max_m) = tracking_errors(steps.iter().map(|(step, _)| *step));
         let closest = |k: usize| nearest(steps.iter().filter_map(|(_, near)| near[k].nearest.as_ref()));
         Self {
@@ -127,13 +127,13 @@ impl WaypointReport {
     }
 }
 
-fn worst_unreached(steps: &[Near<'_>]) -> Option<Unreached> {
+fn worst_unreached(steps: &[StepNearness<'_>]) -> Option<UnreachedWaypoint> {
     let failed = steps
         .iter()
         .enumerate()
         .filter_map(|(waypoint, (step, _))| match step.outcome {
             IkOutcome::Solved { .. } => None,
-            IkOutcome::Failed { cause } => Some(Unreached {
+            IkOutcome::Failed { cause } => Some(UnreachedWaypoint {
                 waypoint,
                 target_m: step.target.into(),
                 cause,
@@ -144,7 +144,7 @@ fn worst_unreached(steps: &[Near<'_>]) -> Option<Unreached> {
     failed.max_by(|a, b| a.position_error_m.total_cmp(&b.position_error_m))
 }
 
-fn plate(run: &PaperRun, steps: &[Near<'_>], index: usize) -> Result<PlateReport, CoverageError> {
+fn plate(run: &PaperRun, steps: &[StepNearness<'_>], index: usize) -> Result<PlateReport, CoverageError> {
     let (plate, tool) = (run.job.layout.plates[index], &run.job.workcell.tool);
     let centre_m = plate.centre_xy();
     let swept = |of: fn(&Step) -> [f64; 2]| {

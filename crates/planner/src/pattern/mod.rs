@@ -11,7 +11,7 @@ mod promise;
 mod tests;
 
 pub(crate) use crate::pattern::promise::foundation;
-pub use crate::pattern::promise::{Margin, Promise, Promised, Shortfall};
+pub use crate::pattern::promise::{ContactPromise, Margin, Promise, Shortfall};
 
 use crate::pattern::candidates::{Density, Estimate, candidates};
 use crate::scene::{AXIS_SHARE, AxisRule};

@@ -7,7 +7,7 @@ use crate::trig::{acos, sin_cos};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::told_apart;
-use platewash_workcell::contact::{Columns, Foundation, Level, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::contact::{Columns, ContactSampler, ContactThresholds, Foundation, Level, Moment, SpongePose};
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
@@ -100,7 +100,7 @@ pub struct Promise {
     /// The sponge; of unknown stiffness 1 Pa.
     pub foundation: Foundation,
     /// Requirement at a single place of the face.
-    pub wanted: Wanted,
+    pub wanted: ContactThresholds,
     /// Shares that must be in contact, long enough, and with enough of a dose.
     pub shares: [f64; 3],
     /// Greatest strain; infinite without a limit.
@@ -119,7 +119,7 @@ impl Promise {
         let Some(contact) = &requirements.contact else {
             return Self {
                 foundation,
-                wanted: Wanted {
+                wanted: ContactThresholds {
                     compression_m: if surface.is_flat() { ANY_M } else { 0.0 },
                     height_error_m: 0.0,
                     time_s: 0.0,
@@ -132,7 +132,7 @@ impl Promise {
         };
         Self {
             foundation,
-            wanted: Wanted {
+            wanted: ContactThresholds {
                 compression_m: contact.compression_m,
                 height_error_m: contact.height_error_m,
                 time_s: contact.time_s,
@@ -202,11 +202,11 @@ impl Promise {
             required,
         };
         if strain * margin.load > self.strain {
-            Some(short(Promised::Strain, strain, self.strain))
+            Some(short(ContactPromise::Strain, strain, self.strain))
         } else if stiff_n * margin.load > most_n {
-            Some(short(Promised::GreatestForce, stiff_n, most_n))
+            Some(short(ContactPromise::GreatestForce, stiff_n, most_n))
         } else if soft_n < least_n * margin.load {
-            Some(short(Promised::LeastForce, soft_n, least_n))
+            Some(short(ContactPromise::LeastForce, soft_n, least_n))
         } else {
             None
         }
@@ -257,7 +257,7 @@ impl Promise {
     /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
     fn lacks_much(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         let wanted = self.wanted_with(margin);
-        let looks = Looks::new(&self.foundation, moments, &wanted);
+        let looks = ContactSampler::new(&self.foundation, moments, &wanted);
         let mut kept = [FIRST; 3];
         (0..FEW).any(|k| {
             let here = kept_at(&looks, surface, &wanted, (k * SPREAD % FIRST) * (PLACES / FIRST));
@@ -269,8 +269,8 @@ impl Promise {
     }
 
     /// Requirement at a place, with a margin.
-    fn wanted_with(&self, margin: &Margin) -> Wanted {
-        Wanted {
+    fn wanted_with(&self, margin: &Margin) -> ContactThresholds {
+        ContactThresholds {
             time_s: margin.more * self.wanted.time_s,
             dose_pa_m: margin.more * self.wanted.dose_pa_m,
             ..self.wanted
@@ -279,7 +279,11 @@ impl Promise {
 
     /// The share of a face that is too small, of so many places kept, where `lacking` may lack.
     fn short(&self, kept: [u32; 3], of: u32, margin: &Margin, lacking: f64) -> Option<Shortfall> {
-        let promised = [Promised::Pressed, Promised::ContactTime, Promised::ContactDose];
+        let promised = [
+            ContactPromise::Pressed,
+            ContactPromise::ContactTime,
+            ContactPromise::ContactDose,
+        ];
         let mut each = kept.into_iter().zip(self.shares).zip(promised);
         each.find_map(|((kept, required), promised)| {
             let found = f64::from(kept) / f64::from(of);
@@ -306,7 +310,7 @@ impl Promise {
         if !slowest.seems_kept(surface, moments, margin) {
             return None;
         }
-        let looks = Looks::new(&self.foundation, moments, &self.wanted);
+        let looks = ContactSampler::new(&self.foundation, moments, &self.wanted);
         let places = (0..PLACES).into_par_iter();
         let mut times_s: Vec<f64> = places.map(|k| looks.at(&place(surface, k)).time_s).collect();
         times_s.sort_by(|a, b| b.total_cmp(a));
@@ -319,7 +323,7 @@ impl Promise {
     /// The share of a face that is too small, checked place by place over some moments.
     fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let wanted = self.wanted_with(margin);
-        let looks = Looks::new(&self.foundation, moments, &wanted);
+        let looks = ContactSampler::new(&self.foundation, moments, &wanted);
         let at = |k: u32| kept_at(&looks, surface, &wanted, k).map(u32::from);
         let add = |a: [u32; 3], b: [u32; 3]| std::array::from_fn(|i| a[i] + b[i]);
         // Every eighth seed is spread as evenly.
@@ -360,7 +364,7 @@ pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
 }
 
 /// Checks that the k-th place is pressed deep enough, long enough, and with enough of a dose.
-fn kept_at(looks: &Looks<'_>, surface: &Surface, wanted: &Wanted, k: u32) -> [bool; 3] {
+fn kept_at(looks: &ContactSampler<'_>, surface: &Surface, wanted: &ContactThresholds, k: u32) -> [bool; 3] {
     let dwell = looks.at(&place(surface, k));
     [
         dwell.compression_m >= wanted.compression_m,
@@ -379,7 +383,7 @@ fn place(surface: &Surface, k: u32) -> Vector3<f64> {
 /// A promise about contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Promised {
+pub enum ContactPromise {
     /// The greatest strain of the sponge.
     Strain,
     /// The least force of contact.
@@ -398,7 +402,7 @@ pub enum Promised {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Shortfall {
     /// The promise that is not kept.
-    pub promised: Promised,
+    pub promised: ContactPromise,
     /// Value found: a force \[N\], or a share.
     pub found: f64,
     /// Value required.
@@ -408,32 +412,32 @@ pub struct Shortfall {
 impl fmt::Display for Shortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (scale, unit) = match self.promised {
-            Promised::LeastForce | Promised::GreatestForce => (1.0, "N"),
+            ContactPromise::LeastForce | ContactPromise::GreatestForce => (1.0, "N"),
             _ => (100.0, "%"),
         };
         let [found, required] = told_apart(scale * self.found, scale * self.required, 1);
         match self.promised {
-            Promised::Strain => write!(
+            ContactPromise::Strain => write!(
                 f,
                 "the sponge is compressed by up to {found} {unit} of its height, {required} {unit} are allowed"
             ),
-            Promised::GreatestForce => write!(
+            ContactPromise::GreatestForce => write!(
                 f,
                 "the sponge presses with up to {found} {unit}, {required} {unit} are allowed"
             ),
-            Promised::LeastForce => write!(
+            ContactPromise::LeastForce => write!(
                 f,
                 "the sponge presses with {found} {unit} at some moments, {required} {unit} are required"
             ),
-            Promised::Pressed => write!(
+            ContactPromise::Pressed => write!(
                 f,
                 "{found} {unit} of the face are pressed, {required} {unit} are required"
             ),
-            Promised::ContactTime => write!(
+            ContactPromise::ContactTime => write!(
                 f,
                 "{found} {unit} of the face are pressed long enough, {required} {unit} are required"
             ),
-            Promised::ContactDose => write!(
+            ContactPromise::ContactDose => write!(
                 f,
                 "{found} {unit} of the face get the dose, {required} {unit} are required"
             ),

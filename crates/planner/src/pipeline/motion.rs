@@ -7,7 +7,7 @@ use crate::error::PlanError;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::Visit;
 use crate::scene::{Scene, TILT_RESERVE_RAD};
-use crate::timing::Timed;
+use crate::timing::TimedPath;
 use crate::transit::{self, BaseArc, LiftLine, Transit, TransitRules};
 use crate::trig::{asin, sin};
 use crate::watch::Activity;
@@ -19,7 +19,7 @@ use platewash_workcell::wash_path::WashPath;
 
 /// The whole motion in time.
 #[derive(Debug)]
-pub(crate) struct Assembled {
+pub(crate) struct WholeMotion {
     pub motion: Trajectory,
     pub segments: Vec<PlanSegment>,
 }
@@ -33,7 +33,7 @@ struct Assembly {
 }
 
 /// Joins `visits` by `transits`, one more than visits: from home, between, home.
-pub(crate) fn assemble(visits: &[Visit], transits: &[Transit]) -> Result<Assembled, PlanError> {
+pub(crate) fn assemble(visits: &[Visit], transits: &[Transit]) -> Result<WholeMotion, PlanError> {
     let mut assembly = Assembly::default();
     for (k, transit) in transits.iter().enumerate() {
         let plate = |visit: &Visit| visit.path.plate;
@@ -45,7 +45,7 @@ pub(crate) fn assemble(visits: &[Visit], transits: &[Transit]) -> Result<Assembl
         }
     }
     let Assembly { t_s, q, qd, segments } = assembly;
-    Ok(Assembled {
+    Ok(WholeMotion {
         motion: Trajectory::from_knots(t_s, q, qd)?,
         segments,
     })
@@ -72,7 +72,7 @@ impl Assembly {
     }
 
     /// Declares a segment up to the knot at `parameter` of a motion that is appended later, or up to its end.
-    fn declare(&mut self, kind: SegmentKind, plate: usize, timed: &Timed, parameter: f64) {
+    fn declare(&mut self, kind: SegmentKind, plate: usize, timed: &TimedPath, parameter: f64) {
         let start = self.t_s.last().copied().unwrap_or(0.0);
         let last = timed.parameters.len() - 1;
         // The knot there, whichever way its parameter was rounded.
@@ -89,7 +89,7 @@ impl Assembly {
     }
 
     /// Appends the knots of a motion; its first one is the last one so far.
-    fn append(&mut self, timed: &Timed) {
+    fn append(&mut self, timed: &TimedPath) {
         let start = self.t_s.last().copied().unwrap_or(0.0);
         let from = usize::from(!self.t_s.is_empty());
         let motion = &timed.motion;
@@ -146,7 +146,7 @@ impl Pipeline<'_> {
     ///
     /// # Errors
     /// [`PlanError::Tilt`], with the worst place.
-    pub fn check_tilt(&self, scene: &Scene<'_>, whole: &Assembled, paths: &[WashPath]) -> Result<(), PlanError> {
+    pub fn check_tilt(&self, scene: &Scene<'_>, whole: &WholeMotion, paths: &[WashPath]) -> Result<(), PlanError> {
         let most_rad = self.terms.tilt_max_rad();
         let left_rad = LEFT * TILT_RESERVE_RAD.min(0.5 * most_rad);
         let most = sin(most_rad + ROUNDING_RAD - left_rad);

@@ -4,7 +4,7 @@ use crate::error::PlanError;
 use crate::pipeline::motion::assemble;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::Visit;
-use crate::planned::{Pace, Planned, TransitSummary, VisitSummary};
+use crate::planned_job::{Pace, PlannedJob, TransitSummary, VisitSummary};
 use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -21,7 +21,7 @@ const MORE_TILT_RESERVE: [f64; 3] = [2.0, 5.0, 12.0];
 ///
 /// # Errors
 /// [`PlanError`], one variant a phase.
-pub fn plan(job: &WashJob) -> Result<Planned, PlanError> {
+pub fn plan(job: &WashJob) -> Result<PlannedJob, PlanError> {
     plan_with(job, &Watch::silent(&CancelToken::new()))
 }
 
@@ -29,7 +29,7 @@ pub fn plan(job: &WashJob) -> Result<Planned, PlanError> {
 ///
 /// # Errors
 /// As [`plan`], and [`PlanError::Cancelled`].
-pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
+pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<PlannedJob, PlanError> {
     planned(job, Pipeline::of(job, watch)?)
 }
 
@@ -39,7 +39,7 @@ pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
 ///
 /// # Errors
 /// As [`plan_with`].
-pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
+pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<PlannedJob, PlanError> {
     planned(job, Pipeline::here(job, watch)?)
 }
 
@@ -48,7 +48,7 @@ pub fn plan_here(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError>
 ///
 /// # Errors
 /// As [`plan_with`], without causes.
-pub fn plan_unexplained(job: &WashJob, watch: &Watch<'_>) -> Result<Planned, PlanError> {
+pub fn plan_unexplained(job: &WashJob, watch: &Watch<'_>) -> Result<PlannedJob, PlanError> {
     let mut pipeline = Pipeline::here(job, watch)?;
     pipeline.explains = false;
     planned(job, pipeline)
@@ -64,12 +64,12 @@ pub fn plan_in_order(
     order: &[usize],
     paths: &[WashPath],
     watch: &Watch<'_>,
-) -> Result<Planned, PlanError> {
+) -> Result<PlannedJob, PlanError> {
     planned(job, Pipeline::in_order(job, order, paths, watch)?)
 }
 
 /// Plans with the usual reserve of tilt, and with more of it where the motion found uses up more.
-fn planned(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<Planned, PlanError> {
+fn planned(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<PlannedJob, PlanError> {
     let mut planned = planned_with(job, &pipeline);
     for more in MORE_TILT_RESERVE {
         if !matches!(planned, Err(PlanError::Tilt { .. })) {
@@ -84,7 +84,7 @@ fn planned(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<Planned, PlanErr
     planned
 }
 
-fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanError> {
+fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, PlanError> {
     check_apart(job.arm(), job.terms())?;
     pipeline.check_homes()?;
     let scene = pipeline.scene()?;
@@ -124,7 +124,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<Planned, PlanE
         kind: transit.kind,
         duration_s: duration(&transit.timed.motion),
     });
-    Ok(Planned {
+    Ok(PlannedJob {
         plan: Plan::sealed(job.terms().clone(), parts)?,
         visits: visits.collect(),
         transits: transits.collect(),

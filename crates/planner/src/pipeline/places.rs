@@ -10,7 +10,7 @@ use crate::outlook::PlateOutlook;
 use crate::pipeline::phases::check_apart;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{self, Turn};
-use crate::redundancy::places::{Elsewhere, RING_M, RINGS, Trial, nearest_washable};
+use crate::redundancy::places::{MovedPlate, RING_M, RINGS, Trial, nearest_washable};
 use crate::redundancy::{Chance, RedundancyError, Task, chance};
 use crate::scene::Scene;
 use crate::transit::LiftLine;
@@ -90,8 +90,8 @@ impl Pipeline<'_> {
     }
 
     /// The plate of a wash path as a subject of the search for another place.
-    pub fn elsewhere<'a>(&'a self, scene: &'a Scene<'a>, path: &'a WashPath, near: &'a JointVector) -> Elsewhere<'a> {
-        Elsewhere {
+    pub fn elsewhere<'a>(&'a self, scene: &'a Scene<'a>, path: &'a WashPath, near: &'a JointVector) -> MovedPlate<'a> {
+        MovedPlate {
             scene,
             clearance: &self.clearance,
             path,
@@ -193,7 +193,7 @@ pub fn washable_map(
 
 impl Pipeline<'_> {
     /// Checks, place by place, that the plate suits with its centre there \[m\], and leaves the arm room at home.
-    fn suited(&self, asked: &Elsewhere<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
+    fn suited(&self, asked: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
         let look = |trial: &mut Trial<'_>, centre: &[f64; 2]| match trial.suits(&(*centre).into()) {
             Ok(suits) => Ok(suits && self.check_homes_among(trial.bodies()).is_ok()),
             Err(RedundancyError::Cancelled(cancelled)) => Err(cancelled),

@@ -6,7 +6,7 @@ use crate::pattern::Patterns;
 use crate::redundancy::places::SEARCHED_M;
 use crate::scene::{AXIS_SHARE, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
-use crate::transit::TooNear;
+use crate::transit::ClearanceShortfall;
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
@@ -215,7 +215,7 @@ impl<'a> Pipeline<'a> {
     /// The same check among other bodies.
     pub fn check_homes_among(&self, bodies: &ClearanceModel) -> Result<(), PlanError> {
         for (end, q) in ends(self.terms) {
-            let too_near = TooNear::at(bodies, q, Stretch::Free, self.clearance_m());
+            let too_near = ClearanceShortfall::at(bodies, q, Stretch::Free, self.clearance_m());
             if let Some(too_near) = too_near.map(Box::new) {
                 return Err(PlanError::HomeNotClear { end, too_near });
             }

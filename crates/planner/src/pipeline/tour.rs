@@ -3,7 +3,7 @@
 use crate::error::PlanError;
 use crate::order::TravelTimes;
 use crate::pipeline::shared::Pipeline;
-use crate::planned::TourSummary;
+use crate::planned_job::TourSummary;
 use crate::scene::{Contact, Scene};
 use crate::timing::MotionLimits;
 use nalgebra::Vector3;

@@ -6,11 +6,11 @@ use crate::pattern::{Pattern, Shortfall, foundation};
 use crate::pipeline::shared::Pipeline;
 use crate::redundancy::Washing;
 use crate::scene::{Contact, Scene};
-use crate::timing::{self, Timed};
+use crate::timing::{self, TimedPath};
 use crate::transit::LiftLine;
 use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::contact::{Columns, SpongePose};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
@@ -51,7 +51,7 @@ pub(crate) struct Visit {
     pub path: WashPath,
     pub washing: Washing,
     /// The wash in time, from rest to rest.
-    pub wash: Timed,
+    pub wash: TimedPath,
     /// The lines down to the path's start, seen from the plate, and up from its end.
     pub lines: [LiftLine; 2],
 }
@@ -127,7 +127,7 @@ pub(crate) fn lines(
     let scene = &scene.clone().leaning_aside(washing.aside_rad);
     let (wanted, wash_m_s) = (&pipeline.terms.requirements, pipeline.terms.wash_speed_m_s());
     let line = |end: usize, k: usize, asked_m_s: Option<f64>| {
-        let touching = Touching {
+        let touching = TouchSpeed {
             from: asked_m_s.map_or(Reach::Compressed, |_| Reach::Free),
             speed_m_s: asked_m_s.map_or(TOUCHING * wash_m_s, |asked| LANDING * asked.min(wash_m_s)),
         };
@@ -154,7 +154,7 @@ enum Reach {
 
 /// Speed limit of the sponge near contact.
 #[derive(Debug, Clone, Copy)]
-struct Touching {
+struct TouchSpeed {
     from: Reach,
     speed_m_s: f64,
 }
@@ -166,7 +166,7 @@ fn line(
     path: &WashPath,
     foot: &Contact,
     (tilt_rad, q): (f64, &JointVector),
-    touching: Touching,
+    touching: TouchSpeed,
 ) -> Result<LiftLine, PlanError> {
     let (plate, lift_m, terms) = (path.plate, path.lift_m, pipeline.terms);
     let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
@@ -215,7 +215,7 @@ impl Pipeline<'_> {
         let higher_m = contact.map_or(0.0, |contact| contact.height_error_m);
         let (columns, plate) = (Columns::new(&foundation(sponge)), &self.plates[plate]);
         let deepest_m = |height: f64| {
-            let pose = SpongePose::on(plate, &Rigid::from(&over(&height)));
+            let pose = SpongePose::on(plate, &RigidTransform::from(&over(&height)));
             columns.load(&plate.surface, &pose, higher_m).deepest_m
         };
         // Raised, the sponge is pressed less.

@@ -8,7 +8,7 @@ use crate::pattern::{Margin, Promise, Shortfall};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{Turn, Visit, turned_as, wash_path};
-use crate::redundancy::washable::{self, Points, Washable};
+use crate::redundancy::washability::{self, Points, Washability};
 use crate::redundancy::{self, Conclusion, RedundancyError, Task, Washing};
 use crate::scene::Scene;
 use crate::watch::{Activity, Watch};
@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 /// A plate for which no configurations were found.
 #[derive(Debug)]
-pub(crate) struct Failed {
+pub(crate) struct FailedVisit {
     /// Its wash path.
     pub path: WashPath,
     /// The configuration not far from which it was to start \[rad\].
@@ -49,7 +49,7 @@ impl Pipeline<'_> {
 
     /// Returns the `k`-th plate of an order if a check of a few points shows that it cannot be washed, and no policy of tilts
     /// washes it either.
-    pub fn blocked(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<Option<Failed>, Cancelled> {
+    pub fn blocked(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<Option<FailedVisit>, Cancelled> {
         scene.check_cancelled()?;
         let [near, _] = self.terms.home_rad;
         let path = self.path_of(scene, order, k);
@@ -62,7 +62,7 @@ impl Pipeline<'_> {
         self.tell_of(order, k);
         // A tilt between those of the search may still do.
         let error = redundancy::washing(&task).err();
-        Ok(error.map(|error| Failed { path, near, error }))
+        Ok(error.map(|error| FailedVisit { path, near, error }))
     }
 
     /// Returns the washings of the plates that are `wanted`, in order; each starts where the last one ended. Plates that fail are
@@ -72,7 +72,7 @@ impl Pipeline<'_> {
         scene: &Scene<'_>,
         order: &[usize],
         wanted: impl Fn(usize) -> bool,
-    ) -> impl Iterator<Item = Result<Turn, Box<Failed>>> {
+    ) -> impl Iterator<Item = Result<Turn, Box<FailedVisit>>> {
         let [mut near, _] = self.terms.home_rad;
         let turns = (0..order.len()).filter(move |&k| wanted(order[k]));
         turns.map(move |k| {
@@ -83,7 +83,7 @@ impl Pipeline<'_> {
                     near = turn.washing.q.last().copied().unwrap_or(near);
                     Ok(turn)
                 }
-                Err(error) => Err(Box::new(Failed { path, near, error })),
+                Err(error) => Err(Box::new(FailedVisit { path, near, error })),
             }
         })
     }
@@ -202,7 +202,7 @@ pub fn unwashable_plates(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<Unwasha
     let scene = pipeline.scene()?;
     let (order, _) = pipeline.order(&scene)?;
     let failed = pipeline.failed(&scene, &order)?;
-    let why = |failed: Failed| pipeline.look_into(&scene, failed);
+    let why = |failed: FailedVisit| pipeline.look_into(&scene, failed);
     let plates: Result<Vec<UnwashablePlate>, Cancelled> = failed.into_par_iter().map(why).collect();
     let mut plates = plates?;
     plates.sort_by_key(|plate| plate.plate);
@@ -242,10 +242,10 @@ pub fn other_unwashable_plates(
 impl Pipeline<'_> {
     /// Returns all plates for which no configurations are found: those that a check of a few points rules out, and those whose
     /// washing fails.
-    fn failed(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Failed>, Cancelled> {
+    fn failed(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<FailedVisit>, Cancelled> {
         let turns = (0..order.len()).into_par_iter();
         let blocked: Result<Vec<_>, Cancelled> = turns.map(|k| self.blocked(scene, order, k)).collect();
-        let mut failed: Vec<Failed> = blocked?.into_iter().flatten().collect();
+        let mut failed: Vec<FailedVisit> = blocked?.into_iter().flatten().collect();
         let known: Vec<usize> = failed.iter().map(|failed| failed.path.plate).collect();
         let others = self.turns(scene, order, |plate| !known.contains(&plate));
         failed.extend(others.filter_map(Result::err).map(|failed| *failed));
@@ -254,7 +254,7 @@ impl Pipeline<'_> {
     }
 
     /// Looks into a plate for which no configurations were found.
-    pub fn unwashable(&self, scene: &Scene<'_>, failed: Failed) -> PlanError {
+    pub fn unwashable(&self, scene: &Scene<'_>, failed: FailedVisit) -> PlanError {
         match self.with_place(scene, failed) {
             Ok(plate) => PlanError::Unwashable(Box::new(plate)),
             Err(cancelled) => cancelled.into(),
@@ -262,7 +262,7 @@ impl Pipeline<'_> {
     }
 
     /// Returns the cause, and the nearest other place for the plate if the job asks for it.
-    fn with_place(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
+    fn with_place(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
         let (path, near) = (failed.path, failed.near);
         let plate = self.look_into(scene, failed)?;
         let nearest_m = match self.place_search {
@@ -274,19 +274,19 @@ impl Pipeline<'_> {
     }
 
     /// Returns the cause, without a search for another place.
-    fn look_into(&self, scene: &Scene<'_>, failed: Failed) -> Result<UnwashablePlate, Cancelled> {
-        let Failed { path, near, error } = failed;
+    fn look_into(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
+        let FailedVisit { path, near, error } = failed;
         if let RedundancyError::Cancelled(cancelled) = error {
             return Err(cancelled);
         }
         let plate = path.plate;
         (self.watch.tell)(&Activity::Cause { plate });
         let part = match Task::new(scene, &path, self.clearance_m(), &near) {
-            Ok(task) if self.explains => Some(washable::washable_part(&task)?),
+            Ok(task) if self.explains => Some(washability::washable_part(&task)?),
             _ => None,
         };
         let (share, causes, conclusion, points) = match part {
-            Some(Washable::Part {
+            Some(Washability::Part {
                 share,
                 causes,
                 conclusion,

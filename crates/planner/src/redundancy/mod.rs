@@ -37,11 +37,11 @@ pub mod stuck;
 pub mod task;
 #[cfg(test)]
 mod tests;
-pub mod washable;
+pub mod washability;
 mod washing;
 
 pub use crate::redundancy::places::{Chance, chance};
 pub use crate::redundancy::stuck::is_blocked;
 pub use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Task};
-pub use crate::redundancy::washable::Conclusion;
+pub use crate::redundancy::washability::Conclusion;
 pub use crate::redundancy::washing::{TiltChoice, Washing, washing};

@@ -6,7 +6,7 @@
 
 use crate::redundancy::stuck::is_blocked;
 use crate::redundancy::task::{RedundancyError, Task};
-use crate::redundancy::washable::is_beyond_reach;
+use crate::redundancy::washability::is_beyond_reach;
 use crate::redundancy::washing::by_policy;
 use crate::scene::{Scene, Width};
 use crate::trig::sin_cos;
@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 
 /// Plate for which another place is checked.
 #[derive(Debug, Clone, Copy)]
-pub struct Elsewhere<'a> {
+pub struct MovedPlate<'a> {
     /// The scene, with the plates as they lie.
     pub scene: &'a Scene<'a>,
     /// Its bodies, to be moved.
@@ -38,7 +38,7 @@ pub struct Elsewhere<'a> {
 /// One place after the other, with the plate moved there.
 #[derive(Debug, Clone)]
 pub struct Trial<'a> {
-    asked: Elsewhere<'a>,
+    asked: MovedPlate<'a>,
     plates: Vec<Plate>,
     clearance: ClearanceModel,
 }
@@ -46,7 +46,7 @@ pub struct Trial<'a> {
 impl<'a> Trial<'a> {
     /// Trials with the plate of the wash path.
     #[must_use]
-    pub fn new(asked: &Elsewhere<'a>) -> Self {
+    pub fn new(asked: &MovedPlate<'a>) -> Self {
         Self {
             asked: *asked,
             plates: asked.scene.plates.to_vec(),
@@ -65,7 +65,7 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// [`RedundancyError`] for numbers out of range, or where the search was given up.
     pub fn suits(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
-        let Elsewhere {
+        let MovedPlate {
             scene,
             path,
             clearance_m,
@@ -132,7 +132,7 @@ pub const MOST_CHECKS: usize = 32;
 /// # Errors
 /// [`RedundancyError`] for numbers out of range, or where the search was given up.
 pub fn nearest_washable(
-    asked: &Elsewhere<'_>,
+    asked: &MovedPlate<'_>,
     holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
     tell: &dyn Fn(u32),
 ) -> Result<Option<Vector2<f64>>, RedundancyError> {

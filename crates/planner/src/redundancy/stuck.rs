@@ -211,7 +211,7 @@ pub const DIRECTIONS: u32 = 72;
 
 /// A configuration found by looking everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct FoundConfiguration {
     /// Tilt of the tool from the plate's normal \[rad\], at least 0.
     pub tilt_rad: f64,
     /// Direction to which the flange leans, counter-clockwise from "away from axis 1" \[rad\].
@@ -226,7 +226,7 @@ pub struct Found {
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<Found>, Cancelled> {
+pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<FoundConfiguration>, Cancelled> {
     let scene = task.scene;
     let contact = task.samples.at(theta.clamp(0.0, task.path.curve.end())).upright();
     let out = scene.out(&contact);
@@ -250,7 +250,7 @@ pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<Found>, Cancelled>
                 .iter()
                 .find(|start| task.is_allowed(&start.q))
             {
-                return Ok(Some(Found {
+                return Ok(Some(FoundConfiguration {
                     tilt_rad,
                     azimuth_rad,
                     q: start.q,

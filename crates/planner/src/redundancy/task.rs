@@ -6,7 +6,7 @@ use crate::redundancy::lines::Lines;
 use crate::redundancy::samples::{Samples, TiltSpline};
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use nalgebra::{Vector3, Vector6};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
@@ -153,7 +153,7 @@ impl<'a> Task<'a> {
     ///
     /// # Errors
     /// The first filter that rejects it.
-    pub(crate) fn configuration(&self, target: &Rigid, start: &Start) -> Result<JointVector, Hindrance> {
+    pub(crate) fn configuration(&self, target: &RigidTransform, start: &Start) -> Result<JointVector, Hindrance> {
         let q = self.scene.inverse.continuing(target, start)?;
         self.check_wrist(&q)?;
         self.check_clear(&q)?;
@@ -183,7 +183,7 @@ impl<'a> Task<'a> {
     }
 
     /// Checks that the tool at a target stands within the planned cone about the normal.
-    pub(crate) fn check_cone(&self, contact: &Contact, target: &Rigid) -> Result<(), Hindrance> {
+    pub(crate) fn check_cone(&self, contact: &Contact, target: &RigidTransform) -> Result<(), Hindrance> {
         if contact.axis == contact.normal {
             // Tilts count from the normal, and are within the cone.
             return Ok(());

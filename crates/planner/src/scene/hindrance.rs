@@ -212,8 +212,8 @@ mod tests {
 
     #[test]
     fn what_is_too_near_is_told_by_the_distance_and_the_one_required() {
-        struct Worst(f64);
-        impl fmt::Display for Worst {
+        struct WorstText(f64);
+        impl fmt::Display for WorstText {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 let [a, b] = ["handle", "post"].map(str::to_owned);
                 let pair = PairClearance {
@@ -233,7 +233,7 @@ mod tests {
             (0.0, "handle runs into post; 10.5 mm required"),
             (-0.002, "handle runs into post; 10.5 mm required"),
         ] {
-            assert_eq!(Worst(distance_m).to_string(), words);
+            assert_eq!(WorstText(distance_m).to_string(), words);
         }
     }
 }

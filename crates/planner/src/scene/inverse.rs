@@ -1,9 +1,9 @@
 //! Configurations for a pose of the tip: all to start from, and the one that continues a path.
 
 use crate::scene::hindrance::Hindrance;
-use platewash_kinematics::ik::analytic::{AnalyticArm, Degenerate, Elbow, Label, Rejection, Shoulder, Wrist};
+use platewash_kinematics::ik::analytic::{AnalyticArm, Degeneracies, Elbow, Label, Rejection, Shoulder, Wrist};
 use platewash_kinematics::ik::{IkSettings, IkSettingsError, IkSolver};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, JointLimits, JointVector, Pose, RobotModel};
 use std::f64::consts::PI;
 
@@ -81,7 +81,7 @@ impl<'a> Inverse<'a> {
     ///
     /// # Errors
     /// [`Hindrance::Reach`], [`Hindrance::Limit`], [`Hindrance::Unsolved`] or [`Hindrance::NotFinite`].
-    pub fn continuing(&self, target: &Rigid, start: &Start) -> Result<JointVector, Hindrance> {
+    pub fn continuing(&self, target: &RigidTransform, start: &Start) -> Result<JointVector, Hindrance> {
         let (arm, tip, limits) = match self {
             Self::Analytic { arm, tip, limits } => (arm, tip, limits),
             Self::Numeric(solver) => return Ok(solver.solve(&Pose::from(target), &start.q)?.q),
@@ -125,7 +125,7 @@ impl<'a> Inverse<'a> {
     ///
     /// # Errors
     /// As [`Inverse::continuing`], when there is none.
-    pub fn starts(&self, target: &Rigid, near: &JointVector, width: Width) -> Result<Vec<Start>, Hindrance> {
+    pub fn starts(&self, target: &RigidTransform, near: &JointVector, width: Width) -> Result<Vec<Start>, Hindrance> {
         let anywhere = Start { q: *near, sides: None };
         let (arm, tip, limits) = match self {
             Self::Analytic { arm, tip, limits } => (arm, tip, limits),
@@ -180,7 +180,7 @@ pub(crate) fn merge_starts(starts: &mut Vec<Start>, more: Vec<Start>) {
     }
 }
 
-fn on_sides(label: Label, meets: Degenerate, (shoulder, elbow): (Shoulder, Elbow)) -> bool {
+fn on_sides(label: Label, meets: Degeneracies, (shoulder, elbow): (Shoulder, Elbow)) -> bool {
     (label.shoulder == shoulder || meets.shoulder) && (label.elbow == elbow || meets.elbow)
 }
 

@@ -16,7 +16,7 @@ pub use crate::scene::stance::{
 use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Point3, Vector3};
 use platewash_kinematics::ik::{IkSettingsError, IkSolver};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
@@ -193,7 +193,7 @@ impl<'a> Scene<'a> {
         answer.ok().map(|answer| answer.q)
     }
 
-    pub(crate) fn tip_rigid(&self, contact: &Contact, tilt_rad: f64) -> Rigid {
+    pub(crate) fn tip_rigid(&self, contact: &Contact, tilt_rad: f64) -> RigidTransform {
         let out = self.out(contact);
         let aside_rad = self.stance.aside_rad;
         if aside_rad == 0.0 {
@@ -203,7 +203,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The tip with the flange leaning towards `lean`, along the face, by its length \[rad\].
-    pub(crate) fn tip_leaning(&self, contact: &Contact, lean: &Vector3<f64>) -> Rigid {
+    pub(crate) fn tip_leaning(&self, contact: &Contact, lean: &Vector3<f64>) -> RigidTransform {
         let out = self.out(contact);
         let tilt_rad = lean.norm();
         let towards = if tilt_rad > 0.0 { lean / tilt_rad } else { out };
@@ -267,7 +267,7 @@ impl<'a> Scene<'a> {
 }
 
 /// The straight tool whose `across` points along `n × out`, turned about `n × lean` by the tilt.
-fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 2], tilt_rad: f64) -> Rigid {
+fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 2], tilt_rad: f64) -> RigidTransform {
     let n = contact.axis;
     let (s, c) = sin_cos(tilt_rad);
     let side = n.cross(out);
@@ -277,7 +277,7 @@ fn leaning(rest: &Vector3<f64>, contact: &Contact, [out, lean]: [&Vector3<f64>; 
     let across = leant * side.dot(lean) + hinge * side.dot(&hinge);
     let [here, there] =
         [(across, z), (*rest, Vector3::z())].map(|(across, z)| Matrix3::from_columns(&[across, z, across.cross(&z)]));
-    Rigid {
+    RigidTransform {
         rotation: here * there.transpose(),
         translation: contact.point,
     }

@@ -52,7 +52,7 @@ pub fn time_optimal(
     robot: &RobotModel,
     tip: &Frame,
     limits: &MotionLimits,
-) -> Result<Timed, TimingError> {
+) -> Result<TimedPath, TimingError> {
     time_optimal_slowed(path, robot, tip, limits, &[])
 }
 
@@ -65,8 +65,8 @@ pub fn time_optimal_slowed(
     robot: &RobotModel,
     tip: &Frame,
     limits: &MotionLimits,
-    slow: &[Slow],
-) -> Result<Timed, TimingError> {
+    slow: &[SlowStretch],
+) -> Result<TimedPath, TimingError> {
     if let Some((limit, value)) = limits.unusable() {
         return Err(TimingError::Limit { limit, value });
     }
@@ -82,7 +82,7 @@ pub fn time_optimal_slowed(
 
 /// A path in time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Timed {
+pub struct TimedPath {
     /// The motion, from time 0, at rest at both ends. Its knots are the path's samples and more between them.
     pub motion: Trajectory,
     /// The path's parameter at every knot; those of the samples are among them to the bit.
@@ -167,7 +167,7 @@ pub struct TipLimits {
 
 /// A stretch of a path on which its parameter moves slowly.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slow {
+pub struct SlowStretch {
     /// Range of the parameter, both ends included.
     pub u: [f64; 2],
     /// Largest speed of the parameter at a knot there, per second; positive.

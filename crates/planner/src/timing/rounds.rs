@@ -13,7 +13,7 @@ use crate::timing::check::{self, Demand};
 use crate::timing::grid::{Grid, PathKnot};
 use crate::timing::hermite::Piece;
 use crate::timing::interval::{Interval, LinearProgram};
-use crate::timing::{MotionLimits, Slow, Timed, TimingError};
+use crate::timing::{MotionLimits, SlowStretch, TimedPath, TimingError};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::trajectory::Trajectory;
 
@@ -41,7 +41,7 @@ pub(crate) struct Rounds<'a> {
     /// Limits that are aimed at: the given limits less the margin.
     limits: MotionLimits,
     /// Ranges in which the parameter moves slowly.
-    slow: Vec<Slow>,
+    slow: Vec<SlowStretch>,
     intervals: Vec<Interval>,
     /// Divisor of the speed limit of each interval.
     slowed: Vec<f64>,
@@ -55,7 +55,7 @@ pub(crate) struct Rounds<'a> {
 
 impl<'a> Rounds<'a> {
     /// State before the first round.
-    pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow: &[Slow]) -> Self {
+    pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow: &[SlowStretch]) -> Self {
         let samples = grid.knots().len();
         let mut rounds = Self {
             grid,
@@ -79,7 +79,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Runs all rounds.
-    pub fn run(mut self) -> Result<Timed, TimingError> {
+    pub fn run(mut self) -> Result<TimedPath, TimingError> {
         self.pass()?;
         for _ in 0..REFINEMENTS {
             if !self.refine() {
@@ -218,11 +218,11 @@ impl<'a> Rounds<'a> {
     }
 
     /// The motion.
-    fn finish(self) -> Result<Timed, TimingError> {
+    fn finish(self) -> Result<TimedPath, TimingError> {
         let knots = self.grid.knots();
         let path_error_rad = close(&self.courses, |k| knots[k].u)?;
         let positions = knots.iter().map(|knot| knot.q).collect();
-        Ok(Timed {
+        Ok(TimedPath {
             parameters: knots.iter().map(|knot| knot.u).collect(),
             motion: Trajectory::from_knots(self.times, positions, self.speeds)?,
             path_error_rad,

@@ -55,7 +55,7 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
 }
 
 /// Largest demands over limits by looking densely, with differences of the tip's positions: nothing of this module.
-fn dense(timed: &Timed, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) -> [f64; 4] {
+fn dense(timed: &TimedPath, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) -> [f64; 4] {
     let motion = &timed.motion;
     let mut most = [0.0f64; 4];
     for segment in motion.extremes() {
@@ -77,7 +77,7 @@ fn dense(timed: &Timed, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) 
     most
 }
 
-fn assert_sound(timed: &Timed, path: &JointPath) {
+fn assert_sound(timed: &TimedPath, path: &JointPath) {
     let motion = &timed.motion;
     let last = motion.times().len() - 1;
     assert_eq!(timed.parameters.len(), motion.times().len());
@@ -158,7 +158,7 @@ fn the_wash_of_a_plate_keeps_its_limits_and_uses_them() {
 }
 
 /// Share of the time in which some limit is used to within a per cent: all of it in a time-optimal motion.
-fn busy(timed: &Timed, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) -> f64 {
+fn busy(timed: &TimedPath, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) -> f64 {
     let motion = &timed.motion;
     let model = TipModel::new(robot, tip);
     let mut busy = 0.0;

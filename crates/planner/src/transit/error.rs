@@ -28,7 +28,7 @@ pub enum TransitError {
         /// Configurations sampled.
         nodes: usize,
         /// Obstruction at which the first of the direct candidates ends.
-        blocked: Option<Box<Blocked>>,
+        blocked: Option<Box<TransitObstruction>>,
     },
     /// The line over a plate is not free.
     #[error("the line over plate {plate} is not clear at {height_m:.3} m{}", line(.too_near.as_deref()))]
@@ -38,13 +38,13 @@ pub enum TransitError {
         /// Height on the line \[m\].
         height_m: f64,
         /// The bodies that are too near there.
-        too_near: Option<Box<TooNear>>,
+        too_near: Option<Box<ClearanceShortfall>>,
     },
     /// Home is not free.
     #[error("the arm is not clear at home{}", colon(.too_near.as_deref()))]
     Home {
         /// The bodies that are too near there.
-        too_near: Option<Box<TooNear>>,
+        too_near: Option<Box<ClearanceShortfall>>,
     },
     /// A path that cannot be splined.
     #[error(transparent)]
@@ -59,11 +59,11 @@ pub enum TransitError {
 
 /// Obstruction that ends a direct transit.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Blocked {
+pub enum TransitObstruction {
     /// A joint would be beyond its limit.
     Limit(LimitViolation),
     /// Two bodies would be too near.
-    TooNear(TooNear),
+    TooNear(ClearanceShortfall),
 }
 
 impl TransitError {
@@ -74,7 +74,7 @@ impl TransitError {
     }
 }
 
-impl fmt::Display for Blocked {
+impl fmt::Display for TransitObstruction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Limit(violation) => violation.fmt(f),
@@ -87,17 +87,17 @@ fn name(end: &Option<usize>) -> String {
     end.map_or_else(|| "home".to_owned(), |plate| format!("plate {plate}"))
 }
 
-fn first(blocked: Option<&Blocked>) -> String {
+fn first(blocked: Option<&TransitObstruction>) -> String {
     blocked.map_or_else(String::new, |blocked| format!("; on the direct one {blocked}"))
 }
 
-fn colon(too_near: Option<&TooNear>) -> String {
+fn colon(too_near: Option<&ClearanceShortfall>) -> String {
     too_near.map_or_else(String::new, |too_near| format!(": {too_near}"))
 }
 
 /// Words on a line, with a hint where the lift decides: at the top of the line the sponge must be clear of the plates.
-fn line(too_near: Option<&TooNear>) -> String {
-    let touches = |too_near: &&TooNear| {
+fn line(too_near: Option<&ClearanceShortfall>) -> String {
+    let touches = |too_near: &&ClearanceShortfall| {
         let names = [&too_near.pair.a, &too_near.pair.b];
         names.iter().any(|n| *n == "sponge") && names.iter().any(|n| n.starts_with("plate "))
     };
@@ -110,7 +110,7 @@ fn line(too_near: Option<&TooNear>) -> String {
 
 /// Two bodies nearer than a transit may bring them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TooNear {
+pub struct ClearanceShortfall {
     /// The bodies and their distance.
     pub pair: PairClearance,
     /// The clearance asked for \[m\].
@@ -119,7 +119,7 @@ pub struct TooNear {
     pub reserve_m: f64,
 }
 
-impl TooNear {
+impl ClearanceShortfall {
     /// The nearest of the pairs that count at `q` \[rad\], where it is too near.
     #[must_use]
     pub fn at(surroundings: &dyn Surroundings, q: &JointVector, stretch: Stretch, asked_m: f64) -> Option<Self> {
@@ -139,7 +139,7 @@ const ALIKE_M: f64 = 1e-9;
 /// Words of both messages that stand before the reserve.
 const KEPT: &str = "the clearance asked for and";
 
-impl fmt::Display for TooNear {
+impl fmt::Display for ClearanceShortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
         let mm = |m: f64| 1e3 * m;
@@ -186,9 +186,9 @@ mod tests {
         for (gap, near) in [(0.0105, true), (0.0112, false)] {
             let plate = Plate::level_disc([tip.x, tip.y, tip.z - free_m - gap], 0.1, 0.02);
             let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
-            let found = TooNear::at(&clearance, &q, Stretch::Free, 0.01);
+            let found = ClearanceShortfall::at(&clearance, &q, Stretch::Free, 0.01);
             assert_eq!(found.is_some(), near);
-            let at_plate = TooNear::at(&clearance, &q, Stretch::AtPlate(0), 0.01);
+            let at_plate = ClearanceShortfall::at(&clearance, &q, Stretch::AtPlate(0), 0.01);
             assert_eq!(at_plate, None, "the sponge may be near a plate");
             if let Some(found) = found {
                 let message = found.to_string();

@@ -6,7 +6,7 @@
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
 use crate::scene::{Contact, Scene};
-use crate::timing::Slow;
+use crate::timing::SlowStretch;
 use crate::transit::search::{BaseArc, FreePath};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::arc;
@@ -73,16 +73,16 @@ impl LiftLine {
     }
 
     /// Slow range of a path that leaves from here: its parameter is the height.
-    pub(crate) fn slow_from(&self, u: f64) -> Option<Slow> {
-        self.slow.map(|[height_m, most]| Slow {
+    pub(crate) fn slow_from(&self, u: f64) -> Option<SlowStretch> {
+        self.slow.map(|[height_m, most]| SlowStretch {
             u: [u, u + height_m],
             most,
         })
     }
 
     /// The same range for a path that ends here.
-    pub(crate) fn slow_until(&self, u: f64) -> Option<Slow> {
-        self.slow.map(|[height_m, most]| Slow {
+    pub(crate) fn slow_until(&self, u: f64) -> Option<SlowStretch> {
+        self.slow.map(|[height_m, most]| SlowStretch {
             u: [u - height_m, u],
             most,
         })

@@ -20,6 +20,6 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-pub use crate::transit::error::{Blocked, TooNear, TransitError};
+pub use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};
 pub use crate::transit::lift_line::{LiftLine, LiftLineError};
 pub use crate::transit::search::{BaseArc, STEP_RAD, Transit, TransitKind, TransitRules, plan};

@@ -5,8 +5,8 @@
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
 use crate::scene::{Scene, Stretch, TiltPolicy};
-use crate::timing::{self, MotionLimits, Slow, Timed};
-use crate::transit::error::{Blocked, TooNear, TransitError};
+use crate::timing::{self, MotionLimits, SlowStretch, TimedPath};
+use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};
 use crate::transit::lift_line::{self, LiftLine, quintic};
 use crate::transit::sampled;
 use platewash_kinematics::{Axes, JointVector, RobotModel};
@@ -30,7 +30,7 @@ pub struct Transit {
     /// Kind of the transit.
     pub kind: TransitKind,
     /// The motion.
-    pub timed: Timed,
+    pub timed: TimedPath,
     /// Parameters at which the free part begins and ends \[m\].
     pub free: [f64; 2],
 }
@@ -78,14 +78,14 @@ pub fn plan(
 }
 
 /// Returns the obstruction that keeps the arm from a configuration \[rad\] of a free part.
-fn what_blocks(rules: &TransitRules<'_>, q: &JointVector) -> Option<Blocked> {
-    let too_near = || rules.too_near(q, Stretch::Free).map(Blocked::TooNear);
+fn what_blocks(rules: &TransitRules<'_>, q: &JointVector) -> Option<TransitObstruction> {
+    let too_near = || rules.too_near(q, Stretch::Free).map(TransitObstruction::TooNear);
     rules
         .scene
         .robot
         .limits()
         .violation(q)
-        .map(Blocked::Limit)
+        .map(TransitObstruction::Limit)
         .or_else(too_near)
 }
 
@@ -150,7 +150,7 @@ impl Search<'_> {
 }
 
 /// Checks that the tip exceeds its speed limit at a knot of a stretch that must be slow.
-fn is_too_fast(rules: &TransitRules<'_>, timed: &Timed, slow: &Slow) -> bool {
+fn is_too_fast(rules: &TransitRules<'_>, timed: &TimedPath, slow: &SlowStretch) -> bool {
     let (positions, speeds) = (timed.motion.positions(), timed.motion.speeds());
     let tip_speed = |k: usize| {
         let jacobian = rules
@@ -299,8 +299,8 @@ impl TransitRules<'_> {
     }
 
     /// The bodies that are too near where it does not.
-    pub(crate) fn too_near(&self, q: &JointVector, stretch: Stretch) -> Option<TooNear> {
-        TooNear::at(self.scene.surroundings, q, stretch, self.clearance_m)
+    pub(crate) fn too_near(&self, q: &JointVector, stretch: Stretch) -> Option<ClearanceShortfall> {
+        ClearanceShortfall::at(self.scene.surroundings, q, stretch, self.clearance_m)
     }
 }
 

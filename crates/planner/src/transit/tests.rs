@@ -14,18 +14,18 @@ use platewash_workcell::tool::{StraightTool, Tool};
 use std::fmt;
 
 /// Check that a configuration is free on a stretch.
-type Free<'a> = &'a (dyn Fn(&JointVector, Stretch) -> bool + Sync);
+type FreeCheck<'a> = &'a (dyn Fn(&JointVector, Stretch) -> bool + Sync);
 
 /// Obstacles that a rule says.
-struct MadeUp<'a>(Free<'a>);
+struct RuleObstacles<'a>(FreeCheck<'a>);
 
-impl fmt::Debug for MadeUp<'_> {
+impl fmt::Debug for RuleObstacles<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("MadeUp")
     }
 }
 
-impl Surroundings for MadeUp<'_> {
+impl Surroundings for RuleObstacles<'_> {
     fn is_clear(&self, q: &JointVector, stretch: Stretch, _: f64) -> bool {
         (self.0)(q, stretch)
     }
@@ -54,9 +54,9 @@ fn set() -> Set {
 }
 
 /// Does something among obstacles.
-fn among<T>(set: &Set, free: Free<'_>, act: impl FnOnce(&Scene<'_>) -> T) -> T {
+fn among<T>(set: &Set, free: FreeCheck<'_>, act: impl FnOnce(&Scene<'_>) -> T) -> T {
     let tool = Tool::from(StraightTool::default());
-    let obstacles = MadeUp(free);
+    let obstacles = RuleObstacles(free);
     let scene = Scene::new(&set.robot, &tool, &obstacles, &[], ReachBorders::IRB_120).unwrap();
     act(&scene)
 }
@@ -72,7 +72,7 @@ fn line(set: &Set, plate: usize, azimuth: f64) -> LiftLine {
     })
 }
 
-fn plan_among(set: &Set, free: Free<'_>, arc: Option<f64>) -> Result<Transit, TransitError> {
+fn plan_among(set: &Set, free: FreeCheck<'_>, arc: Option<f64>) -> Result<Transit, TransitError> {
     let arc = arc.map(|height_m| BaseArc {
         arc: Arc {
             points: 5,
@@ -96,7 +96,7 @@ fn plan_among(set: &Set, free: Free<'_>, arc: Option<f64>) -> Result<Transit, Tr
 }
 
 /// Checks a transit: from rest to rest, within limits, and free at a hundred times more places than the planner checks.
-fn check(set: &Set, transit: &Transit, free: Free<'_>) {
+fn check(set: &Set, transit: &Transit, free: FreeCheck<'_>) {
     let motion = &transit.timed.motion;
     let (start, end) = (motion.at(0.0).unwrap(), motion.at(motion.duration_s()).unwrap());
     assert!(start.qd.amax() < 1e-12 && end.qd.amax() < 1e-9);

@@ -1,7 +1,7 @@
 //! Scenarios that are refused, and jobs that cannot be carried out.
 
 use crate::arrays;
-use crate::errors::{FileOf, SystemWord, any, input, keyed, named, raise, simulation, system_file};
+use crate::errors::{FileKind, SystemWord, any, input, keyed, named, raise, simulation, system_file};
 use platewash::paper::PaperError;
 use platewash::paper::tracking::TrackingError;
 use platewash::planner::UnwashablePlate;
@@ -25,7 +25,7 @@ pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
         _ => None,
     };
     if let Some(word) = unread {
-        return system_file(py, FileOf::Scenario, word, &error.source_name, &error.to_string());
+        return system_file(py, FileKind::Scenario, word, &error.source_name, &error.to_string());
     }
     let (key, expected, found) = match &error.problem {
         Problem::Value { key, expected, found } => (any(py, key), any(py, expected), any(py, found)),

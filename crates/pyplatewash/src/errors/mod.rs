@@ -136,7 +136,7 @@ pub fn internal(py: Python<'_>, message: &str) -> PyErr {
 
 /// Kind of a file; decides which exceptions its errors raise.
 #[derive(Debug, Clone, Copy)]
-pub enum FileOf {
+pub enum FileKind {
     /// A description of an arm.
     Urdf,
     /// A plan.
@@ -171,18 +171,18 @@ impl From<&std::io::Error> for SystemWord {
 }
 
 /// A file that the system does not give or take: an `OSError` too, with the name as `filename`.
-pub fn system_file(py: Python<'_>, of: FileOf, word: SystemWord, filename: &str, message: &str) -> PyErr {
+pub fn system_file(py: Python<'_>, of: FileKind, word: SystemWord, filename: &str, message: &str) -> PyErr {
     let (class, number) = match (of, word) {
-        (FileOf::Urdf, SystemWord::NotFound) => ("UrdfNotFoundError", Some(ENOENT)),
-        (FileOf::Plan, SystemWord::NotFound) => ("PlanNotFoundError", Some(ENOENT)),
-        (FileOf::Scenario, SystemWord::NotFound) => ("ScenarioNotFoundError", Some(ENOENT)),
-        (FileOf::Page, SystemWord::NotFound) => ("PageNotFoundError", Some(ENOENT)),
-        (FileOf::Study, SystemWord::NotFound) => ("StudyNotFoundError", Some(ENOENT)),
-        (FileOf::Urdf, SystemWord::Refused(number)) => ("UrdfAccessError", number),
-        (FileOf::Plan, SystemWord::Refused(number)) => ("PlanAccessError", number),
-        (FileOf::Scenario, SystemWord::Refused(number)) => ("ScenarioAccessError", number),
-        (FileOf::Page, SystemWord::Refused(number)) => ("FileError", number),
-        (FileOf::Study, SystemWord::Refused(number)) => ("StudyAccessError", number),
+        (FileKind::Urdf, SystemWord::NotFound) => ("UrdfNotFoundError", Some(ENOENT)),
+        (FileKind::Plan, SystemWord::NotFound) => ("PlanNotFoundError", Some(ENOENT)),
+        (FileKind::Scenario, SystemWord::NotFound) => ("ScenarioNotFoundError", Some(ENOENT)),
+        (FileKind::Page, SystemWord::NotFound) => ("PageNotFoundError", Some(ENOENT)),
+        (FileKind::Study, SystemWord::NotFound) => ("StudyNotFoundError", Some(ENOENT)),
+        (FileKind::Urdf, SystemWord::Refused(number)) => ("UrdfAccessError", number),
+        (FileKind::Plan, SystemWord::Refused(number)) => ("PlanAccessError", number),
+        (FileKind::Scenario, SystemWord::Refused(number)) => ("ScenarioAccessError", number),
+        (FileKind::Page, SystemWord::Refused(number)) => ("FileError", number),
+        (FileKind::Study, SystemWord::Refused(number)) => ("StudyAccessError", number),
     };
     let fields = [
         ("filename", any(py, filename)),
@@ -193,7 +193,7 @@ pub fn system_file(py: Python<'_>, of: FileOf, word: SystemWord, filename: &str,
 }
 
 /// An input file that was not read: missing, refused by the system, or no text that is read.
-pub fn unread(py: Python<'_>, of: FileOf, path: &Path, error: &FileError) -> PyErr {
+pub fn unread(py: Python<'_>, of: FileKind, path: &Path, error: &FileError) -> PyErr {
     let filename = path.display().to_string();
     let message = format!("{filename}: cannot be read: {error}");
     match error {
@@ -206,11 +206,11 @@ pub fn unread(py: Python<'_>, of: FileOf, path: &Path, error: &FileError) -> PyE
         }
         FileError::NotRegular => system_file(py, of, SystemWord::Refused(None), &filename, &message),
         _ => match of {
-            FileOf::Urdf => named(py, "UrdfError", &message),
-            FileOf::Plan => named(py, "PlanFileError", &message),
-            FileOf::Scenario => named(py, "ScenarioError", &message),
-            FileOf::Page => named(py, "FileError", &message),
-            FileOf::Study => named(py, "StudyError", &message),
+            FileKind::Urdf => named(py, "UrdfError", &message),
+            FileKind::Plan => named(py, "PlanFileError", &message),
+            FileKind::Scenario => named(py, "ScenarioError", &message),
+            FileKind::Page => named(py, "FileError", &message),
+            FileKind::Study => named(py, "StudyError", &message),
         },
     }
 }
@@ -407,7 +407,7 @@ pub fn study(py: Python<'_>, error: StudyError) -> PyErr {
     match &error {
         StudyError::Disk { file, cause, .. } => {
             let word = SystemWord::from(cause);
-            system_file(py, FileOf::Study, word, &file.display().to_string(), &message)
+            system_file(py, FileKind::Study, word, &file.display().to_string(), &message)
         }
         StudyError::File { file, line, .. } => of(file.clone(), *line),
         StudyError::Kept { file, line, .. } => of(file.display().to_string(), *line),

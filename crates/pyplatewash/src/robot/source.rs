@@ -1,6 +1,6 @@
 //! Source of an arm's description: enough to make the arm again in another process.
 
-use crate::errors::{self, FileOf};
+use crate::errors::{self, FileKind};
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash::kinematics::urdf::{Files, MAX_BYTES, MeshSource};
@@ -52,7 +52,7 @@ impl Source {
         let read = |path: &Path| {
             files
                 .read_text(path, MAX_BYTES as u64)
-                .map_err(|e| errors::unread(py, FileOf::Urdf, path, &e))
+                .map_err(|e| errors::unread(py, FileKind::Urdf, path, &e))
         };
         // A path without folder is in the working folder, which may be another one when the arm is restored.
         let folder = std::path::absolute(urdf)

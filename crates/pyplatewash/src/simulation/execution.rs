@@ -8,7 +8,7 @@ use crate::value::to_record;
 use crate::work::patiently;
 use crate::{argument, arrays, errors};
 use numpy::{PyArray1, PyArrayDyn};
-use platewash::simulator::plant::Felt;
+use platewash::simulator::plant::FoamLoad;
 use platewash::simulator::simulate::{Sample, table as csv_table};
 use platewash::simulator::simulate_with;
 use platewash::workcell::words::quoted;
@@ -22,12 +22,12 @@ use std::sync::Arc;
 /// The arm starts on the path, at its speed. The same plan, arm and settings give the same bits.
 #[pyclass(frozen, module = "pyplatewash", name = "Execution")]
 pub struct ExecutionObject {
-    inner: Arc<Done>,
+    inner: Arc<FinishedSimulation>,
     arguments: (Py<PlanObject>, Option<Py<Robot>>, Py<SettingsObject>),
 }
 
 /// An execution, with the plan, arm and settings that it belongs to.
-pub struct Done {
+pub struct FinishedSimulation {
     /// Plan, arm and settings of the simulation.
     pub question: Question,
     /// Result of the simulation.
@@ -45,7 +45,7 @@ impl ExecutionObject {
 
     /// The execution, with the plan, arm and settings that it belongs to.
     #[must_use]
-    pub fn done(&self) -> Arc<Done> {
+    pub fn done(&self) -> Arc<FinishedSimulation> {
         self.inner.clone()
     }
 
@@ -57,7 +57,7 @@ impl ExecutionObject {
         arrays::joint_rows(py, &self.samples().iter().map(of).collect::<Vec<_>>())
     }
 
-    fn felt<'py>(&self, py: Python<'py>, of: impl Fn(&Felt) -> f64) -> Option<Bound<'py, PyArray1<f64>>> {
+    fn felt<'py>(&self, py: Python<'py>, of: impl Fn(&FoamLoad) -> f64) -> Option<Bound<'py, PyArray1<f64>>> {
         let felt: Option<Vec<f64>> = self.samples().iter().map(|s| s.felt.as_ref().map(&of)).collect();
         felt.map(|felt| arrays::line(py, felt))
     }
@@ -224,7 +224,7 @@ pub fn simulate(
     let done = patiently(py, move |cancel| {
         let Question { plan, arm, settings } = &question;
         let execution = simulate_with(plan, arm, settings, cancel)?;
-        Ok(Done { question, execution })
+        Ok(FinishedSimulation { question, execution })
     })?;
     let inner = Arc::new(done.map_err(|e: SimulationError| errors::failure(py, &e.into()))?);
     let arguments = (plan.unbind(), robot, settings);

@@ -7,10 +7,10 @@
 mod execution;
 mod settings;
 
-pub use crate::simulation::execution::{Done, ExecutionObject, simulate};
+pub use crate::simulation::execution::{ExecutionObject, FinishedSimulation, simulate};
 pub use crate::simulation::settings::SettingsObject;
 
-use crate::arrays::{Count, Numbers, Wanted};
+use crate::arrays::{Count, ExpectedShape, Numbers};
 use crate::errors;
 use crate::plan::PlanObject;
 use crate::robot::Robot;
@@ -61,7 +61,7 @@ impl Question {
 /// Largest number of settings of one call.
 const MOST_SETTINGS: usize = 10_000;
 
-const NUMBERS: Wanted = Wanted {
+const NUMBERS: ExpectedShape = ExpectedShape {
     item: &[],
     count: Count::Stack,
 };

@@ -4,7 +4,7 @@ use crate::study::StudyObject;
 use crate::work::patiently_by;
 use crate::{argument, errors};
 use platewash::CancelToken;
-use platewash::study::{self, Journal, Made, Outcome, Resolver, Study, StudyError};
+use platewash::study::{self, Journal, Outcome, Resolver, RowWithPlan, Study, StudyError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::mpsc::channel;
@@ -22,21 +22,25 @@ const KILLED: &str = "its worker process died twice while it worked on this row 
 #[pyclass(frozen, module = "pyplatewash._core", name = "StudyJournal")]
 pub struct StudyJournalObject {
     study: Arc<Study>,
-    held: Mutex<Option<Held>>,
+    held: Mutex<Option<OpenJournal>>,
 }
 
-struct Held {
+struct OpenJournal {
     journal: Journal,
     /// Rows that were missing when the folder was opened, and have not been handed out.
     missing: Box<dyn Iterator<Item = u64> + Send>,
 }
 
 impl StudyJournalObject {
-    fn locked(&self) -> MutexGuard<'_, Option<Held>> {
+    fn locked(&self) -> MutexGuard<'_, Option<OpenJournal>> {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn with<T>(&self, py: Python<'_>, ask: impl FnOnce(&mut Held, &Study) -> Result<T, StudyError>) -> PyResult<T> {
+    fn with<T>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&mut OpenJournal, &Study) -> Result<T, StudyError>,
+    ) -> PyResult<T> {
         let mut held = self.locked();
         match held.as_mut() {
             Some(held) => ask(held, &self.study).map_err(|error| errors::study(py, error)),
@@ -53,7 +57,7 @@ impl StudyJournalObject {
         let (folder, study) = (argument::path("out", folder)?, StudyObject::given(study)?);
         let journal = Journal::open(&folder, &study).map_err(|error| errors::study(py, error))?;
         let missing = Box::new(journal.missing());
-        let held = Mutex::new(Some(Held { journal, missing }));
+        let held = Mutex::new(Some(OpenJournal { journal, missing }));
         Ok(Self { study, held })
     }
 
@@ -80,7 +84,7 @@ impl StudyJournalObject {
         let plan = plan.map(|plan| plan.as_bytes().to_vec());
         self.with(py, |held, study| {
             let row = study.received(line.as_bytes())?;
-            held.journal.append(&Made { row, plan }, took)
+            held.journal.append(&RowWithPlan { row, plan }, took)
         })
     }
 

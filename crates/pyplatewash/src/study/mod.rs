@@ -379,7 +379,7 @@ fn none(py: Python<'_>, at: &str) -> PyErr {
 }
 
 /// A row's line, the seconds that it took, and the bytes of its plan where the study keeps it.
-type Made<'py> = (Bound<'py, PyBytes>, f64, Option<Bound<'py, PyBytes>>);
+type RowTuple<'py> = (Bound<'py, PyBytes>, f64, Option<Bound<'py, PyBytes>>);
 
 /// Makes rows of a study, each on one thread of its own, whatever number of threads calls it.
 #[pyclass(frozen, module = "pyplatewash._core", name = "StudyWorker")]
@@ -403,7 +403,7 @@ impl StudyWorkerObject {
     }
 
     /// Makes a row; None where it was told to stop.
-    fn make<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<Made<'py>>> {
+    fn make<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<RowTuple<'py>>> {
         let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
         let resolver = self.resolver.clone();
         let began = Instant::now();
@@ -421,7 +421,7 @@ impl StudyWorkerObject {
     }
 
     /// A row of a planner that does nothing: what an engine costs by itself is measured with it.
-    fn unplanned<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<Made<'py>>> {
+    fn unplanned<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<RowTuple<'py>>> {
         let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
         if self.cancel.is_cancelled() {
             return Ok(None);

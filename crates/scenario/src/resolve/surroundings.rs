@@ -3,7 +3,7 @@
 use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::scenario::Scenario;
-use crate::sections::body_shape::{Stated, pose};
+use crate::sections::body_shape::{SectionShape, pose};
 use crate::sections::obstacle::{MeshPartsName, ObstacleSection};
 use crate::sections::room::TABLE;
 use crate::sections::tool::ToolBodySection;
@@ -129,11 +129,11 @@ impl Scenario {
             (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh { body, by_m })
         };
         let of_obstacle = |section: &ObstacleSection| match section.stated("obstacle") {
-            Ok(Stated::Mesh { file, scale }) => note(&section.name, (file, scale), solid_parts(section)),
+            Ok(SectionShape::Mesh { file, scale }) => note(&section.name, (file, scale), solid_parts(section)),
             _ => None,
         };
         let of_tool = |section: &ToolBodySection| match section.body.stated("tool_body") {
-            Ok(Stated::Mesh { file, scale }) => note(&section.name, (file, scale), SolidParts::Hull),
+            Ok(SectionShape::Mesh { file, scale }) => note(&section.name, (file, scale), SolidParts::Hull),
             _ => None,
         };
         let of_tools = self.tool_body.iter().filter_map(of_tool);
@@ -144,9 +144,9 @@ impl Scenario {
         let refused = |problem| ScenarioError::new(&self.name, None, problem);
         let stated = section.stated(&format!("obstacle[{index}]")).map_err(refused)?;
         let (file, scale) = match stated {
-            Stated::HalfSpace => return Ok(ObstacleShape::HalfSpace),
-            Stated::Convex(shape) => return Ok(ObstacleShape::Convex(shape)),
-            Stated::Mesh { file, scale } => (file, scale),
+            SectionShape::HalfSpace => return Ok(ObstacleShape::HalfSpace),
+            SectionShape::Convex(shape) => return Ok(ObstacleShape::Convex(shape)),
+            SectionShape::Mesh { file, scale } => (file, scale),
         };
         let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, solid_parts(section));

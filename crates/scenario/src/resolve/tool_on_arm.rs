@@ -3,7 +3,7 @@
 use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::scenario::Scenario;
-use crate::sections::body_shape::{Stated, pose};
+use crate::sections::body_shape::{SectionShape, pose};
 use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, ToolBodySection, tool_keys};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
@@ -29,7 +29,7 @@ impl Scenario {
             shapes.push(section_shape(index, section)?);
         }
         // The weight and volume of a mesh are known once its file is read.
-        let shapes: Option<Vec<_>> = shapes.into_iter().map(BodyOf::convex).collect();
+        let shapes: Option<Vec<_>> = shapes.into_iter().map(ToolBodySource::convex).collect();
         let Some(shapes) = shapes else {
             return Ok(());
         };
@@ -56,8 +56,8 @@ impl Scenario {
         let mut shapes = Vec::new();
         for (index, section) in self.tool_body.iter().enumerate() {
             shapes.push(match section_shape(index, section).map_err(refused)? {
-                BodyOf::Convex(shape) => shape,
-                BodyOf::Mesh { file, scale } => self.tool_hull(index, section, (file, scale))?,
+                ToolBodySource::Convex(shape) => shape,
+                ToolBodySource::Mesh { file, scale } => self.tool_hull(index, section, (file, scale))?,
             });
         }
         Ok(shapes)
@@ -113,12 +113,12 @@ impl Scenario {
 }
 
 /// Body of the tool, as far as its section states it.
-enum BodyOf<'a> {
+enum ToolBodySource<'a> {
     Convex(Shape),
     Mesh { file: &'a Path, scale: [f64; 3] },
 }
 
-impl BodyOf<'_> {
+impl ToolBodySource<'_> {
     fn convex(self) -> Option<Shape> {
         match self {
             Self::Convex(shape) => Some(shape),
@@ -127,13 +127,13 @@ impl BodyOf<'_> {
     }
 }
 
-fn section_shape(index: usize, section: &ToolBodySection) -> Result<BodyOf<'_>, Problem> {
+fn section_shape(index: usize, section: &ToolBodySection) -> Result<ToolBodySource<'_>, Problem> {
     let at = format!("tool_body[{index}]");
     section.check_name(&at)?;
     Ok(match section.body.stated(&at)? {
-        Stated::Convex(shape) => BodyOf::Convex(shape),
-        Stated::Mesh { file, scale } => BodyOf::Mesh { file, scale },
-        Stated::HalfSpace => {
+        SectionShape::Convex(shape) => ToolBodySource::Convex(shape),
+        SectionShape::Mesh { file, scale } => ToolBodySource::Mesh { file, scale },
+        SectionShape::HalfSpace => {
             let (keys, detail) = (format!("{at}.shape"), "a half-space is no body of a tool".to_owned());
             return Err(Problem::Conflict { keys, detail });
         }

@@ -6,7 +6,7 @@ use crate::error::{Problem, conflict};
 use crate::load;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::{Rigid, from_rpy};
+use platewash_kinematics::rotation::{RigidTransform, from_rpy};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -117,7 +117,7 @@ impl BodyShape {
 
 /// Shape as its section states it; a mesh is not read yet.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Stated<'a> {
+pub(crate) enum SectionShape<'a> {
     HalfSpace,
     Convex(Shape),
     Mesh { file: &'a Path, scale: [f64; 3] },
@@ -125,7 +125,7 @@ pub(crate) enum Stated<'a> {
 
 impl StatedShape {
     /// The shape of the section called `at` with the sizes that it states: no more and no fewer than the shape has.
-    pub(crate) fn stated(&self, at: &str) -> Result<Stated<'_>, Problem> {
+    pub(crate) fn stated(&self, at: &str) -> Result<SectionShape<'_>, Problem> {
         let wrong = |key: &str, detail: String| Problem::Conflict {
             keys: format!("{at}.{key}"),
             detail,
@@ -137,7 +137,7 @@ impl StatedShape {
         let missing = |key: &str| wrong(key, format!("is missing; {} has one", shape.words()));
         let radius_m = || self.radius_m.ok_or_else(|| missing("radius_m"));
         let half_length_m = || self.length_m.map(|m| 0.5 * m).ok_or_else(|| missing("length_m"));
-        Ok(Stated::Convex(match shape {
+        Ok(SectionShape::Convex(match shape {
             BodyShape::Box => {
                 let edges_m = self.size_m.ok_or_else(|| missing("size_m"))?;
                 let half_m = edges_m.map(|edge_m| 0.5 * edge_m);
@@ -152,10 +152,10 @@ impl StatedShape {
                 half_length_m: half_length_m()?,
             },
             BodyShape::Sphere => Shape::Sphere { radius_m: radius_m()? },
-            BodyShape::HalfSpace => return Ok(Stated::HalfSpace),
+            BodyShape::HalfSpace => return Ok(SectionShape::HalfSpace),
             BodyShape::Mesh => {
                 let file = self.mesh.as_deref();
-                return Ok(Stated::Mesh {
+                return Ok(SectionShape::Mesh {
                     file: file.ok_or_else(|| wrong("mesh", "is missing; it names the file".to_owned()))?,
                     scale: self.mesh_scale.unwrap_or([1.0; 3]),
                 });
@@ -196,7 +196,7 @@ pub(crate) fn only_of_mesh(at: &str, key: &str, shape: Option<BodyShape>) -> Res
 /// The pose at a place \[m\], turned by roll, pitch and yaw about fixed axes in the order x, y, z \[deg\], as in URDF.
 #[must_use]
 pub(crate) fn pose(at_m: [f64; 3], rpy_deg: [f64; 3]) -> Pose {
-    Pose::from(&Rigid {
+    Pose::from(&RigidTransform {
         rotation: from_rpy(rpy_deg.map(f64::to_radians)),
         translation: at_m.into(),
     })

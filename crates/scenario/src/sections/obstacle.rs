@@ -3,7 +3,7 @@
 use crate::error::Problem;
 use crate::keys::key::Domain::{Number, Plates, Text, Triple, Word};
 use crate::keys::key::{Key, key};
-use crate::sections::body_shape::{Stated, StatedShape, only_of_mesh, with_shape_keys};
+use crate::sections::body_shape::{SectionShape, StatedShape, only_of_mesh, with_shape_keys};
 use serde::{Deserialize, Serialize};
 
 /// The keys of `[[obstacle]]`.
@@ -95,7 +95,7 @@ pub enum MeshPartsName {
 #[serde(untagged)]
 pub enum HeldPlates {
     /// Every one.
-    Every(EveryPlate),
+    Every(AllPlates),
     /// Some, by their index.
     These(Vec<usize>),
 }
@@ -103,14 +103,14 @@ pub enum HeldPlates {
 /// The word for every plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum EveryPlate {
+pub enum AllPlates {
     /// `"all"`.
     All,
 }
 
 impl ObstacleSection {
     /// Its shape with the sizes that belong to it, no more and no fewer.
-    pub(crate) fn stated(&self, at: &str) -> Result<Stated<'_>, Problem> {
+    pub(crate) fn stated(&self, at: &str) -> Result<SectionShape<'_>, Problem> {
         let stated = self.body.stated(at)?;
         if self.mesh_parts.is_some() {
             only_of_mesh(at, "mesh_parts", self.body.shape)?;
@@ -122,7 +122,7 @@ impl ObstacleSection {
     pub(crate) fn held(&self, plates: usize) -> Vec<usize> {
         match &self.holds_plates {
             None => Vec::new(),
-            Some(HeldPlates::Every(EveryPlate::All)) => (0..plates).collect(),
+            Some(HeldPlates::Every(AllPlates::All)) => (0..plates).collect(),
             Some(HeldPlates::These(plates)) => plates.clone(),
         }
     }

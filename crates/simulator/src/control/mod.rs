@@ -22,7 +22,7 @@ pub use crate::control::error::ControlError;
 pub use crate::control::laws::{
     Command, ComputedTorque, ControlLaw, ExactLaw, Gains, Loop, PaperLaw, Pd, PdGravity, Reference,
 };
-pub use crate::control::stability::{Stability, Standing, check};
+pub use crate::control::stability::{OperatingPoint, Stability, check};
 
 use crate::control::stability::unstable;
 use crate::dynamics::DynamicsModel;
@@ -31,7 +31,7 @@ use platewash_kinematics::JointLimits;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
 
 /// Constructor of a torque law.
-type Made<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;
+type LawConstructor<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;
 
 /// Returns the law `name` without a plant, as the paper's program needs, with any gains.
 ///
@@ -73,10 +73,10 @@ pub fn law<'a>(
     settings: &ControlSettings,
     plant: &'a Plant,
     limits: &JointLimits,
-    configurations: &[Standing],
+    configurations: &[OperatingPoint],
     substeps: usize,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
-    let (of, made): (Loop, Made<'a>) = match name {
+    let (of, made): (Loop, LawConstructor<'a>) = match name {
         ControlLawName::Paper | ControlLawName::Exact => return stable_kinematic(name, settings),
         ControlLawName::Pd => (Loop::Torque, |_, gains, feed_forward| {
             Box::new(Pd { gains, feed_forward })

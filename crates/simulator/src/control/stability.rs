@@ -39,14 +39,14 @@ type Transition = SMatrix<f64, 12, 12>;
 
 /// A configuration about which a loop is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Standing {
+pub struct OperatingPoint {
     /// Joint positions \[rad\].
     pub q: JointVector,
     /// The foam on a plate there; `None` where nothing touches.
     pub contact: Option<ContactSlope>,
 }
 
-impl From<JointVector> for Standing {
+impl From<JointVector> for OperatingPoint {
     fn from(q: JointVector) -> Self {
         Self { q, contact: None }
     }
@@ -60,9 +60,9 @@ pub fn check(
     law: &Stability,
     rate_hz: f64,
     model: &DynamicsModel,
-    configurations: &[Standing],
-) -> Result<(), Box<Standing>> {
-    let fails = |at: &&Standing| !law.is_stable(&model.mass_matrix(&at.q), at.contact.as_ref(), 1.0 / rate_hz);
+    configurations: &[OperatingPoint],
+) -> Result<(), Box<OperatingPoint>> {
+    let fails = |at: &&OperatingPoint| !law.is_stable(&model.mass_matrix(&at.q), at.contact.as_ref(), 1.0 / rate_hz);
     configurations
         .iter()
         .find(fails)
@@ -180,8 +180,8 @@ pub(crate) fn unstable(
     law: ControlLawName,
     settings: &ControlSettings,
     stability: &Stability,
-    at: &Standing,
-    (model, configurations): (&DynamicsModel, &[Standing]),
+    at: &OperatingPoint,
+    (model, configurations): (&DynamicsModel, &[OperatingPoint]),
 ) -> ControlError {
     let rate_hz = settings.rate_hz;
     let holds = |law: &Stability, rate: f64| check(law, rate, model, configurations).is_ok();

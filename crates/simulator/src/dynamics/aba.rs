@@ -10,7 +10,7 @@
 
 use crate::dynamics::model::{DynamicsModel, Pass, Spatial};
 use nalgebra::{Matrix6, Point3, Vector3, Vector6};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, JointVector};
 
 /// (angular, linear) in the common frame.
@@ -158,7 +158,7 @@ impl DynamicsModel {
 #[derive(Debug, Clone, Copy)]
 pub struct FrameMotion {
     /// `T_base_frame`.
-    pub pose: Rigid,
+    pub pose: RigidTransform,
     /// z_j: axes of the joints that move it, zeros of the others.
     axes: [Vector3<f64>; AXES],
     /// z_j × (p − p_j): velocity of its origin when joint j turns at 1 rad/s \[m\].

@@ -4,7 +4,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::geometry::Inertial;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_workcell::tool::ToolMass;
 
 /// Mass properties of a rigid body in some frame.
@@ -31,7 +31,7 @@ impl RigidBody {
 
     /// The same body in another frame; `placed` is `T_new_old`.
     #[must_use]
-    pub fn in_frame(&self, placed: &Rigid) -> Self {
+    pub fn in_frame(&self, placed: &RigidTransform) -> Self {
         let turn = placed.rotation;
         Self {
             mass_kg: self.mass_kg,
@@ -65,7 +65,7 @@ impl RigidBody {
 
 impl From<&Inertial> for RigidBody {
     fn from(inertial: &Inertial) -> Self {
-        let placed = Rigid::from(&inertial.pose);
+        let placed = RigidTransform::from(&inertial.pose);
         Self {
             mass_kg: inertial.mass_kg,
             com_m: Vector3::zeros(),
@@ -91,7 +91,7 @@ const ROUNDING: f64 = 2e-6;
 /// Reason that no body has such mass properties.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Unphysical {
+pub enum MassPropertiesError {
     /// Not finite.
     #[error("mass, centre of mass and inertia must be finite")]
     NotFinite,
@@ -113,14 +113,14 @@ pub enum Unphysical {
 /// of the mass, and its eigenvalues are the halves of what the triangle inequality asks to be positive (P. Wensing, S. Kim,
 /// J.-J. Slotine, *Linear matrix inequalities for physically consistent inertial parameter identification*, IEEE RA-L 3,
 /// 2018).
-pub(crate) fn check(body: &RigidBody) -> Result<(), Unphysical> {
+pub(crate) fn check(body: &RigidBody) -> Result<(), MassPropertiesError> {
     let inertia = body.inertia_kg_m2;
     let finite = body.mass_kg.is_finite() && body.com_m.iter().chain(inertia.iter()).all(|v| v.is_finite());
     if !finite {
-        return Err(Unphysical::NotFinite);
+        return Err(MassPropertiesError::NotFinite);
     }
     if body.mass_kg <= 0.0 {
-        return Err(Unphysical::Mass(body.mass_kg));
+        return Err(MassPropertiesError::Mass(body.mass_kg));
     }
     let trace = inertia.trace();
     if inertia == Matrix3::zeros() {
@@ -130,7 +130,7 @@ pub(crate) fn check(body: &RigidBody) -> Result<(), Unphysical> {
     {
         return Ok(());
     }
-    Err(Unphysical::Inertia(inertia))
+    Err(MassPropertiesError::Inertia(inertia))
 }
 
 /// Checks that no principal minor is negative (Sylvester's criterion for semidefinite matrices).
@@ -216,19 +216,19 @@ mod tests {
                 mass_kg: 0.0,
                 ..body(fine)
             }),
-            Err(Unphysical::Mass(0.0))
+            Err(MassPropertiesError::Mass(0.0))
         );
         assert_eq!(
             check(&RigidBody {
                 mass_kg: f64::NAN,
                 ..body(fine)
             }),
-            Err(Unphysical::NotFinite)
+            Err(MassPropertiesError::NotFinite)
         );
-        assert_eq!(check(&body(fine * f64::INFINITY)), Err(Unphysical::NotFinite));
-        assert!(matches!(check(&body(-fine)), Err(Unphysical::Inertia(_))));
+        assert_eq!(check(&body(fine * f64::INFINITY)), Err(MassPropertiesError::NotFinite));
+        assert!(matches!(check(&body(-fine)), Err(MassPropertiesError::Inertia(_))));
         assert!(
-            matches!(check(&body(fine * f64::MAX)), Err(Unphysical::Inertia(_))),
+            matches!(check(&body(fine * f64::MAX)), Err(MassPropertiesError::Inertia(_))),
             "the trace overflows"
         );
     }

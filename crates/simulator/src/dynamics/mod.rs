@@ -19,6 +19,6 @@ pub mod model;
 mod rnea;
 
 pub use crate::dynamics::aba::FrameMotion;
-pub use crate::dynamics::body::Unphysical;
+pub use crate::dynamics::body::MassPropertiesError;
 pub use crate::dynamics::mass_matrix::{Energy, MassMatrix, spread};
 pub use crate::dynamics::model::{DynamicsError, DynamicsModel, STANDARD_GRAVITY_M_S2};

@@ -9,10 +9,10 @@
 //! In a common frame spatial vectors of different bodies are added without being transformed first (Featherstone 2008, §2.9),
 //! and with the origin at the wrist the small inertias there are not drowned by those of a long lever.
 
-use crate::dynamics::body::{self, RigidBody, Unphysical, steiner};
+use crate::dynamics::body::{self, MassPropertiesError, RigidBody, steiner};
 use nalgebra::{Matrix3, Vector3};
-use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::trig::{Separate, sin_cos_lanes};
+use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::{SeparateMulAdd, sin_cos_lanes};
 use platewash_kinematics::{AXES, JointVector, Link, Pose, RobotModel, ToolFrameError};
 use platewash_workcell::tool::Tool;
 
@@ -35,13 +35,13 @@ pub enum DynamicsError {
         /// The link.
         link: String,
         /// Reason that the mass properties are refused.
-        cause: Unphysical,
+        cause: MassPropertiesError,
     },
     /// A tool that cannot exist.
     #[error("tool: {cause}")]
     Tool {
         /// Reason that the mass properties are refused.
-        cause: Unphysical,
+        cause: MassPropertiesError,
     },
     /// The arm has no link that carries the tool.
     #[error(transparent)]
@@ -68,7 +68,7 @@ pub enum DynamicsError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicsModel {
     /// `F_i = T_{i−1}_i` at q = 0.
-    pub(crate) folded: [Rigid; AXES],
+    pub(crate) folded: [RigidTransform; AXES],
     pub(crate) bodies: [Body; AXES],
     /// Acceleration of free fall, base frame \[m/s²\].
     pub(crate) gravity: Vector3<f64>,
@@ -223,7 +223,7 @@ impl DynamicsModel {
             axes: std::array::from_fn(axis),
             moments: std::array::from_fn(|i| (poses[i].translation - origin).cross(&axis(i))),
             bodies: std::array::from_fn(|i| {
-                let (body, Rigid { rotation, translation }) = (&self.bodies[i], &poses[i]);
+                let (body, RigidTransform { rotation, translation }) = (&self.bodies[i], &poses[i]);
                 let d = translation - origin + rotation * body.com;
                 Spatial {
                     mass: body.mass,
@@ -236,10 +236,10 @@ impl DynamicsModel {
 
     /// `T_base_i` of the six bodies at `q` \[rad\].
     #[inline(always)]
-    pub(crate) fn poses(&self, q: &JointVector) -> [Rigid; AXES] {
-        let (sines, cosines) = sin_cos_lanes::<Separate, AXES>(q.as_ref());
+    pub(crate) fn poses(&self, q: &JointVector) -> [RigidTransform; AXES] {
+        let (sines, cosines) = sin_cos_lanes::<SeparateMulAdd, AXES>(q.as_ref());
         let mut poses = self.folded;
-        let mut before = Rigid::identity();
+        let mut before = RigidTransform::identity();
         for (i, pose) in poses.iter_mut().enumerate() {
             *pose = before.then(pose).turned_about_z(sines[i], cosines[i]);
             before = *pose;

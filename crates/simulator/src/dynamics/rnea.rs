@@ -12,8 +12,8 @@
 
 use crate::dynamics::model::{Body, DynamicsModel};
 use nalgebra::{Matrix3, Vector3};
-use platewash_kinematics::rotation::Rigid;
-use platewash_kinematics::trig::{Separate, sin_cos_lanes};
+use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::{SeparateMulAdd, sin_cos_lanes};
 use platewash_kinematics::{AXES, JointVector};
 
 /// Velocity and acceleration of a body, its own frame.
@@ -41,8 +41,9 @@ impl DynamicsModel {
     /// \[rad/s²\]: τ = M(q) q̈ + C(q, q̇) q̇ + g(q).
     #[must_use]
     pub fn inverse_dynamics(&self, q: &JointVector, qd: &JointVector, qdd: &JointVector) -> JointVector {
-        let (sines, cosines) = sin_cos_lanes::<Separate, AXES>(q.as_ref());
-        let placed: [Rigid; AXES] = std::array::from_fn(|i| self.folded[i].turned_about_z(sines[i], cosines[i]));
+        let (sines, cosines) = sin_cos_lanes::<SeparateMulAdd, AXES>(q.as_ref());
+        let placed: [RigidTransform; AXES] =
+            std::array::from_fn(|i| self.folded[i].turned_about_z(sines[i], cosines[i]));
         let mut motion = Motion {
             turning: Vector3::zeros(),
             turning_rate: Vector3::zeros(),
@@ -91,7 +92,7 @@ impl DynamicsModel {
 impl Motion {
     /// The motion of the next body, placed by (R, t), whose joint turns with `qd` and `qdd`.
     #[inline(always)]
-    fn behind(&self, placed: &Rigid, qd: f64, qdd: f64) -> Self {
+    fn behind(&self, placed: &RigidTransform, qd: f64, qdd: f64) -> Self {
         let (w, turn) = (self.turning, &placed.rotation);
         let carried = back(turn, &w);
         let at_joint = self.linear_rate + times(&swing(&w, &self.turning_rate), &placed.translation);

@@ -10,7 +10,7 @@
 //! a joint that should stick creeps at less than v₀.
 
 use crate::dynamics::DynamicsModel;
-use crate::plant::foam::Felt;
+use crate::plant::foam::FoamLoad;
 use crate::plant::sponge::{Push, SpongeOnPlates};
 use platewash_kinematics::{AXES, JointLimits, JointVector};
 use platewash_workcell::simulation::{Integrator, PlantSettings};
@@ -74,7 +74,7 @@ impl Plant {
         state: &PlantState,
         torque: &JointVector,
         h: f64,
-    ) -> (PlantState, JointVector, Felt) {
+    ) -> (PlantState, JointVector, FoamLoad) {
         let first = sponge.push(&self.model, state);
         let pushed = |push: &Push| torque + push.torque;
         let (next, qdd) = match self.integrator {

@@ -101,7 +101,7 @@ impl Foam {
 
 /// Load on the foam.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Felt {
+pub struct FoamLoad {
     /// Force along the tool's axis, of all plates together: Σ p dA \[N\].
     pub force_n: f64,
     /// The greatest compression of a column \[m\]; 0 where nothing touches.
@@ -113,7 +113,7 @@ pub struct Felt {
 pub(crate) struct Wrench {
     pub force: Vector3<f64>,
     pub moment: Vector3<f64>,
-    pub felt: Felt,
+    pub felt: FoamLoad,
     pub energy_j: f64,
 }
 

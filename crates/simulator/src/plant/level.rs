@@ -5,7 +5,7 @@
 //! plate, the sums over columns have a closed form: Σ share = 1, Σ share x = Σ share y = Σ share x y = 0 and Σ share x² = Σ share y² = m, as
 //! each ring of columns is a regular polygon of six corners or more. Then Σ share w = w₀ and Σ share w² = w₀² + m |s|².
 
-use crate::plant::foam::{DENSE_STRAIN, Felt, Foam, Wrench, rim_within, share_within};
+use crate::plant::foam::{DENSE_STRAIN, Foam, FoamLoad, Wrench, rim_within, share_within};
 use nalgebra::Vector3;
 use platewash_workcell::contact::{Columns, SpongePose};
 use std::f64::consts::PI;
@@ -99,7 +99,7 @@ impl LevelColumns {
         Wrench {
             force: Vector3::new(0.0, 0.0, force),
             moment: Vector3::new(lever.y, -lever.x, 0.0),
-            felt: Felt {
+            felt: FoamLoad {
                 force_n: stiffness * w,
                 deepest_m: outermost.map(|(at, _)| face.compression_m(at)).fold(0.0, f64::max),
             },

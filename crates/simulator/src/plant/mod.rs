@@ -15,5 +15,5 @@ mod level;
 pub mod sponge;
 
 pub use crate::plant::arm::{Friction, Plant, PlantState, TorqueLimits};
-pub use crate::plant::foam::{Felt, Foam, longest_step_s};
+pub use crate::plant::foam::{Foam, FoamLoad, longest_step_s};
 pub use crate::plant::sponge::{ContactSlope, Push, SpongeOnPlates};

@@ -14,7 +14,7 @@
 
 use crate::dynamics::{DynamicsModel, FrameMotion, MassMatrix};
 use crate::plant::arm::PlantState;
-use crate::plant::foam::{DENSE_FACTOR, Felt, Foam, Wrench, share_within};
+use crate::plant::foam::{DENSE_FACTOR, Foam, FoamLoad, Wrench, share_within};
 use crate::plant::level::LevelColumns;
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
@@ -61,7 +61,7 @@ pub struct Push {
     /// Torques at the joints \[N·m\].
     pub torque: JointVector,
     /// Load on the foam: the sum of forces along the tool's axis, and the greatest compression.
-    pub felt: Felt,
+    pub felt: FoamLoad,
     /// Energy in the foam \[J\].
     pub energy_j: f64,
 }
@@ -157,9 +157,9 @@ impl SpongeOnPlates {
 
     /// Load on the foam from one plate that is raised by `higher_m` along its axis, at rest at `q` \[rad\].
     #[must_use]
-    pub fn felt(&self, model: &DynamicsModel, q: &JointVector, plate: usize, higher_m: f64) -> Felt {
+    pub fn felt(&self, model: &DynamicsModel, q: &JointVector, plate: usize, higher_m: f64) -> FoamLoad {
         let Some(target) = self.plates.get(plate) else {
-            return Felt::default();
+            return FoamLoad::default();
         };
         let mut raised = target.plate;
         raised.pose.translation.vector += raised.axis() * higher_m;
@@ -168,7 +168,7 @@ impl SpongeOnPlates {
         if raised.may_touch(&at) {
             self.pressed(&raised, &at, &JointVector::zeros()).felt
         } else {
-            Felt::default()
+            FoamLoad::default()
         }
     }
 
@@ -227,7 +227,7 @@ impl SpongeOnPlates {
         Wrench {
             force: turn * wrench.force * left,
             moment: turn * (wrench.moment * left + upright),
-            felt: Felt {
+            felt: FoamLoad {
                 force_n: wrench.felt.force_n * left,
                 ..wrench.felt
             },

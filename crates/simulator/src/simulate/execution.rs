@@ -2,7 +2,7 @@
 //!
 //! Also here: the executed motion as CSV.
 
-use crate::plant::{Felt, PlantState, TorqueLimits};
+use crate::plant::{FoamLoad, PlantState, TorqueLimits};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::csv::{self, CsvError};
 use platewash_workcell::plan::Plan;
@@ -24,7 +24,7 @@ pub struct Sample {
     /// Torques held until the next sample, within the limits \[N·m\]; zeros under a kinematic law.
     pub torque: JointVector,
     /// Load on the sponge's foam; `None` where it is not simulated.
-    pub felt: Option<Felt>,
+    pub felt: Option<FoamLoad>,
 }
 
 /// Motion that the arm made.

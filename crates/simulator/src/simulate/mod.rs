@@ -31,7 +31,7 @@ pub use crate::simulate::measures::{
     Effort, JointEffort, PayloadCheck, PayloadVerdict, SegmentTracking, Spread, Tracking,
 };
 pub use crate::simulate::pressing::{
-    ContactLost, ExecutedContact, ForceAtHeight, ForceRange, HEIGHT_ERRORS_M, Pressing,
+    ContactLoss, ExecutedContact, ForceAtHeight, ForceRange, HEIGHT_ERRORS_M, Pressing,
 };
 pub use crate::simulate::report::{SimulationReport, SimulationVerdict};
 pub use crate::simulate::run::{MAX_SAMPLES, MAX_STEPS, simulate, simulate_watched, simulate_with};

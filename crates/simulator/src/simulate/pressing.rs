@@ -3,10 +3,10 @@
 //! Forces are those along the tool's axis, Σ p dA, as in the certificate. Measurements at samples, not bounds.
 
 use crate::dynamics::DynamicsModel;
-use crate::plant::{Felt, SpongeOnPlates};
+use crate::plant::{FoamLoad, SpongeOnPlates};
 use crate::simulate::execution::Sample;
 use platewash_kinematics::{Frame, JointVector};
-use platewash_workcell::contact::{Foundation, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::contact::{ContactSampler, ContactThresholds, Foundation, Moment, SpongePose};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
 use serde::Serialize;
@@ -49,7 +49,7 @@ pub struct ForceAtHeight {
 
 /// Contact that was lost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ContactLost {
+pub struct ContactLoss {
     /// Share of the wash's samples at which nothing touches.
     pub share: f64,
     /// Total time \[s\].
@@ -81,7 +81,7 @@ pub struct Pressing {
     /// Strain: the greatest compression over the free height.
     pub strain: f64,
     /// Contact lost; `None` where it never was.
-    pub lost: Option<ContactLost>,
+    pub lost: Option<ContactLoss>,
     /// The force of the plan's own poses, with the plate at other heights: −2, −1, 0, 1 and 2 mm.
     pub planned: [ForceAtHeight; HEIGHT_ERRORS_M.len()],
     /// Area in contact; `None` where the job asks for no contact.
@@ -102,7 +102,7 @@ pub(crate) struct Judge<'a> {
 impl Judge<'_> {
     /// Pressing over the samples of a wash of a plate, by its index; `None` without samples, or without foam.
     pub fn pressing(&self, samples: &[Sample], index: usize, plate: &Plate) -> Option<Pressing> {
-        let felt: Option<Vec<Felt>> = samples.iter().map(|sample| sample.felt).collect();
+        let felt: Option<Vec<FoamLoad>> = samples.iter().map(|sample| sample.felt).collect();
         let felt = felt.filter(|felt| !felt.is_empty())?;
         let deepest_m = felt.iter().map(|felt| felt.deepest_m).fold(0.0, f64::max);
         Some(Pressing {
@@ -115,10 +115,10 @@ impl Judge<'_> {
         })
     }
 
-    fn lost(&self, samples: &[Sample], felt: &[Felt]) -> Option<ContactLost> {
+    fn lost(&self, samples: &[Sample], felt: &[FoamLoad]) -> Option<ContactLoss> {
         let first = felt.iter().position(|felt| felt.deepest_m <= 0.0)?;
         let count = felt.iter().filter(|felt| felt.deepest_m <= 0.0).count();
-        Some(ContactLost {
+        Some(ContactLoss {
             share: count as f64 / felt.len() as f64,
             time_s: count as f64 * self.period_s,
             first_t_s: samples[first].t_s,
@@ -144,13 +144,13 @@ impl Judge<'_> {
             .step_by(stride)
             .map(|sample| self.moment(sample.t_s, &sample.state.q, &sample.state.qd, plate))
             .collect();
-        let wanted = Wanted {
+        let wanted = ContactThresholds {
             compression_m: required.compression_m,
             height_error_m: 0.0,
             time_s: required.time_s,
             dose_pa_m: required.dose_pa_m,
         };
-        let looks = Looks::new(&self.foundation, &moments, &wanted);
+        let looks = ContactSampler::new(&self.foundation, &moments, &wanted);
         let (mut whole_m2, mut kept_m2) = (0.0, [0.0; 3]);
         for (point, area_m2) in plate.surface.points(POINTS_APART_M) {
             let got = looks.at(&point);
@@ -182,7 +182,7 @@ impl Judge<'_> {
 
 impl ForceRange {
     /// Range over samples of equal duration; zeros without samples.
-    fn of(felt: &[Felt]) -> Self {
+    fn of(felt: &[FoamLoad]) -> Self {
         if felt.is_empty() {
             return Self::default();
         }

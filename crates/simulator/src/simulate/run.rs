@@ -4,9 +4,9 @@
 //!
 //! About which configurations a run must be stable: with nothing touching, and with the sponge on plates.
 
-use crate::control::{self, Command, ControlError, ControlLaw, Reference, Standing};
+use crate::control::{self, Command, ControlError, ControlLaw, OperatingPoint, Reference};
 use crate::dynamics::DynamicsModel;
-use crate::plant::{Felt, Plant, PlantState, SpongeOnPlates, longest_step_s};
+use crate::plant::{FoamLoad, Plant, PlantState, SpongeOnPlates, longest_step_s};
 use crate::simulate::error::{self, SimulationError};
 use crate::simulate::execution::{Execution, Sample};
 use nalgebra::Vector3;
@@ -112,7 +112,7 @@ fn plant(
 fn driving<'a>(
     plant: &'a Plant,
     robot: &RobotModel,
-    standings: &[Standing],
+    standings: &[OperatingPoint],
     duration_s: f64,
     settings: &SimulationSettings,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
@@ -142,7 +142,7 @@ struct Outcome {
     /// True where a limit cut the torque.
     is_cut: bool,
     /// Load on the foam at the sample.
-    felt: Option<Felt>,
+    felt: Option<FoamLoad>,
 }
 
 impl Run<'_> {
@@ -439,9 +439,13 @@ pub(crate) fn standings(
     motion: &Trajectory,
     plant: &Plant,
     sponge: Option<&SpongeOnPlates>,
-) -> Vec<Standing> {
+) -> Vec<OperatingPoint> {
     let stride = motion.positions().len().div_ceil(STABLE_AT).max(1);
-    let free = motion.positions().iter().step_by(stride).map(|q| Standing::from(*q));
+    let free = motion
+        .positions()
+        .iter()
+        .step_by(stride)
+        .map(|q| OperatingPoint::from(*q));
     let mut all: Vec<_> = free.collect();
     let Some(sponge) = sponge else { return all };
     let washes = plan.segments.iter().filter(|segment| segment.kind == SegmentKind::Wash);
@@ -451,7 +455,7 @@ pub(crate) fn standings(
         let moments = moments.map(|share| segment.t_start_s + share * (segment.t_end_s - segment.t_start_s));
         for q in moments.filter_map(|t_s| motion.at(t_s)).map(|state| state.q) {
             let slopes = sponge.slopes(&plant.model, &q, segment.plate);
-            all.extend(slopes.map(|slope| Standing {
+            all.extend(slopes.map(|slope| OperatingPoint {
                 q,
                 contact: Some(slope),
             }));
@@ -466,13 +470,13 @@ pub(crate) fn standings(
 /// [`SimulationError::StiffContact`], with settings that are short enough.
 pub(crate) fn check_steps(
     plant: &Plant,
-    standings: &[Standing],
+    standings: &[OperatingPoint],
     settings: &SimulationSettings,
 ) -> Result<(), SimulationError> {
     let Some(contact) = &settings.plant.contact else {
         return Ok(());
     };
-    let longest = |at: &Standing| {
+    let longest = |at: &OperatingPoint| {
         let slope = at.contact.as_ref()?;
         Some(longest_step_s(&plant.model.mass_matrix(&at.q), slope, plant.integrator))
     };

@@ -7,7 +7,7 @@ use super::fields::{Fields, colour_cells};
 use super::page;
 use super::subject::{Subject, Track, per_cent, short};
 use super::svg::{BAD, Drawing, EXECUTED, GOOD, LINE, MIDDLE, Rect, SMALL, WORDS, fill, stroke, width};
-use crate::view::Counted;
+use crate::view::PressedRule;
 use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::PlanSegment;
@@ -35,7 +35,7 @@ struct Map {
     place: usize,
     plate: usize,
     is_executed: bool,
-    counted: Option<Counted>,
+    counted: Option<PressedRule>,
     /// Time for which each cell counts \[s\]; `None` outside the rim.
     dwell_s: Vec<Option<f64>>,
 }
@@ -87,7 +87,7 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
         .washes()
         .filter_map(|(_, wash)| job.plates.get(wash.plate))
         .collect();
-    let counted: Vec<Option<Counted>> = washed.iter().map(|plate| Counted::on(plate, job)).collect();
+    let counted: Vec<Option<PressedRule>> = washed.iter().map(|plate| PressedRule::on(plate, job)).collect();
     let promised = counted.iter().flatten().find(|counted| counted.is_promised);
     let meaning = match (promised, &job.requirements.contact) {
         (Some(counted), Some(contact)) => format!(
@@ -132,7 +132,7 @@ impl Map {
     ) -> Self {
         let job = &subject.plan.job;
         let of = &job.plates[plate];
-        let counted = Counted::on(of, job);
+        let counted = PressedRule::on(of, job);
         let raster = swept(
             of,
             &job.workcell.tool,

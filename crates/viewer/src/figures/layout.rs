@@ -9,7 +9,7 @@ use super::svg::{
     BOLD, DASHED, DOTTED, Drawing, END, EXECUTED, GREY, GROUND, INK, LIFT, LINE, MIDDLE, PAPER, Rect, SMALL, Spot,
     TRANSIT, WASH, WORDS, fill, outlined, stroke,
 };
-use crate::view::Counted;
+use crate::view::PressedRule;
 use crate::view::coverage::proved_share;
 use crate::view::tips::Tip;
 use nalgebra::UnitQuaternion;
@@ -238,7 +238,7 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
 
 /// The share of a plate that is proved; without a certificate, the one that an arm swept.
 fn share_of(subject: &Subject<'_>, plate: &Plate, index: usize) -> Option<f64> {
-    let counted = Counted::on(plate, &subject.plan.job);
+    let counted = PressedRule::on(plate, &subject.plan.job);
     if let Some(certificate) = subject.certificate {
         return proved_share(certificate, index, counted);
     }

@@ -32,7 +32,7 @@ mod svg;
 pub use error::FigureError;
 pub use names::{Figure, UnknownFigure};
 pub use region::{RegionMap, draw_region};
-pub use subject::{Ideal, Subject};
+pub use subject::{IdealPath, Subject};
 
 use platewash_workcell::words::quoted;
 

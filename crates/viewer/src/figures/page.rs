@@ -11,7 +11,7 @@ const MARGIN: f64 = 50.0;
 
 /// The words around a figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Words {
+pub struct FigureTexts {
     /// Title of the figure.
     pub title: String,
     /// More of it, smaller.
@@ -23,7 +23,7 @@ pub struct Words {
 }
 
 /// A new sheet with its words, and where there is room for the rest.
-pub fn begin(words: &Words) -> (Drawing, Rect) {
+pub fn begin(words: &FigureTexts) -> (Drawing, Rect) {
     let mut drawing = Drawing::default();
     let [title, subtitle] =
         [(33, INK), (21, GREY)].map(|(size, colour)| format!("font-size=\"{size}\" fill=\"{colour}\""));

@@ -1,7 +1,7 @@
 //! Where an arm with its tool washes a plate, from above.
 
 use super::map::Map;
-use super::page::{self, Entry, SIZE, Sign, Words, legend};
+use super::page::{self, Entry, FigureTexts, SIZE, Sign, legend};
 use super::svg::{DASHED, DOTTED, Drawing, GREY, GROUND, INK, Rect, TRANSIT, fill, outlined, stroke};
 use platewash_kinematics::trig::sin_cos;
 
@@ -29,7 +29,7 @@ pub struct RegionMap {
 /// Draws the map: a text in SVG.
 #[must_use]
 pub fn draw_region(region: &RegionMap) -> String {
-    let words = Words {
+    let words = FigureTexts {
         title: "Where plates can be washed".to_owned(),
         subtitle: region.subtitle.clone(),
         caption: "Seen from above, from behind the arm: x leads away from it, y to its left. A square counts where the plate, with its \

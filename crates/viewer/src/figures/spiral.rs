@@ -6,7 +6,7 @@ use super::fields::{Fields, colour_cells};
 use super::page::{self, Entry, Sign, legend};
 use super::subject::{Subject, per_cent, short};
 use super::svg::{BOLD, DASHED, Drawing, END, EXECUTED, GROUND, INK, LINE, Rect, SMALL, Spot, fill, stroke};
-use crate::view::Counted;
+use crate::view::PressedRule;
 use crate::view::coverage::swept;
 use crate::view::tips::Tip;
 use platewash_workcell::plate::Plate;
@@ -97,7 +97,7 @@ fn reached(subject: &Subject<'_>) -> String {
     let job = &subject.plan.job;
     let sponge = format!("a sponge of {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
     let washed = subject.washes().filter_map(|(_, wash)| job.plates.get(wash.plate));
-    let counted: Vec<Option<Counted>> = washed.map(|plate| Counted::on(plate, job)).collect();
+    let counted: Vec<Option<PressedRule>> = washed.map(|plate| PressedRule::on(plate, job)).collect();
     match counted.iter().flatten().find(|counted| counted.is_promised) {
         Some(counted) => format!(
             "pressed by {} mm or more by {sponge}, the plate within ±{} mm",
@@ -144,7 +144,7 @@ impl<'a> Panel<'a> {
             axes.at(local.x, local.y)
         };
         let line: Vec<Spot> = self.way.iter().map(|tip| spot(&tip.at)).collect();
-        let counted = Counted::on(self.plate, job);
+        let counted = PressedRule::on(self.plate, job);
         let raster = swept(
             self.plate,
             &job.workcell.tool,

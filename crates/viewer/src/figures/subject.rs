@@ -1,7 +1,7 @@
 //! Subject of figures: a plan with its arm, and the further data on them; words that figures share.
 
 use super::error::{FARTHEST_M, FigureError};
-use super::page::Words;
+use super::page::FigureTexts;
 use crate::view::tips::{Tip, Tips};
 use nalgebra::Vector3;
 use platewash_certificate::Certificate;
@@ -26,7 +26,7 @@ const HASH: usize = 12;
 
 /// Path that the tip is to follow on a plate.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ideal {
+pub struct IdealPath {
     /// Index of the plate.
     pub plate: usize,
     /// The curve, world frame \[m\].
@@ -48,7 +48,7 @@ pub struct Subject<'a> {
     /// Region in which plates were drawn at random.
     pub region: TaskRegion,
     /// Path that the tip is to follow on each plate: by default the plan's wash paths.
-    pub ideal: Vec<Ideal>,
+    pub ideal: Vec<IdealPath>,
     /// Report on the executed motion.
     pub(super) report: Option<&'a SimulationReport>,
     pub(super) motion: Trajectory,
@@ -145,10 +145,10 @@ impl<'a> Subject<'a> {
     }
 
     /// The words around a figure.
-    pub(super) fn words(&self, title: &str, caption: String) -> Words {
+    pub(super) fn words(&self, title: &str, caption: String) -> FigureTexts {
         let hash = self.plan.hash.as_deref().unwrap_or("without a hash");
         let hash: String = hash.chars().take(HASH).collect();
-        Words {
+        FigureTexts {
             title: format!("{title}: {}", quoted(&self.plan.provenance.scenario)),
             subtitle: self.about(),
             caption,
@@ -209,14 +209,14 @@ fn checked(track: Track) -> Result<Track, FigureError> {
     }
 }
 
-fn wash_curves(plan: &Plan) -> Vec<Ideal> {
+fn wash_curves(plan: &Plan) -> Vec<IdealPath> {
     let curves = plan.wash_paths.iter().filter(|path| can_be_drawn(&path.curve));
     let ideal = curves.filter_map(|path| {
         let plate = plan.job.plates.get(path.plate)?;
         let thetas = path.curve.parameters(&plate.surface, CHORD_M);
         let points = thetas.into_iter().map(|theta| path.contact(plate, theta)).collect();
         let plate = path.plate;
-        Some(Ideal { plate, points })
+        Some(IdealPath { plate, points })
     });
     ideal.collect()
 }

@@ -15,7 +15,7 @@ use platewash_workcell::wash_path::WashPath;
 use std::sync::LazyLock;
 
 /// A washing with all data on it.
-struct Known {
+struct WashExample {
     job: WashJob,
     plan: Plan,
     certificate: Certificate,
@@ -23,7 +23,7 @@ struct Known {
     report: SimulationReport,
 }
 
-impl Known {
+impl WashExample {
     fn subject(&self) -> Subject<'_> {
         let subject = Subject::new(&self.plan, self.job.arm()).unwrap();
         let mut subject = subject.executed(&self.execution, &self.report).unwrap();
@@ -34,7 +34,7 @@ impl Known {
     }
 }
 
-static KNOWN: LazyLock<Known> = LazyLock::new(|| {
+static KNOWN: LazyLock<WashExample> = LazyLock::new(|| {
     let job = kitchen()
         .on_plates(vec![kitchen_plate([0.29, 0.11]), kitchen_plate([0.05, -0.34])])
         .unwrap()
@@ -42,7 +42,7 @@ static KNOWN: LazyLock<Known> = LazyLock::new(|| {
     let plan = plan(&job).unwrap().plan;
     let settings = &plan.job.simulation;
     let execution = simulate(&plan, job.arm(), settings).unwrap();
-    Known {
+    WashExample {
         certificate: prove(&plan, job.arm()).unwrap(),
         report: SimulationReport::new(&plan, job.arm(), settings, &execution).unwrap(),
         job,

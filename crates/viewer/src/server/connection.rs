@@ -4,9 +4,9 @@ use super::answer::{self, LINES, Refusal};
 use super::connections::{Place, Turns};
 use super::deadline::{Deadline, HEARTBEAT, LONG, LOOK, SHORT};
 use super::names::Names;
-use super::request::{self, Request, Wants};
-use super::service::{Gone, Service};
-use super::site::{Found, Site};
+use super::request::{self, Request, RequestKind};
+use super::service::{NoListener, Service};
+use super::site::{Site, SiteAnswer};
 use platewash_workcell::cancel::CancelToken;
 use std::io::{ErrorKind, Read, Result, Write};
 use std::net::{Shutdown, TcpStream};
@@ -22,7 +22,7 @@ const LINGER: Duration = Duration::from_millis(500);
 
 /// State that all connections of a server share.
 #[derive(Debug)]
-pub struct Served {
+pub struct ServerState {
     /// The site that is served.
     pub site: Site,
     /// Names of the server that requests may use.
@@ -32,7 +32,7 @@ pub struct Served {
 }
 
 /// Reads a request and answers it.
-pub fn serve(stream: &TcpStream, served: &Served, place: &Place) {
+pub fn serve(stream: &TcpStream, served: &ServerState, place: &Place) {
     // A client that leaves before the end of the answer does not need it.
     let head = request::read_head(Deadline::after(stream, SHORT));
     place.set_answered(true);
@@ -45,13 +45,13 @@ pub fn serve(stream: &TcpStream, served: &Served, place: &Place) {
     close(stream);
 }
 
-fn answer(stream: &TcpStream, served: &Served, place: &Place, head: &[u8]) -> Result<()> {
+fn answer(stream: &TcpStream, served: &ServerState, place: &Place, head: &[u8]) -> Result<()> {
     let (site, service) = (&served.site, served.site.service.as_deref());
     let request = match Request::judge(head, served.names, service) {
         Ok(request) => request,
         Err(refused) => return refused.write(&mut Deadline::after(stream, LONG), !head.starts_with(b"HEAD ")),
     };
-    if let (Wants::Answer(question), Some(service)) = (request.wants, service) {
+    if let (RequestKind::Answer(question), Some(service)) = (request.wants, service) {
         let begun = head.get(request.head_bytes..).unwrap_or_default();
         // While it is being sent it may have to go for another one.
         place.set_answered(false);
@@ -65,16 +65,16 @@ fn answer(stream: &TcpStream, served: &Served, place: &Place, head: &[u8]) -> Re
             Err(refused) => refused.write(&mut Deadline::after(stream, LONG), true),
         };
     }
-    let wants_contents = request.wants == Wants::Contents;
+    let wants_contents = request.wants == RequestKind::Contents;
     let found = site.find(&request);
     let mut out = Deadline::after(stream, LONG);
     match found {
         Err(refused) => refused.write(&mut out, wants_contents),
-        Ok(Found::Nothing) => answer::nothing(&mut out),
-        Ok(Found::Page(page)) => answer::page(&mut out, &page, wants_contents),
-        Ok(Found::NoPage(words)) => answer::no_page(&mut out, &words, wants_contents),
-        Ok(Found::Events(_)) if !wants_contents => answer::stream(&mut out, answer::EVENTS),
-        Ok(Found::Events(live)) => live.send(stream, request.last_event_id.as_deref()),
+        Ok(SiteAnswer::Nothing) => answer::nothing(&mut out),
+        Ok(SiteAnswer::Page(page)) => answer::page(&mut out, &page, wants_contents),
+        Ok(SiteAnswer::NoPage(words)) => answer::no_page(&mut out, &words, wants_contents),
+        Ok(SiteAnswer::Events(_)) if !wants_contents => answer::stream(&mut out, answer::EVENTS),
+        Ok(SiteAnswer::Events(live)) => live.send(stream, request.last_event_id.as_deref()),
     }
 }
 
@@ -108,7 +108,7 @@ fn answer_question(
             return Refusal::Full.write(&mut lines.out(), true);
         }
         // Ends the other thread even where the service panics.
-        let _done = Done(&lines.is_done);
+        let _done = DoneOnDrop(&lines.is_done);
         let answered = answer_in_turn(service, turns, path, body, &lines);
         // The answer ends here, and not when the thread that watches has seen it.
         let _ = stream.shutdown(Shutdown::Write);
@@ -135,7 +135,7 @@ fn answer_in_turn(
     let mut tell = |line| match gone.is_cancelled() || lines.line(line).is_err() {
         true => {
             gone.cancel();
-            Err(Gone)
+            Err(NoListener)
         }
         false => Ok(()),
     };
@@ -143,9 +143,9 @@ fn answer_in_turn(
     Ok(())
 }
 
-struct Done<'a>(&'a AtomicBool);
+struct DoneOnDrop<'a>(&'a AtomicBool);
 
-impl Drop for Done<'_> {
+impl Drop for DoneOnDrop<'_> {
     fn drop(&mut self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -19,20 +19,20 @@ const TO_WAIT: Duration = Duration::from_secs(10);
 /// All connections, oldest first.
 #[derive(Debug, Default)]
 pub struct Connections {
-    open: Mutex<Open>,
+    open: Mutex<OpenConnections>,
     left: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct Open {
-    streams: BTreeMap<u64, Connected>,
+struct OpenConnections {
+    streams: BTreeMap<u64, OpenConnection>,
     next: u64,
     /// Nobody comes in any more.
     is_closed: bool,
 }
 
 #[derive(Debug)]
-struct Connected {
+struct OpenConnection {
     stream: TcpStream,
     is_answered: bool,
 }
@@ -61,7 +61,7 @@ impl Connections {
         let number = open.next;
         open.next += 1;
         let is_answered = false;
-        open.streams.insert(number, Connected { stream, is_answered });
+        open.streams.insert(number, OpenConnection { stream, is_answered });
         let connections = self.clone();
         Some(Place { connections, number })
     }
@@ -73,11 +73,11 @@ impl Connections {
         for connected in open.streams.values() {
             let _ = connected.stream.shutdown(Shutdown::Both);
         }
-        let waits = |open: &mut Open| !open.streams.is_empty();
+        let waits = |open: &mut OpenConnections| !open.streams.is_empty();
         drop(self.left.wait_timeout_while(open, patience, waits));
     }
 
-    fn lock(&self) -> MutexGuard<'_, Open> {
+    fn lock(&self) -> MutexGuard<'_, OpenConnections> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

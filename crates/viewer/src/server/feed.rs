@@ -1,6 +1,6 @@
 //! Samples of a simulation into a live run, in real time.
 
-use super::live::{Live, Row};
+use super::live::{LiveRun, Row};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_simulator::simulate::Sample;
 use platewash_workcell::cancel::CancelToken;
@@ -20,7 +20,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Takes the samples of a simulation as they are computed, slows it down to real time, and sends some of them to a live run.
 #[derive(Debug)]
 pub struct Feed<'a> {
-    live: &'a Live,
+    live: &'a LiveRun,
     arm: &'a RobotModel,
     token: &'a CancelToken,
     tip: Frame,
@@ -36,7 +36,7 @@ pub struct Feed<'a> {
 impl<'a> Feed<'a> {
     /// Feed for the simulation of a plan on its arm; it begins with its first sample. `token` ends all waiting.
     #[must_use]
-    pub fn new(live: &'a Live, plan: &Plan, arm: &'a RobotModel, token: &'a CancelToken) -> Self {
+    pub fn new(live: &'a LiveRun, plan: &Plan, arm: &'a RobotModel, token: &'a CancelToken) -> Self {
         Self {
             live,
             arm,
@@ -116,7 +116,7 @@ mod tests {
 
     /// All rows that a run sends of samples, fed without waiting.
     fn rows(plan: &Plan, arm: &RobotModel, samples: &[Sample]) -> Vec<Row> {
-        let (live, token) = (Live::new(""), CancelToken::new());
+        let (live, token) = (LiveRun::new(""), CancelToken::new());
         token.cancel();
         let mut feed = Feed::new(&live, plan, arm, &token);
         samples.iter().for_each(|sample| feed.sample(sample));

@@ -1,7 +1,7 @@
 //! The port, and the thread that accepts.
 
 use super::answer::Refusal;
-use super::connection::{self, Served};
+use super::connection::{self, ServerState};
 use super::connections::{Connections, Turns};
 use super::error::ServerError;
 use super::names::Names;
@@ -34,7 +34,7 @@ pub struct Listener {
 pub struct Server {
     address: SocketAddr,
     ends: Arc<AtomicBool>,
-    served: Arc<Served>,
+    served: Arc<ServerState>,
     connections: Arc<Connections>,
     accepting: Option<JoinHandle<()>>,
 }
@@ -66,7 +66,7 @@ impl Listener {
         let mut server = Server {
             address: self.address,
             ends: Arc::default(),
-            served: Arc::new(Served { site, names, turns }),
+            served: Arc::new(ServerState { site, names, turns }),
             connections: Arc::default(),
             accepting: None,
         };
@@ -107,7 +107,7 @@ impl Drop for Server {
     }
 }
 
-fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<Served>, all: &Arc<Connections>) {
+fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<ServerState>, all: &Arc<Connections>) {
     while !ends.load(Ordering::Relaxed) {
         match listener.accept() {
             Ok(_) if ends.load(Ordering::Relaxed) => {}
@@ -118,7 +118,7 @@ fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<Served>, all: 
 }
 
 /// Gives a connection a thread. A connection without a place gets an answer that says so; one without a thread is closed.
-fn welcome(stream: TcpStream, served: &Arc<Served>, all: &Arc<Connections>) {
+fn welcome(stream: TcpStream, served: &Arc<ServerState>, all: &Arc<Connections>) {
     let Some(place) = all.enter(&stream) else {
         return turn_away(stream);
     };

@@ -48,14 +48,14 @@ pub struct LiveEnd {
 
 /// A live run, shared.
 #[derive(Debug)]
-pub struct Live {
+pub struct LiveRun {
     tag: String,
-    told: Mutex<Told>,
+    told: Mutex<LiveLog>,
     changed: Condvar,
 }
 
 #[derive(Debug)]
-struct Told {
+struct LiveLog {
     state: LiveState,
     rows: Vec<Row>,
     end: Option<LiveEnd>,
@@ -66,14 +66,14 @@ struct Told {
     is_closed: bool,
 }
 
-impl Live {
+impl LiveRun {
     /// A run that has not begun. `tag` distinguishes runs, as a plan's hash does: a page of one run gets no events of another
     /// one. Its letters and digits count.
     #[must_use]
     pub fn new(tag: &str) -> Arc<Self> {
         Arc::new(Self {
             tag: tag.chars().filter(char::is_ascii_alphanumeric).collect(),
-            told: Mutex::new(Told {
+            told: Mutex::new(LiveLog {
                 state: LiveState::Waiting,
                 rows: Vec::new(),
                 end: None,
@@ -146,7 +146,7 @@ impl Live {
         write(&mut out(), &format!("retry: {RETRY_MS}\n\n"))?;
         loop {
             let told = self.lock();
-            let is_old = |told: &mut Told| {
+            let is_old = |told: &mut LiveLog| {
                 !told.is_closed && known == Some(told.state) && told.rows.len() <= next && told.end.is_none()
             };
             let woken = self.changed.wait_timeout_while(told, HEARTBEAT, is_old);
@@ -191,7 +191,7 @@ impl Live {
         Some(Follower(self))
     }
 
-    fn wait(&self, patience: Duration, token: &CancelToken, until: impl Fn(&Told) -> bool) -> bool {
+    fn wait(&self, patience: Duration, token: &CancelToken, until: impl Fn(&LiveLog) -> bool) -> bool {
         let begin = Instant::now();
         let mut told = self.lock();
         while !until(&told) {
@@ -204,12 +204,12 @@ impl Live {
         true
     }
 
-    fn tell(&self, news: impl FnOnce(&mut Told)) {
+    fn tell(&self, news: impl FnOnce(&mut LiveLog)) {
         news(&mut self.lock());
         self.changed.notify_all();
     }
 
-    fn lock(&self) -> MutexGuard<'_, Told> {
+    fn lock(&self) -> MutexGuard<'_, LiveLog> {
         self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -221,7 +221,7 @@ impl Live {
 }
 
 /// One who follows a run, until it is dropped.
-struct Follower<'a>(&'a Live);
+struct Follower<'a>(&'a LiveRun);
 
 impl Drop for Follower<'_> {
     fn drop(&mut self) {
@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn there_are_only_so_many_followers_and_one_that_leaves_makes_room() {
-        let live = Live::new("a");
+        let live = LiveRun::new("a");
         let mut followers: Vec<_> = (0..FOLLOWERS).map(|_| live.enter().unwrap()).collect();
         assert!(live.enter().is_none());
         followers.pop();
@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn a_run_waits_for_a_page_and_for_all_to_know_its_end() {
-        let (live, token) = (Live::new("a"), CancelToken::new());
+        let (live, token) = (LiveRun::new("a"), CancelToken::new());
         assert!(!live.wait_for_page(NOW, &token));
         let (headline, washed) = ("WASHED".to_owned(), Some(true));
         live.finish(LiveEnd { headline, washed });
@@ -274,14 +274,14 @@ mod tests {
 
     #[test]
     fn a_wait_is_given_up_when_told_so() {
-        let (live, token) = (Live::new("a"), CancelToken::new());
+        let (live, token) = (LiveRun::new("a"), CancelToken::new());
         token.cancel();
         assert!(!live.wait_for_page(Duration::from_secs(1000), &token));
     }
 
     #[test]
     fn a_run_is_known_by_its_tag() {
-        let live = Live::new("a1&b=\r\n?é");
+        let live = LiveRun::new("a1&b=\r\n?é");
         assert_eq!(live.events(), "/events?run=a1b");
         assert!(live.is_asked_for("run=a1b") && !live.is_asked_for("run=a1") && !live.is_asked_for(""));
     }

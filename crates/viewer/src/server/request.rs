@@ -2,7 +2,7 @@
 
 use super::answer::Refusal;
 use super::names::Names;
-use super::service::{Asked, Service};
+use super::service::{QuestionLimits, Service};
 use super::token::is_token;
 use httparse::{EMPTY_HEADER, Error, Header, Status};
 use std::io::{ErrorKind, Read};
@@ -23,7 +23,7 @@ const TOKEN: &str = "x-platewash-token";
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
     /// Kind of answer that is asked for.
-    pub wants: Wants,
+    pub wants: RequestKind,
     /// From `/` to `?`.
     pub path: String,
     /// Behind `?`.
@@ -36,7 +36,7 @@ pub struct Request {
 
 /// Kind of answer that a request asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wants {
+pub enum RequestKind {
     /// Headers and contents.
     Contents,
     /// The headers alone.
@@ -49,7 +49,7 @@ pub enum Wants {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Question {
     /// Its kind.
-    pub asked: Asked,
+    pub asked: QuestionLimits,
     /// Its length \[bytes\].
     pub length: usize,
 }
@@ -130,11 +130,11 @@ impl Request {
         let asked = service.and_then(|service| Some((service, service.knows(path?)?)));
         let wants = match (parsed.method, asked) {
             (Some("POST"), Some((service, asked))) => {
-                Wants::Answer(Question::judge(&headers, host, asked, service.token())?)
+                RequestKind::Answer(Question::judge(&headers, host, asked, service.token())?)
             }
             (_, Some(_)) => return Err(Refusal::QuestionMethod),
-            (Some("GET"), None) => Wants::Contents,
-            (Some("HEAD"), None) => Wants::Headers,
+            (Some("GET"), None) => RequestKind::Contents,
+            (Some("HEAD"), None) => RequestKind::Headers,
             _ => return Err(Refusal::Method),
         };
         let length = headers.one("content-length")?.filter(|length| length.trim() != "0");
@@ -181,7 +181,7 @@ impl<'a> Headers<'a> {
 
 impl Question {
     /// Judges the headers of a question that came to `host`, one of this server's names.
-    fn judge(headers: &Headers<'_>, host: &str, asked: Asked, token: &str) -> Result<Self, Refusal> {
+    fn judge(headers: &Headers<'_>, host: &str, asked: QuestionLimits, token: &str) -> Result<Self, Refusal> {
         // Only a page that was loaded from here under the very name that it asks: browsers state the origin of each POST.
         let origin = headers.one("origin")?.and_then(|origin| origin.strip_prefix("http://"));
         let is_own = origin.is_some_and(|origin| origin.eq_ignore_ascii_case(host));
@@ -228,7 +228,7 @@ mod tests {
     fn a_request_is_its_path_and_what_it_missed() {
         let asked = with("GET /events?run=7 HTTP/1.1", "last-event-id: 41\r\nAccept: */*\r\n").unwrap();
         let expected = Request {
-            wants: Wants::Contents,
+            wants: RequestKind::Contents,
             path: "/events".to_owned(),
             query: Some("run=7".to_owned()),
             last_event_id: Some("41".to_owned()),
@@ -236,7 +236,7 @@ mod tests {
         };
         assert_eq!(asked, expected);
         let asked = with("HEAD / HTTP/1.0", "").unwrap();
-        assert!(asked.wants == Wants::Headers && asked.query.is_none());
+        assert!(asked.wants == RequestKind::Headers && asked.query.is_none());
     }
 
     #[test]
@@ -308,9 +308,9 @@ mod tests {
     }
 
     /// A source that gives so many bytes at a time, and then no more, or an error.
-    struct Slow<'a>(&'a [u8], usize, Option<ErrorKind>);
+    struct SlowSource<'a>(&'a [u8], usize, Option<ErrorKind>);
 
-    impl Read for Slow<'_> {
+    impl Read for SlowSource<'_> {
         fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
             let step = self.1.min(buffer.len()).min(self.0.len());
             let (now, later) = self.0.split_at(step);
@@ -328,7 +328,7 @@ mod tests {
         let text: Vec<u8> = (0..=255).cycle().take(3 * CHUNK + 7).collect();
         for with_head in [0, 1, CHUNK, text.len()] {
             for step in [1000, CHUNK, text.len()] {
-                let source = Slow(&text[with_head..], step, None);
+                let source = SlowSource(&text[with_head..], step, None);
                 let read = read_question(source, &text[..with_head], text.len());
                 assert!(read.as_ref() == Ok(&text), "{with_head} {step}");
             }
@@ -337,7 +337,7 @@ mod tests {
 
     #[test]
     fn what_stands_behind_a_question_is_left_there() {
-        let mut source = Slow(b"defGET / HTTP/1.1", 100, None);
+        let mut source = SlowSource(b"defGET / HTTP/1.1", 100, None);
         assert_eq!(read_question(&mut source, b"abc", 6), Ok(b"abcdef".to_vec()));
         assert_eq!(source.0, b"GET / HTTP/1.1");
         assert_eq!(read_question(&mut source, b"abcGET /", 3), Ok(b"abc".to_vec()));
@@ -347,9 +347,12 @@ mod tests {
 
     #[test]
     fn a_question_that_ends_early_is_none_and_one_that_stops_is_late() {
-        assert_eq!(read_question(Slow(b"ab", 1, None), b"", 3), Err(Refusal::Garbled));
+        assert_eq!(read_question(SlowSource(b"ab", 1, None), b"", 3), Err(Refusal::Garbled));
         for kind in [ErrorKind::WouldBlock, ErrorKind::TimedOut, ErrorKind::ConnectionReset] {
-            assert_eq!(read_question(Slow(b"ab", 1, Some(kind)), b"", 3), Err(Refusal::Late));
+            assert_eq!(
+                read_question(SlowSource(b"ab", 1, Some(kind)), b"", 3),
+                Err(Refusal::Late)
+            );
         }
     }
 
@@ -358,7 +361,7 @@ mod tests {
         for text in ["GET / HTTP/1.1\r\nHost: a\r\n\r\n", "GET / HTTP/1.0\nHost: a\n\n"] {
             for step in 1..=text.len() {
                 assert_eq!(
-                    read_head(Slow(text.as_bytes(), step, None)),
+                    read_head(SlowSource(text.as_bytes(), step, None)),
                     Ok(Some(text.into())),
                     "{step}"
                 );
@@ -376,14 +379,14 @@ mod tests {
     fn a_head_without_an_end_is_read_up_to_its_bound() {
         let endless = vec![b'a'; HEAD_BYTES + 1];
         for step in [1, 1000, CHUNK] {
-            let mut source = Slow(&endless, step, None);
+            let mut source = SlowSource(&endless, step, None);
             assert_eq!(read_head(&mut source), Err(Refusal::TooLong));
             assert_eq!(source.0.len(), 1);
         }
     }
 
     const HOST: &str = "localhost:8080";
-    const ASKED: Asked = Asked {
+    const ASKED: QuestionLimits = QuestionLimits {
         is_work: false,
         most_bytes: 100,
     };
@@ -394,7 +397,7 @@ mod tests {
         ("Content-Length", "100"),
     ];
 
-    fn judged_question(headers: &[(&str, &str)], asked: Asked) -> Result<Question, Refusal> {
+    fn judged_question(headers: &[(&str, &str)], asked: QuestionLimits) -> Result<Question, Refusal> {
         let header = |&(name, value): &(&'static str, &'static str)| Header {
             name,
             value: value.as_bytes(),

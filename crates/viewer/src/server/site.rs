@@ -1,7 +1,7 @@
 //! Contents that are served.
 
 use super::answer::Refusal;
-use super::live::{EVENTS, Live};
+use super::live::{EVENTS, LiveRun};
 use super::request::Request;
 use super::service::Service;
 use std::borrow::Cow;
@@ -20,7 +20,7 @@ pub struct Site {
     /// The page.
     pub page: Page,
     /// The run whose events it shows; `None` for a page of a finished result.
-    pub live: Option<Arc<Live>>,
+    pub live: Option<Arc<LiveRun>>,
     /// Service that answers its questions; `None` where it has none, and nothing but reading is allowed.
     pub service: Option<Arc<dyn Service>>,
 }
@@ -30,20 +30,20 @@ pub enum Page {
     /// The same text each time.
     Fixed(String),
     /// Made anew each time; or why it cannot be, which is shown as text.
-    Made(Box<MakePage>),
+    Made(Box<PageMaker>),
 }
 
 /// Makes a page.
-pub type MakePage = dyn Fn() -> Result<String, Box<dyn Error + Send + Sync>> + Send + Sync;
+pub type PageMaker = dyn Fn() -> Result<String, Box<dyn Error + Send + Sync>> + Send + Sync;
 
 /// Answer to a request.
-pub enum Found<'a> {
+pub enum SiteAnswer<'a> {
     /// The page.
     Page(Cow<'a, str>),
     /// Reason that there is no page.
     NoPage(String),
     /// Events as they come.
-    Events(&'a Arc<Live>),
+    Events(&'a Arc<LiveRun>),
     /// Empty answer.
     Nothing,
 }
@@ -57,27 +57,27 @@ impl Site {
     }
 
     /// Finds the answer to a request.
-    pub fn find(&self, request: &Request) -> Result<Found<'_>, Refusal> {
+    pub fn find(&self, request: &Request) -> Result<SiteAnswer<'_>, Refusal> {
         match (request.path.as_str(), &self.live) {
             (PAGE, _) => Ok(self.page.found()),
-            (ICON, _) => Ok(Found::Nothing),
+            (ICON, _) => Ok(SiteAnswer::Nothing),
             (EVENTS, Some(live)) if request.query.as_deref().is_none_or(|query| live.is_asked_for(query)) => {
-                Ok(Found::Events(live))
+                Ok(SiteAnswer::Events(live))
             }
             // A page of another plan that was open before on this port: it is not to show this one's motion.
-            (EVENTS, Some(_)) => Ok(Found::Nothing),
+            (EVENTS, Some(_)) => Ok(SiteAnswer::Nothing),
             _ => Err(Refusal::NotFound),
         }
     }
 }
 
 impl Page {
-    fn found(&self) -> Found<'_> {
+    fn found(&self) -> SiteAnswer<'_> {
         match self {
-            Self::Fixed(page) => Found::Page(Cow::Borrowed(page)),
+            Self::Fixed(page) => SiteAnswer::Page(Cow::Borrowed(page)),
             Self::Made(make) => match make() {
-                Ok(page) => Found::Page(Cow::Owned(page)),
-                Err(error) => Found::NoPage(error.to_string()),
+                Ok(page) => SiteAnswer::Page(Cow::Owned(page)),
+                Err(error) => SiteAnswer::NoPage(error.to_string()),
             },
         }
     }

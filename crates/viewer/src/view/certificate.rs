@@ -1,6 +1,6 @@
 //! The proof, in the words of the certificate.
 
-use platewash_certificate::{self as proved, Status, Worst};
+use platewash_certificate::{self as proved, Status, WorstCase};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::words::printable;
 use serde::Serialize;
@@ -71,8 +71,8 @@ impl Certificate {
 }
 
 /// A worst place in words, but for its time and its coordinates.
-fn place(worst: &Worst) -> String {
-    let named = Worst {
+fn place(worst: &WorstCase) -> String {
+    let named = WorstCase {
         time_s: None,
         place_m: None,
         ..worst.clone()

@@ -4,7 +4,7 @@ use super::numbers::Numbers;
 use nalgebra::{Point3, Vector3};
 use platewash_certificate::{self as proved, ClearanceRule, Requirement};
 use platewash_kinematics::RobotModel;
-use platewash_workcell::clearance::Nearest;
+use platewash_workcell::clearance::NearestBodies;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::Trajectory;
 use rayon::prelude::*;
@@ -47,7 +47,7 @@ impl Clearance {
             let state = motion.at(*t_s)?;
             Some((*t_s, rule.nearest(&state.q, segment_at(plan, *t_s))?))
         };
-        let found: Vec<(f64, Nearest)> = times.par_iter().filter_map(look).collect();
+        let found: Vec<(f64, NearestBodies)> = times.par_iter().filter_map(look).collect();
         let mount = &plan.job.workcell.mount;
         let in_world = |at: &[f64; 3]| -> Vector3<f64> { mount.transform_point(&Point3::from(*at)).coords };
         let points = found.iter().flat_map(|(_, nearest)| nearest.points_m);

@@ -5,7 +5,7 @@
 //! that moment: tilted by τ, its face is an ellipse that holds this disc. It counts while the plan washes the plate, as long as
 //! the sponge touches ([`platewash_workcell::tool::Tool::touch`]).
 
-use super::pressed::Counted;
+use super::pressed::PressedRule;
 use super::raster::{Disc, Marks, Raster};
 use super::tips::{Tip, washes};
 use platewash_certificate as proved;
@@ -32,7 +32,7 @@ pub struct PlateCoverage {
     /// Half of the square's edge: the rim's radius \[m\].
     pub half_m: f64,
     /// Contact that counts; `None` where the sponge only has to be over a place.
-    pub counted: Option<Counted>,
+    pub counted: Option<PressedRule>,
     /// Times at which each place counts, and for how long.
     #[serde(flatten)]
     pub marks: Marks,
@@ -66,7 +66,7 @@ pub(super) fn plates(
         let plate = plan.job.plates.get(index)?;
         let of_plate = washes(plan).filter(|(washed, _)| *washed == index);
         let ways = of_plate.map(|(_, span)| tips(span));
-        let counted = Counted::on(plate, &plan.job);
+        let counted = PressedRule::on(plate, &plan.job);
         let tool = &plan.job.workcell.tool;
         Some(PlateCoverage {
             plate: index,
@@ -86,7 +86,11 @@ fn edge(plates: usize) -> usize {
 }
 
 /// The least share of a plate that counts, as it is proved.
-pub(crate) fn proved_share(certificate: &proved::Certificate, plate: usize, counted: Option<Counted>) -> Option<f64> {
+pub(crate) fn proved_share(
+    certificate: &proved::Certificate,
+    plate: usize,
+    counted: Option<PressedRule>,
+) -> Option<f64> {
     if counted.is_some_and(|counted| counted.is_promised) {
         let of = certificate.contact.iter().find(|contact| contact.plate == plate);
         return of.map(|contact| contact.pressed.at_least);
@@ -99,7 +103,7 @@ pub(crate) fn proved_share(certificate: &proved::Certificate, plate: usize, coun
 pub(crate) fn swept(
     plate: &Plate,
     tool: &Tool,
-    counted: Option<&Counted>,
+    counted: Option<&PressedRule>,
     ways: impl Iterator<Item = Vec<Tip>>,
     cells: usize,
 ) -> Raster {

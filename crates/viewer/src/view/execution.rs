@@ -39,7 +39,7 @@ pub enum Source {
 
 /// Facts about an execution besides its samples.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Told {
+pub struct ExecutionFacts {
     /// Source of the execution.
     pub source: Source,
     /// The control law, where it is known.
@@ -52,7 +52,7 @@ pub struct Told {
     pub torque_limit_n_m: Option<[f64; 6]>,
 }
 
-impl Told {
+impl ExecutionFacts {
     /// Facts about an execution of which only the source is known.
     fn new(source: Source, law: Option<ControlLawName>) -> Self {
         Self {
@@ -67,12 +67,12 @@ impl Told {
 
 /// Executed motion, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Executed {
-    told: Told,
+pub struct ExecutedMotion {
+    told: ExecutionFacts,
     samples: Vec<RecordedSample>,
 }
 
-impl Executed {
+impl ExecutedMotion {
     /// A simulation with its report. Under a kinematic law there are no torques.
     #[must_use]
     pub fn simulated(execution: &simulator::Execution, report: &SimulationReport) -> Self {
@@ -85,12 +85,12 @@ impl Executed {
             torque: driven.then_some(sample.torque),
             force_n: None,
         });
-        let told = Told {
+        let told = ExecutionFacts {
             headline: Some(report.headline.clone()),
             // A dry run has no requirements on washing.
             washed: report.dry_run.is_none().then_some(report.verdict.is_done()),
             torque_limit_n_m: execution.limits.and_then(|limits| all(limits.0)),
-            ..Told::new(Source::Simulated, Some(report.law))
+            ..ExecutionFacts::new(Source::Simulated, Some(report.law))
         };
         let samples = samples.collect();
         Self { told, samples }
@@ -108,10 +108,10 @@ impl Executed {
             torque: None,
             force_n: None,
         });
-        let told = Told {
+        let told = ExecutionFacts {
             headline: Some(headline.to_owned()),
             washed: Some(washed),
-            ..Told::new(Source::Simulated, Some(law))
+            ..ExecutionFacts::new(Source::Simulated, Some(law))
         };
         let samples = samples.collect();
         Self { told, samples }
@@ -121,7 +121,7 @@ impl Executed {
     #[must_use]
     pub fn recorded(motion: &RecordedMotion) -> Self {
         Self {
-            told: Told::new(Source::Recorded, None),
+            told: ExecutionFacts::new(Source::Recorded, None),
             samples: motion.samples.clone(),
         }
     }
@@ -129,9 +129,9 @@ impl Executed {
     /// A simulation under a law that begins now: its samples come as it runs.
     #[must_use]
     pub fn live(law: ControlLawName, torque_limit_n_m: [Option<f64>; 6]) -> Self {
-        let told = Told {
+        let told = ExecutionFacts {
             torque_limit_n_m: all(torque_limit_n_m),
-            ..Told::new(Source::Live, Some(law))
+            ..ExecutionFacts::new(Source::Live, Some(law))
         };
         let samples = Vec::new();
         Self { told, samples }
@@ -149,7 +149,7 @@ fn all(limits: [Option<f64>; 6]) -> Option<[f64; 6]> {
 pub struct Execution {
     /// Facts about it.
     #[serde(flatten)]
-    pub told: Told,
+    pub told: ExecutionFacts,
     /// \[n\] \[s\].
     pub t_s: Numbers,
     /// \[n, 6\] \[rad\].
@@ -170,7 +170,7 @@ impl Execution {
     /// # Errors
     /// [`ViewError::BeyondEnd`].
     pub(super) fn new(
-        executed: &Executed,
+        executed: &ExecutedMotion,
         plan: &Plan,
         tips: &Tips<'_>,
         certificate: Option<&proved::Certificate>,

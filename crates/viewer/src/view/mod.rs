@@ -36,11 +36,11 @@ pub use certificate::{Certificate, Check, Contact};
 pub use clearance::Clearance;
 pub use coverage::PlateCoverage;
 pub use error::ViewError;
-pub use execution::{Executed, Execution, Source, Told};
+pub use execution::{ExecutedMotion, Execution, ExecutionFacts, Source};
 pub use heading::Heading;
 pub use numbers::{Data, Numbers};
 pub use plates::{Plate, WashPath};
-pub use pressed::Counted;
+pub use pressed::PressedRule;
 pub use raster::Marks;
 
 use platewash_certificate as proved;
@@ -128,11 +128,11 @@ impl From<&Trajectory> for Motion {
 
 /// Data shown beside a plan.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Beside<'a> {
+pub struct ViewExtras<'a> {
     /// Its proof.
     pub certificate: Option<&'a proved::Certificate>,
     /// Executed motion of the plan.
-    pub executed: Option<&'a Executed>,
+    pub executed: Option<&'a ExecutedMotion>,
     /// Region in which its scenario draws plates at random.
     pub region: Option<&'a TaskRegion>,
     /// Path of the events of a live run.
@@ -144,7 +144,7 @@ impl View {
     ///
     /// # Errors
     /// [`ViewError`] for a plan that is no motion, a job with which nothing can be computed, or a motion of another plan.
-    pub fn of_plan(plan: &Plan, robot: &RobotModel, beside: &Beside<'_>) -> Result<Self, ViewError> {
+    pub fn of_plan(plan: &Plan, robot: &RobotModel, beside: &ViewExtras<'_>) -> Result<Self, ViewError> {
         let (job, certificate) = (&plan.job, beside.certificate);
         job.validate()?;
         let motion = plan.knots.motion()?;

@@ -6,7 +6,7 @@
 use super::raster::Raster;
 use super::tips::Tip;
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Foundation, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::contact::{ContactSampler, ContactThresholds, Foundation, Moment, SpongePose};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
@@ -14,7 +14,7 @@ use serde::Serialize;
 
 /// Contact that counts as pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Counted {
+pub struct PressedRule {
     /// Least compression of the foam \[m\].
     pub compression_m: f64,
     /// Error of the plate's height, up or down, within which it must hold \[m\].
@@ -23,7 +23,7 @@ pub struct Counted {
     pub is_promised: bool,
 }
 
-impl Counted {
+impl PressedRule {
     /// Contact that counts on a plate of a job; `None` where the sponge only has to be over a place: on a flat face without a
     /// promise of contact, and without a tool.
     #[must_use]
@@ -49,7 +49,7 @@ impl Counted {
     pub(crate) fn add(&self, raster: &mut Raster, plate: &Plate, tool: &Tool, way: &[Tip]) {
         // The stiffness does not matter: no force is computed.
         let foundation = Foundation::stiff(&tool.sponge, [0.0; 2]);
-        let wanted = Wanted {
+        let wanted = ContactThresholds {
             compression_m: self.compression_m,
             height_error_m: self.height_error_m,
             time_s: 0.0,
@@ -61,7 +61,7 @@ impl Counted {
                 continue;
             }
             let moments: Vec<Moment> = stretch.iter().map(|tip| moment(plate, tip)).collect();
-            let looks = Looks::new(&foundation, &moments, &wanted);
+            let looks = ContactSampler::new(&foundation, &moments, &wanted);
             raster.add_stays(|[x, y]| {
                 let height_m = plate.surface.height_m((x * x + y * y).sqrt());
                 looks.stays(&Vector3::new(x, y, height_m))

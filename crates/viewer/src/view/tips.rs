@@ -1,7 +1,7 @@
 //! The tip along a motion, in the world.
 
 use nalgebra::Vector3;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::{SegmentKind, Trajectory};
@@ -28,7 +28,7 @@ pub(crate) struct Tip {
 pub(crate) struct Tips<'a> {
     robot: &'a RobotModel,
     motion: &'a Trajectory,
-    mount: Rigid,
+    mount: RigidTransform,
     tip: Frame,
 }
 
@@ -38,7 +38,7 @@ impl<'a> Tips<'a> {
         Self {
             robot,
             motion,
-            mount: Rigid::from(&workcell.mount),
+            mount: RigidTransform::from(&workcell.mount),
             tip: workcell.tool.tip_frame(robot),
         }
     }

@@ -2,12 +2,12 @@
 
 use crate::clearance::convex::HullFault;
 use crate::clearance::model::ClearanceError;
-use crate::clearance::part::{Part, Placed};
+use crate::clearance::part::{Part, PlacedPart};
 use crate::clearance::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
 /// Body for which clearances are computed.
@@ -72,7 +72,7 @@ pub(crate) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> 
         let parts = link
             .collision
             .iter()
-            .map(|p| Part::new(&p.shape, link.frame.offset(&Rigid::from(&p.pose))));
+            .map(|p| Part::new(&p.shape, link.frame.offset(&RigidTransform::from(&p.pose))));
         bodies.push(Body {
             name: link.name.clone(),
             kind: BodyKind::Link(link.frame.body()),
@@ -96,7 +96,7 @@ pub(crate) fn part_pairs(a: &Body, b: &Body) -> impl Iterator<Item = (usize, usi
 }
 
 /// Places the outer parts of the bodies at the poses of the arm's bodies.
-pub(crate) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<Placed<'a>>> {
+pub(crate) fn place<'a>(bodies: &'a [Body], poses: &BodyPoses) -> Vec<Vec<PlacedPart<'a>>> {
     let parts = |body: &'a Body| body.outer().iter().map(|part| part.place(poses)).collect();
     bodies.iter().map(parts).collect()
 }
@@ -125,7 +125,7 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
         return Ok(Vec::new());
     }
     let flange = tool.mounting_frame(robot);
-    let at = |pose: &Pose| flange.offset(&Rigid::from(pose));
+    let at = |pose: &Pose| flange.offset(&RigidTransform::from(pose));
     let rigid = tool.bodies.iter();
     let mut bodies: Vec<_> = rigid
         .map(|b| body(&b.name, BodyKind::Tool, Part::new(&b.shape, at(&b.pose))))
@@ -139,7 +139,7 @@ fn tool_bodies(robot: &RobotModel, tool: &Tool) -> Result<Vec<Body>, ClearanceEr
 
 /// Returns the body of an obstacle.
 pub(crate) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError> {
-    let frame = Frame::base().offset(&Rigid::from(&obstacle.pose));
+    let frame = Frame::base().offset(&RigidTransform::from(&obstacle.pose));
     let grown = |part: Part| part.grown(obstacle.margin_m);
     let made = match &obstacle.shape {
         ObstacleShape::HalfSpace => body(&obstacle.name, BodyKind::Floor, Ok(Part::half_space(frame))),
@@ -168,7 +168,7 @@ pub(crate) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Bo
         || {
             // It has a volume.
             let (shape, pose) = plate.enclosure();
-            let part = Part::new(&shape, Frame::base().offset(&Rigid::from(&pose)));
+            let part = Part::new(&shape, Frame::base().offset(&RigidTransform::from(&pose)));
             (None, part.into_iter().collect())
         },
         |(tree, parts)| (Some(tree), parts),

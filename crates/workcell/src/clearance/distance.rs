@@ -13,7 +13,7 @@
 //! extreme points and steps to the point of their affine hull nearest to the origin, or, where that leaves their convex hull, to
 //! its border.
 
-use crate::clearance::part::{Core, Extent, Placed};
+use crate::clearance::part::{Core, Extent, PlacedPart};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::details::closest_points_segment_segment;
 use parry3d_f64::query::{ClosestPoints, DefaultQueryDispatcher, QueryDispatcher};
@@ -43,7 +43,7 @@ impl Separation {
 
 /// Returns the distance between two parts, and a lower bound of it \[m\], up to the rounding of closed forms and support functions. If the
 /// cores meet, the radii around them determine it.
-pub(crate) fn bracketed(a: &Placed<'_>, b: &Placed<'_>) -> (Separation, f64) {
+pub(crate) fn bracketed(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> (Separation, f64) {
     let mut found = separation(a, b);
     let normal = Vector::from_array(found.normal);
     if a.is_exact_with(b) || normal == Vector::ZERO {
@@ -58,11 +58,11 @@ pub(crate) fn bracketed(a: &Placed<'_>, b: &Placed<'_>) -> (Separation, f64) {
 }
 
 /// Nearest points of two cores, base frame; equal if the cores meet.
-type Nearest = (Vector, Vector);
+type NearestPoints = (Vector, Vector);
 
 /// Returns the distance between two parts quickly. It may be too great by some hundredths of a millimetre (see [`bracket`]). NaN poses give
 /// NaN, never a distance of 0.
-pub(crate) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
+pub(crate) fn separation(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> Separation {
     if !(a.pose.translation.is_finite() && b.pose.translation.is_finite()) {
         return Separation {
             distance: f64::NAN,
@@ -93,7 +93,7 @@ pub(crate) fn separation(a: &Placed<'_>, b: &Placed<'_>) -> Separation {
 }
 
 /// Nearest points of two segments, a closed form.
-fn segments(a: &Placed<'_>, half_a: f64, b: &Placed<'_>, half_b: f64) -> Nearest {
+fn segments(a: &PlacedPart<'_>, half_a: f64, b: &PlacedPart<'_>, half_b: f64) -> NearestPoints {
     let (sa, sb) = (a.segment(half_a), b.segment(half_b));
     match closest_points_segment_segment(&Pose::IDENTITY, &sa, &sb, f64::MAX) {
         ClosestPoints::WithinMargin(p, q) => (p, q),
@@ -102,7 +102,7 @@ fn segments(a: &Placed<'_>, half_a: f64, b: &Placed<'_>, half_b: f64) -> Nearest
 }
 
 /// Returns the point of a part's core that is nearest to a point, base frame; for a half-space, the point itself.
-pub(crate) fn nearest_to(part: &Placed<'_>, point: Vector) -> Vector {
+pub(crate) fn nearest_to(part: &PlacedPart<'_>, point: Vector) -> Vector {
     match part.core {
         Core::Segment(half) => {
             let axis = part.pose.rotation * Vector::Z;
@@ -115,7 +115,7 @@ pub(crate) fn nearest_to(part: &Placed<'_>, point: Vector) -> Vector {
 }
 
 /// Nearest points of a segment or point and a solid: a point is projected, a segment uses the iterative routine.
-fn segment_and_solid(a: &Placed<'_>, half: f64, b: &Placed<'_>, solid: &SharedShape) -> Nearest {
+fn segment_and_solid(a: &PlacedPart<'_>, half: f64, b: &PlacedPart<'_>, solid: &SharedShape) -> NearestPoints {
     let segment = a.segment(half);
     if half == 0.0 {
         let projection = solid.project_point(&b.pose, segment.a, true);
@@ -125,7 +125,7 @@ fn segment_and_solid(a: &Placed<'_>, half: f64, b: &Placed<'_>, solid: &SharedSh
 }
 
 /// Nearest points of two convex shapes by GJK.
-fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Nearest {
+fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> NearestPoints {
     let relative = pose_a.inv_mul(pose_b);
     match DefaultQueryDispatcher.closest_points(&relative, a, b, f64::MAX) {
         Ok(ClosestPoints::WithinMargin(p, q)) => (*pose_a * p, *pose_b * q),
@@ -134,7 +134,7 @@ fn iterative(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> Near
 }
 
 /// Height of a part over a half-space, a closed form. `towards` is 1 if the half-space comes first, else −1.
-fn over_half_space(space: &Placed<'_>, part: &Placed<'_>, towards: f64) -> Separation {
+fn over_half_space(space: &PlacedPart<'_>, part: &PlacedPart<'_>, towards: f64) -> Separation {
     let up = space.pose.rotation * Vector::Z;
     let height = |p: &Vector| space.height_of(*p);
     let lowest = |points: &mut dyn Iterator<Item = Vector>| {
@@ -167,7 +167,7 @@ fn level_direction(up: Vector) -> Vector {
 }
 
 /// Returns the lowest point of a cylinder where `up` is up: down along its axis, then down the steepest way across.
-fn lowest_of_cylinder(part: &Placed<'_>, radius: f64, half: f64, up: Vector) -> Vector {
+fn lowest_of_cylinder(part: &PlacedPart<'_>, radius: f64, half: f64, up: Vector) -> Vector {
     let axis = part.pose.rotation * Vector::Y;
     let along = axis.dot(up);
     let down_axis = if along > 0.0 { -axis } else { axis };
@@ -205,7 +205,7 @@ pub(crate) struct Bracket {
 impl Bracket {
     /// Returns the bounds for the cores of two parts, from the nearest points that another routine found: their direction, not zero, and
     /// their distance \[m\].
-    pub fn new(a: &Placed<'_>, b: &Placed<'_>, normal: Vector, distance: f64) -> Self {
+    pub fn new(a: &PlacedPart<'_>, b: &PlacedPart<'_>, normal: Vector, distance: f64) -> Self {
         let nearest = |n: Vector| b.extreme(-n) - a.extreme(n);
         let first = nearest(normal);
         let mut bracket = Self {

@@ -14,7 +14,7 @@ use crate::clearance::distance::nearest_to;
 use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
 use crate::clearance::motion::ROUNDING_M;
-use crate::clearance::part::{Part, Placed};
+use crate::clearance::part::{Part, PlacedPart};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -25,16 +25,16 @@ use platewash_kinematics::{BodyPoses, JointVector};
 pub struct MovingPart<'a> {
     part: &'a Part,
     greatest: Levers,
-    obstacles: Vec<Standing<'a>>,
+    obstacles: Vec<PlacedObstacle<'a>>,
 }
 
 /// Obstacle, placed.
-struct Standing<'a> {
+struct PlacedObstacle<'a> {
     pair: usize,
-    parts: Vec<Placed<'a>>,
+    parts: Vec<PlacedPart<'a>>,
 }
 
-impl std::fmt::Debug for Standing<'_> {
+impl std::fmt::Debug for PlacedObstacle<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Standing({})", self.pair)
     }
@@ -58,7 +58,7 @@ impl ClearanceModel {
         let with_obstacles = |(moving, obstacles): (usize, Vec<(usize, usize)>)| {
             let zero = &zero;
             self.bodies[moving].outer().iter().map(move |part| {
-                let standing = |&(pair, body): &(usize, usize)| Standing {
+                let standing = |&(pair, body): &(usize, usize)| PlacedObstacle {
                     pair,
                     parts: self.bodies[body].outer().iter().map(|part| part.place(zero)).collect(),
                 };
@@ -99,7 +99,7 @@ impl MovingPart<'_> {
     /// Returns lower bounds of the distances from some obstacles \[m\], by their index in the list.
     pub fn gaps<'b>(&'b self, poses: &BodyPoses, obstacles: &'b [usize]) -> impl Iterator<Item = f64> + 'b {
         let placed = self.part.place(poses);
-        let of = move |standing: &Standing<'_>| {
+        let of = move |standing: &PlacedObstacle<'_>| {
             standing
                 .parts
                 .iter()
@@ -113,7 +113,7 @@ impl MovingPart<'_> {
 }
 
 /// Lower bound of the distance of a fixed and a moving part \[m\], rounding included.
-fn gap(standing: &Placed<'_>, moving: &Placed<'_>) -> f64 {
+fn gap(standing: &PlacedPart<'_>, moving: &PlacedPart<'_>) -> f64 {
     let spheres = standing.sphere_gap(moving);
     let middle = moving.pose.translation;
     let away = middle - nearest_to(standing, middle);
@@ -178,7 +178,7 @@ impl Crowd {
     pub fn near<'a>(
         &'a self,
         leaves: &'a [bool],
-        part: &'a Placed<'a>,
+        part: &'a PlacedPart<'a>,
         is_enough: impl Fn(f64) -> bool + Copy + 'a,
     ) -> impl Iterator<Item = usize> + 'a {
         let point = Aabb::new(part.pose.translation, part.pose.translation);
@@ -211,7 +211,7 @@ fn around(body: &Body, poses: &BodyPoses) -> Option<Aabb> {
 }
 
 /// Returns the box around a bounded part at its current pose.
-fn around_part(part: &Placed<'_>) -> Aabb {
+fn around_part(part: &PlacedPart<'_>) -> Aabb {
     let along = |way: [Vector; 3]| Vector::from(way.map(|way| part.support(way)));
     let ways = [Vector::X, Vector::Y, Vector::Z];
     Aabb::new(-along(ways.map(|way| -way)), along(ways))

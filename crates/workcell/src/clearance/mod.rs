@@ -22,7 +22,7 @@
 //! | a quick yes or no for planners | `washing.rs` |
 //! | the convex parts of a mesh | `solid.rs` |
 //! | how far those reach beyond the mesh | `excess.rs` |
-//! | two plates; obstacles that reach into plates or the base | `standing.rs` |
+//! | two plates; obstacles that reach into plates or the base | `fixed_bodies.rs` |
 //! | bounds between configurations; of many obstacles at once | `motion.rs`, `lever.rs`; `far.rs` |
 
 mod body;
@@ -30,13 +30,13 @@ mod convex;
 mod distance;
 mod excess;
 pub mod far;
+mod fixed_bodies;
 pub mod lever;
 mod model;
 pub mod motion;
 mod pairs;
 mod part;
 mod solid;
-mod standing;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -44,10 +44,10 @@ mod washing;
 
 pub use crate::clearance::convex::{Triangulated, hull_triangles};
 pub use crate::clearance::excess::excess_m;
-pub use crate::clearance::model::{ClearanceError, ClearanceModel, Nearest, PairClearance, is_clear};
+pub use crate::clearance::fixed_bodies::{FixedBody, FixedOverlap, gap_of_plates, standing_overlaps};
+pub use crate::clearance::model::{ClearanceError, ClearanceModel, NearestBodies, PairClearance, is_clear};
 pub use crate::clearance::pairs::{TouchingPairs, exclusions};
 pub use crate::clearance::solid::{SolidError, SolidParts, solid_parts};
-pub use crate::clearance::standing::{Standing, StandingOverlap, gap_of_plates, standing_overlaps};
 
 /// Greatest gap between the bounds of a stated distance between solids \[m\].
 pub const ITERATIVE_ERROR_M: f64 = distance::ERROR_M;

@@ -7,7 +7,7 @@ use crate::clearance::convex::{MOST_CORNERS, MOST_VERTICES};
 use crate::clearance::distance::{Separation, bracketed};
 use crate::clearance::far::{Crowd, Pairs};
 use crate::clearance::pairs;
-use crate::clearance::part::Placed;
+use crate::clearance::part::PlacedPart;
 use crate::clearance::tree::Order;
 use crate::plate::Plate;
 use crate::words::printable;
@@ -30,7 +30,7 @@ pub struct PairClearance {
 
 /// The two bodies of a model that are nearest to each other at one configuration, with their nearest points.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
+pub struct NearestBodies {
     /// The two bodies, by index in [`ClearanceModel::body_names`].
     pub bodies: [usize; 2],
     /// Distance \[m\]; ≤ 0 if they touch or overlap.
@@ -150,9 +150,9 @@ impl ClearanceModel {
 
     /// Same as [`ClearanceModel::smallest`], with both of the nearest points.
     #[must_use]
-    pub fn nearest(&self, q: &JointVector, working: &[usize]) -> Option<Nearest> {
+    pub fn nearest(&self, q: &JointVector, working: &[usize]) -> Option<NearestBodies> {
         let (a, b, found) = self.least(q, working)?;
-        Some(Nearest {
+        Some(NearestBodies {
             bodies: [a, b],
             distance_m: found.distance,
             points_m: found.points(),
@@ -230,7 +230,7 @@ impl ClearanceModel {
         &self,
         (a, b): (usize, usize),
         (p, r): (usize, usize),
-        (placed, poses): (&[Vec<Placed<'_>>], &BodyPoses),
+        (placed, poses): (&[Vec<PlacedPart<'_>>], &BodyPoses),
         below: f64,
     ) -> Option<Separation> {
         let (outer, at_least) = bracketed(&placed[a][p], &placed[b][r]);
@@ -248,7 +248,7 @@ impl ClearanceModel {
         (a, b): (usize, usize),
         (p, r): (usize, usize),
         poses: &BodyPoses,
-        measure: impl Fn(&Placed<'_>, &Placed<'_>) -> Separation,
+        measure: impl Fn(&PlacedPart<'_>, &PlacedPart<'_>) -> Separation,
         below: f64,
     ) -> Option<Option<Separation>> {
         let (first, second) = (&self.bodies[a], &self.bodies[b]);

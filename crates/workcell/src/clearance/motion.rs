@@ -18,7 +18,7 @@ use crate::clearance::body::BodyKind;
 use crate::clearance::distance::bracketed;
 use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
-use crate::clearance::part::{Part, Placed};
+use crate::clearance::part::{Part, PlacedPart};
 use parry3d_f64::math::Vector;
 use platewash_kinematics::{BodyPoses, JointVector};
 use std::ops::Range;
@@ -90,7 +90,7 @@ impl<'a> PartPairs<'a> {
 
 /// Distance of two parts at one configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measured {
+pub struct PartDistance {
     /// Distance found \[m\]; ≤ 0 if they touch or overlap.
     pub distance_m: f64,
     /// Proved lower bound of the distance \[m\]: the gap along `normal` if the parts do not overlap.
@@ -198,11 +198,11 @@ impl<'a> PartPair<'a> {
     }
 
     /// Measures the distance.
-    pub fn measure(&self, poses: &BodyPoses) -> Measured {
+    pub fn measure(&self, poses: &BodyPoses) -> PartDistance {
         let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
         let (found, at_least) = bracketed(&fixed, &moving);
         let normal = fixed.pose.rotation.inverse() * Vector::from_array(found.normal);
-        Measured {
+        PartDistance {
             distance_m: found.distance,
             at_least_m: at_least - ROUNDING_M,
             place_m: found.place,
@@ -222,7 +222,7 @@ impl<'a> PartPair<'a> {
         let outwards = || moving.outwards().map(|outwards| -outwards);
         let only = fixed.outwards().or_else(outwards);
         let normal = only.unwrap_or_else(|| Vector::from_array(normal));
-        let from = |part: &Placed<'_>, direction: Vector| part.support(direction);
+        let from = |part: &PlacedPart<'_>, direction: Vector| part.support(direction);
         -from(&moving, -normal) - from(&fixed, normal) - ROUNDING_M
     }
 

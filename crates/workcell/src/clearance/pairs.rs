@@ -10,7 +10,7 @@ use crate::clearance::model::ClearanceError;
 use crate::tool::{StraightTool, Tool};
 use crate::workcell::{Exclusion, ExclusionReason, Obstacle};
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use serde::Serialize;
 use std::fmt::Write;
@@ -228,7 +228,7 @@ const OFF: f64 = 1e-4;
 /// is then the same in every configuration.
 pub(crate) fn is_round_about_axis_6(flange: &Frame, shape: &Shape, pose: &Pose) -> bool {
     // Axis 6 is z of the frame of its body.
-    let body = flange.on_body().then(&Rigid::from(pose));
+    let body = flange.on_body().then(&RigidTransform::from(pose));
     let is_on_axis = body.translation.xy().norm() <= OFF;
     let is_along = body.rotation.column(2).xy().norm() <= OFF;
     match shape {

@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Cuboid, Cylinder, Segment, SharedShape};
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, Frame};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -48,7 +48,7 @@ pub(crate) struct Part {
 }
 
 /// Part at one configuration, base frame.
-pub(crate) struct Placed<'a> {
+pub(crate) struct PlacedPart<'a> {
     pub core: &'a Core,
     pub radius: f64,
     pub pose: Pose,
@@ -136,7 +136,7 @@ impl Part {
     }
 
     /// Returns the part moved by a transform, for a body that is fixed to the base and stands elsewhere.
-    pub fn carried(&self, by: &Rigid) -> Self {
+    pub fn carried(&self, by: &RigidTransform) -> Self {
         Self {
             frame: Frame::base().offset(&by.then(self.frame.on_body())),
             ..self.clone()
@@ -178,18 +178,18 @@ impl Part {
     }
 
     /// Returns the frame that the part is fixed to, base frame.
-    pub fn rigid(&self, poses: &BodyPoses) -> Rigid {
+    pub fn rigid(&self, poses: &BodyPoses) -> RigidTransform {
         poses.rigid(&self.frame)
     }
 
     /// Lower bound of the distance to another part from its bounding sphere \[m\]; `here` and `there` are the parts' [`Part::rigid`].
-    pub fn gap_to_sphere(&self, here: &Rigid, other: &Self, there: &Rigid) -> f64 {
+    pub fn gap_to_sphere(&self, here: &RigidTransform, other: &Self, there: &RigidTransform) -> f64 {
         self.distance_to_point(here, &there.translation) - other.bounding
     }
 
     /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and half-spaces, below 0 within the latter;
     /// otherwise a lower bound from the bounding sphere.
-    fn distance_to_point(&self, here: &Rigid, point: &Vector3<f64>) -> f64 {
+    fn distance_to_point(&self, here: &RigidTransform, point: &Vector3<f64>) -> f64 {
         let away = point - here.translation;
         match &self.core {
             Core::HalfSpace => here.rotation.column(2).dot(&away) - self.radius,
@@ -228,7 +228,7 @@ impl Part {
         Levers::from_fn(|i, _| if i < body { levers[i] + self.bounding } else { 0.0 })
     }
 
-    /// Same as [`Placed::sphere_gap`], without placing the parts.
+    /// Same as [`PlacedPart::sphere_gap`], without placing the parts.
     pub fn sphere_gap(&self, other: &Self, poses: &BodyPoses) -> f64 {
         let (here, there) = (poses.rigid(&self.frame), poses.rigid(&other.frame));
         match (&self.core, &other.core) {
@@ -239,13 +239,13 @@ impl Part {
     }
 
     /// Places the part at the poses of the arm's bodies.
-    pub fn place(&self, poses: &BodyPoses) -> Placed<'_> {
+    pub fn place(&self, poses: &BodyPoses) -> PlacedPart<'_> {
         let pose: Pose = poses.pose(&self.frame).into();
         let pose = match &self.core {
             Core::Solid(_, Extent::Cylinder(..)) => pose * Pose::rotation(Vector::new(Y_TO_Z, 0.0, 0.0)),
             _ => pose,
         };
-        Placed {
+        PlacedPart {
             core: &self.core,
             radius: self.radius,
             pose,
@@ -254,7 +254,7 @@ impl Part {
     }
 }
 
-impl Placed<'_> {
+impl PlacedPart<'_> {
     /// Radius of the sphere about its frame's origin that holds the part \[m\].
     pub fn bounding(&self) -> f64 {
         self.bounding
@@ -285,7 +285,7 @@ impl Placed<'_> {
     }
 
     /// Reach of the part along a unit direction from the base frame's origin \[m\]. A half-space has a finite reach only along
-    /// [`Placed::outwards`].
+    /// [`PlacedPart::outwards`].
     pub fn support(&self, direction: Vector) -> f64 {
         let local = self.pose.rotation.inverse() * direction;
         let beyond = match self.core {

@@ -5,12 +5,12 @@
 
 use crate::clearance::convex::HullFault;
 use crate::clearance::distance::Separation;
-use crate::clearance::part::{Part, Placed};
+use crate::clearance::part::{Part, PlacedPart};
 use crate::plate::{Foot, Plate, PlateParts};
 use crate::surface::Surface;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, Frame, Pose};
 use std::ops::Range;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ pub(crate) enum Order {
 impl Solid {
     fn of(plate: &Plate) -> Option<Self> {
         let made = PlateParts::of(plate);
-        let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&Rigid::from(pose))).ok();
+        let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&RigidTransform::from(pose))).ok();
         let whole = part(&made.whole)?;
         let mut parts = made.single.iter().map(part).collect::<Option<Vec<_>>>()?;
         let mut groups: Vec<_> = (0..parts.len())
@@ -72,7 +72,7 @@ impl Solid {
         for turns in made.turns.chunks(SECTORS) {
             let first = parts.len();
             for turn in turns {
-                let by = Rigid::from(&Pose::from_parts(Vector3::zeros().into(), *turn));
+                let by = RigidTransform::from(&Pose::from_parts(Vector3::zeros().into(), *turn));
                 parts.extend(sector.iter().map(|part| part.carried(&by)));
             }
             let members = first..parts.len();
@@ -107,7 +107,7 @@ fn around(parts: &[Part]) -> Option<Part> {
         .iter()
         .map(|corner| (corner - middle).norm())
         .fold(0.0, f64::max);
-    let at = Rigid::from(&Pose::from_parts(middle.into(), nalgebra::UnitQuaternion::identity()));
+    let at = RigidTransform::from(&Pose::from_parts(middle.into(), nalgebra::UnitQuaternion::identity()));
     Some(Part::ball(radius, Frame::base().offset(&at)))
 }
 
@@ -125,7 +125,7 @@ impl Tree {
             Some(solid) => solid.clone(),
             None => Arc::new(Solid::of(plate)?),
         };
-        let by = Rigid::from(&plate.pose);
+        let by = RigidTransform::from(&plate.pose);
         let groups = solid.groups.iter().map(|group| Group {
             ball: group.ball.carried(&by),
             members: group.members.clone(),
@@ -183,7 +183,7 @@ impl Tree {
         parts: &[Part],
         (other, order): (&Part, Order),
         poses: &BodyPoses,
-        (measure, below): (impl Fn(&Placed<'_>, &Placed<'_>) -> Separation, f64),
+        (measure, below): (impl Fn(&PlacedPart<'_>, &PlacedPart<'_>) -> Separation, f64),
     ) -> Option<Separation> {
         let here = other.rigid(poses);
         let gap = |part: &Part| other.gap_to_sphere(&here, part, &part.rigid(poses));

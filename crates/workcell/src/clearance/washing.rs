@@ -8,11 +8,11 @@
 use crate::clearance::body::{BodyKind, place};
 use crate::clearance::distance::{Separation, bracketed, separation};
 use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest};
-use crate::clearance::part::Placed;
+use crate::clearance::part::PlacedPart;
 use platewash_kinematics::{BodyPoses, JointVector};
 
 /// Function that computes a distance.
-type Measure = fn(&Placed<'_>, &Placed<'_>) -> Separation;
+type Measure = fn(&PlacedPart<'_>, &PlacedPart<'_>) -> Separation;
 
 impl ClearanceModel {
     /// True if every pair keeps `required_m` at `q` \[rad\]. False for NaN; touching pairs do not even keep 0.

@@ -6,7 +6,7 @@
 //! the sponge.
 //! Beyond the rim there is nothing: a part that is there in part counts for the greatest force and not for the least.
 
-use crate::contact::parts::{Met, PartBounds, Size, Spread};
+use crate::contact::parts::{PartBounds, Size, Spread, SurfaceHit};
 use crate::contact::{Foundation, SpongePose};
 use crate::surface::Surface;
 use crate::trig::{sin, sin_cos};
@@ -168,7 +168,7 @@ impl Columns {
     pub fn load(&self, surface: &Surface, pose: &SpongePose, more_m: f64) -> Load {
         let mut load = Load::NONE;
         for (column, size) in self.on(surface, pose).zip(self.sizes()) {
-            let met = Met::new(column.compression_m + more_m, &column.point, &column.normal, &pose.axis);
+            let met = SurfaceHit::new(column.compression_m + more_m, &column.point, &column.normal, &pose.axis);
             let part = PartBounds::over([&met; 2], &size, &Spread::NONE, |[near_m, far_m]| {
                 surface.patch([near_m.max(0.0), far_m]).curvature
             });

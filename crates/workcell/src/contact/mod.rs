@@ -12,27 +12,27 @@
 //! A plate that lies higher by e along its axis ẑ compresses each column by −e ẑ·a more, and lies −e (ẑ − a (ẑ·a)) to the side.
 //!
 //! All quantities are in the frame of the plate, lengths in metres. `columns.rs` has the sponge's face in columns: forces, and the greatest
-//! compression; `stands.rs` the same over a stretch of time, `level.rs` on a flat face; `moment.rs` the contact time and dose of single
+//! compression; `plate_load.rs` the same over a stretch of time, `level.rs` on a flat face; `moment.rs` the contact time and dose of single
 //! points of the plate's face.
 
 mod columns;
 mod level;
 mod moment;
 mod parts;
-mod stands;
+mod plate_load;
 #[cfg(test)]
 mod tests;
 
 pub use crate::contact::columns::{Column, Columns, Load};
 pub use crate::contact::level::{Level, LevelPress};
-pub use crate::contact::moment::{Drift, Dwell, Looks, Moment, Wanted, at_least_0, both};
+pub use crate::contact::moment::{ContactSampler, ContactThresholds, Drift, Dwell, Moment, at_least_0, both};
 pub use crate::contact::parts::Bends;
-pub use crate::contact::stands::{Press, Seen, Standing, Touching};
+pub use crate::contact::plate_load::{PlateLoad, Press, SpongeState, TouchRegion};
 
 use crate::plate::Plate;
 use crate::tool::{Sponge, Tool};
 use nalgebra::Vector3;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 
 /// Sponge as an elastic foundation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,7 +98,7 @@ impl Foundation {
 impl SpongePose {
     /// Returns the pose of a tip frame of the world, relative to a plate.
     #[must_use]
-    pub fn on(plate: &Plate, tip: &Rigid) -> Self {
+    pub fn on(plate: &Plate, tip: &RigidTransform) -> Self {
         let axis: Vector3<f64> = tip.rotation.column(2).into_owned();
         Self {
             tip: plate.local(&tip.translation),

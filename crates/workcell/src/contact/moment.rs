@@ -62,7 +62,7 @@ impl Drift {
 
 /// Amounts wanted at a place of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub struct ContactThresholds {
     /// Least compression of the foam that counts as contact \[m\].
     pub compression_m: f64,
     /// Height error of a plate along its axis \[m\].
@@ -106,10 +106,10 @@ pub fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
 /// Measures the amounts that single points of a face get through some moments in order, with linear interpolation between them. The plate
 /// is at the height where a point gets the least.
 #[derive(Debug, Clone)]
-pub struct Looks<'a> {
+pub struct ContactSampler<'a> {
     foundation: &'a Foundation,
     moments: &'a [Moment],
-    wanted: &'a Wanted,
+    wanted: &'a ContactThresholds,
     /// Longest distance of the tip between two moments \[m\].
     stride_m: f64,
 }
@@ -125,10 +125,10 @@ struct Instant {
     slide_m_s: f64,
 }
 
-impl<'a> Looks<'a> {
+impl<'a> ContactSampler<'a> {
     /// Prepares the moments of a wash.
     #[must_use]
-    pub fn new(foundation: &'a Foundation, moments: &'a [Moment], wanted: &'a Wanted) -> Self {
+    pub fn new(foundation: &'a Foundation, moments: &'a [Moment], wanted: &'a ContactThresholds) -> Self {
         let strides = moments
             .windows(2)
             .map(|ends| (ends[1].pose.tip - ends[0].pose.tip).norm());

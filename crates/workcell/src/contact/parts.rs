@@ -48,7 +48,7 @@ pub(crate) struct Size {
 
 /// Point where the middle of a part meets a surface.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Met {
+pub(crate) struct SurfaceHit {
     /// Compression w \[m\].
     pub compression_m: f64,
     /// cos γ. It is not above 0 if the column does not meet the surface, or only along it.
@@ -61,7 +61,7 @@ pub(crate) struct Met {
     pub seen_m: Vector2<f64>,
 }
 
-impl Met {
+impl SurfaceHit {
     /// Returns the state for a point and its normal, and the sponge's axis.
     pub fn new(compression_m: f64, point: &Vector3<f64>, normal: &Vector3<f64>, axis: &Vector3<f64>) -> Self {
         let cosine = -normal.dot(axis);
@@ -157,7 +157,7 @@ impl PartBounds {
     /// Bounds a part between two moments, on a face whose `curvatures` returns the least and greatest one between two distances from its
     /// axis.
     pub fn over(
-        [from, to]: [&Met; 2],
+        [from, to]: [&SurfaceHit; 2],
         size: &Size,
         spread: &Spread,
         curvatures: impl Fn([f64; 2]) -> [f64; 2],

@@ -6,7 +6,7 @@ mod raster;
 pub use crate::coverage::picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
 pub use crate::coverage::raster::area_of_rectangle_in_disc;
 
-use crate::coverage::raster::{Capsule, Raster, Uncovered};
+use crate::coverage::raster::{Capsule, Raster, UnsweptArea};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -153,7 +153,7 @@ fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
     }
 }
 
-fn as_fractions(uncovered: &Uncovered, disc_area: f64) -> Coverage {
+fn as_fractions(uncovered: &UnsweptArea, disc_area: f64) -> Coverage {
     let covered = |uncovered_area: f64, rounding: f64| (1.0 - uncovered_area / disc_area + rounding).clamp(0.0, 1.0);
     let (lower, upper) = (
         covered(uncovered.at_most, -ROUNDING),

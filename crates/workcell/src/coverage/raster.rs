@@ -11,7 +11,7 @@ use crate::trig::atan2;
 
 /// Unswept area of the disc, in the square of the unit of the lengths.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Uncovered {
+pub(crate) struct UnsweptArea {
     /// Proven lower bound.
     pub(crate) at_least: f64,
     /// Proven upper bound.
@@ -31,7 +31,7 @@ pub(crate) struct Raster<'a> {
     near: Vec<u32>,
     /// Buffer for the sections of a column.
     sections: Vec<[f64; 2]>,
-    uncovered: Uncovered,
+    uncovered: UnsweptArea,
 }
 
 impl<'a> Raster<'a> {
@@ -45,12 +45,12 @@ impl<'a> Raster<'a> {
             cell,
             near,
             sections: Vec::new(),
-            uncovered: Uncovered::default(),
+            uncovered: UnsweptArea::default(),
         }
     }
 
     /// Returns the area of the disc that no capsule covers.
-    pub(crate) fn uncovered(mut self) -> Uncovered {
+    pub(crate) fn uncovered(mut self) -> UnsweptArea {
         // The root is the smallest square around the disc that halves down to cells of the wanted size.
         let mut half = 0.5 * self.cell;
         let mut depth = 0;

@@ -1,6 +1,6 @@
 //! Errors of a job.
 
-use crate::clearance::{ClearanceError, Standing, StandingOverlap};
+use crate::clearance::{ClearanceError, FixedBody, FixedOverlap};
 use crate::layout::MAX_PLATES;
 use crate::obstacle::ObstacleFault;
 use crate::plate::GREATEST_M;
@@ -70,7 +70,7 @@ pub enum JobError {
     },
     /// Obstacles reach into plates or the arm's base, or plates reach into the base.
     #[error("{}", overlaps(.0))]
-    Standing(Vec<StandingOverlap>),
+    Standing(Vec<FixedOverlap>),
     /// A run of the paper's program is marked as a dry run.
     #[error("a run of the paper's program is no dry run")]
     PaperDryRun,
@@ -99,13 +99,13 @@ pub enum JobError {
 }
 
 /// Formats the first few overlaps.
-fn overlaps(all: &[StandingOverlap]) -> String {
+fn overlaps(all: &[FixedOverlap]) -> String {
     const FEW: usize = 3;
-    let one = |overlap: &StandingOverlap| {
-        let StandingOverlap { standing, other, by_m } = overlap;
+    let one = |overlap: &FixedOverlap| {
+        let FixedOverlap { standing, other, by_m } = overlap;
         let parts = match standing {
-            Standing::Parts(_) => " (in convex parts, which hold more than the mesh)",
-            Standing::Obstacle(_) | Standing::Plate(_) => "",
+            FixedBody::Parts(_) => " (in convex parts, which hold more than the mesh)",
+            FixedBody::Obstacle(_) | FixedBody::Plate(_) => "",
         };
         format!(
             "{standing} reaches {} into {}{parts}",

@@ -4,7 +4,7 @@
 //!
 //! Overlaps of plates with each other and with the arm's base are found here.
 
-use crate::clearance::{ClearanceError, StandingOverlap, gap_of_plates, standing_overlaps};
+use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_overlaps};
 use crate::dry_run::DryRun;
 use crate::job::error::JobError;
 use crate::job::requirements::{Limits, Planner, PlannerSettings, Requirements, Treatment};
@@ -99,7 +99,7 @@ impl JobTerms {
     ///
     /// # Errors
     /// [`ClearanceError`] for an invalid shape.
-    pub fn standing_overlaps(&self, arm: &RobotModel) -> Result<Vec<StandingOverlap>, ClearanceError> {
+    pub fn standing_overlaps(&self, arm: &RobotModel) -> Result<Vec<FixedOverlap>, ClearanceError> {
         let seen = self.seen_from_base();
         standing_overlaps(arm, &seen.workcell, &seen.plates, seen.dry_run.as_ref())
     }

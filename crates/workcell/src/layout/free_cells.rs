@@ -24,7 +24,7 @@ pub(crate) struct Cells {
 
 /// Result of [`Cells::refine`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Refined {
+pub(crate) enum Refinement {
     /// There are fewer or smaller cells.
     Yes,
     /// No cell is left: there is no room, up to rounding.
@@ -63,10 +63,10 @@ impl Cells {
 
     /// Removes the cells that new discs have closed or, if there is no new disc, halves the cells first. Adds the number of examined cells
     /// to `examined`.
-    pub(crate) fn refine(&mut self, space: &Space, examined: &mut u64) -> Refined {
+    pub(crate) fn refine(&mut self, space: &Space, examined: &mut u64) -> Refinement {
         let discs_are_new = space.discs.len() > self.discs_seen;
         if !discs_are_new && (self.level == MAX_LEVEL || self.items.len() > MAX_CELLS) {
-            return Refined::Exhausted;
+            return Refinement::Exhausted;
         }
         if !discs_are_new {
             self.level += 1;
@@ -86,9 +86,9 @@ impl Cells {
         self.items = items;
         self.discs_seen = space.discs.len();
         if self.items.is_empty() {
-            Refined::Empty
+            Refinement::Empty
         } else {
-            Refined::Yes
+            Refinement::Yes
         }
     }
 

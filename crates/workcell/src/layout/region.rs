@@ -8,7 +8,7 @@ use crate::layout::BaseFootprint;
 use crate::layout::error::{InputProblem, LayoutError, not_negative, range};
 use crate::trig::sin_cos;
 use nalgebra::Matrix3;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 
@@ -253,7 +253,7 @@ pub fn base_footprint(robot: &RobotModel) -> BaseFootprint {
 /// that no plate is level with it.
 #[must_use]
 pub fn mounted_footprint(robot: &RobotModel, mount: &Pose) -> Option<BaseFootprint> {
-    let turned = Rigid::from(mount).rotation;
+    let turned = RigidTransform::from(mount).rotation;
     let [across, along] = [turned.m13.abs().max(turned.m23.abs()), turned.m33];
     (across <= UPRIGHT && along > 0.0).then(|| turned_footprint(robot, &turned))
 }
@@ -265,8 +265,8 @@ fn turned_footprint(robot: &RobotModel, turned: &Matrix3<f64>) -> BaseFootprint 
     for link in robot.links().iter().filter(|link| link.frame.body() == 0) {
         let placed = base.rigid(&link.frame);
         for primitive in &link.collision {
-            let shape = placed.then(&Rigid::from(&primitive.pose));
-            let shape = Rigid {
+            let shape = placed.then(&RigidTransform::from(&primitive.pose));
+            let shape = RigidTransform {
                 rotation: turned * shape.rotation,
                 translation: turned * shape.translation,
             };

@@ -25,7 +25,7 @@
 mod tests;
 
 use crate::layout::error::{EmptyReason, LayoutError};
-use crate::layout::free_cells::{Cells, Discs, Refined};
+use crate::layout::free_cells::{Cells, Discs, Refinement};
 use crate::layout::region::{Area, QuadCell, Region};
 use crate::layout::{
     BaseFootprint, Layout, PlateGeometry, SampleRequest, SampleSettings, Spacing, check_explicit, sample,
@@ -156,9 +156,9 @@ impl Sampler {
                 return Some(found);
             }
             match cells.refine(&space, &mut work.cells) {
-                Refined::Yes => {}
-                Refined::Empty => return None,
-                Refined::Exhausted => {
+                Refinement::Yes => {}
+                Refinement::Empty => return None,
+                Refinement::Exhausted => {
                     let in_cells = |rng: &mut R| cells.point(&space, [unit(rng), unit(rng), unit(rng)]);
                     return first_free(&space, LAST_DRAWS + 64 * count, in_cells, rng, work);
                 }
@@ -191,9 +191,9 @@ impl Sampler {
                 return Room::Found;
             }
             match cells.refine(&space, &mut 0) {
-                Refined::Yes => {}
-                Refined::Empty => return Room::None,
-                Refined::Exhausted => return Room::NotFound,
+                Refinement::Yes => {}
+                Refinement::Empty => return Room::None,
+                Refinement::Exhausted => return Room::NotFound,
             }
         }
     }

@@ -105,7 +105,7 @@ impl Patch {
 
 /// Meridian by knots.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "InFile", into = "InFile")]
+#[serde(try_from = "MeridianFields", into = "MeridianFields")]
 pub struct Meridian {
     count: usize,
     knots: [Knot; MOST_KNOTS],
@@ -160,19 +160,19 @@ pub enum MeridianError {
 
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct InFile {
+struct MeridianFields {
     knots: Vec<Knot>,
 }
 
-impl TryFrom<InFile> for Meridian {
+impl TryFrom<MeridianFields> for Meridian {
     type Error = MeridianError;
 
-    fn try_from(file: InFile) -> Result<Self, MeridianError> {
+    fn try_from(file: MeridianFields) -> Result<Self, MeridianError> {
         Self::new(&file.knots)
     }
 }
 
-impl From<Meridian> for InFile {
+impl From<Meridian> for MeridianFields {
     fn from(meridian: Meridian) -> Self {
         Self {
             knots: meridian.knots().to_vec(),

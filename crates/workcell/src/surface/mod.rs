@@ -227,15 +227,15 @@ fn level(radius_m: f64) -> MeridianPoint {
 }
 
 /// Named profile: knots as radius \[mm\] and slope \[°\].
-struct Shipped {
+struct ShippedProfile {
     name: &'static str,
     knots: &'static [[f64; 2]],
 }
 
 /// Built-in profiles. `coupe275` is fitted to a scan of a real plate, within 0.54 mm; the shapes of the others are assumptions, with the
 /// diameters of dinner, soup and dessert plates (EN 50242).
-const SHIPPED: [Shipped; 4] = [
-    Shipped {
+const SHIPPED: [ShippedProfile; 4] = [
+    ShippedProfile {
         name: "coupe275",
         knots: &[
             [24.0, 1.1],
@@ -247,15 +247,15 @@ const SHIPPED: [Shipped; 4] = [
             [137.0, 5.0],
         ],
     },
-    Shipped {
+    ShippedProfile {
         name: "rim270",
         knots: &[[82.0, 0.0], [93.0, 38.0], [103.0, 11.0], [131.0, 11.0], [135.0, 0.0]],
     },
-    Shipped {
+    ShippedProfile {
         name: "deep230",
         knots: &[[42.0, 0.0], [84.0, 50.0], [95.0, 12.0], [112.0, 12.0], [115.0, 0.0]],
     },
-    Shipped {
+    ShippedProfile {
         name: "dessert190",
         knots: &[[58.0, 2.0], [70.0, 10.0], [84.0, 22.0], [92.0, 22.0], [95.0, 5.0]],
     },

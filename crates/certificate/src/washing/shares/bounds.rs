@@ -1,10 +1,10 @@
 //! Bounds over a cell: lower bounds of compression, contact time and dose.
 
 use crate::washing::shares::Sags;
-use crate::washing::shares::cell::{Cell, Lower, Seen};
+use crate::washing::shares::cell::{Cell, CellState, Lower};
 use crate::washing::shares::doses::{Polynomial, Sums};
 use crate::washing::shares::edges::{Edges, Gain, Touch};
-use platewash_workcell::contact::{Foundation, Moment, Wanted};
+use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ const SMALL: f64 = 0.025;
 
 /// Amounts that every place of a cell gets.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Kept {
+pub(crate) struct CellAmounts {
     /// True if there is a moment at which all of the cell is in contact.
     pub contact: bool,
     pub time_s: f64,
@@ -26,7 +26,7 @@ pub(crate) struct Kept {
 /// Reused buffers: the state of a cell at the moments, and the windows of those moments.
 #[derive(Default)]
 pub(crate) struct Scratch {
-    all: Vec<Seen>,
+    all: Vec<CellState>,
     spans: Vec<Range<usize>>,
 }
 
@@ -40,9 +40,9 @@ impl Scratch {
 }
 
 /// Bounds found for a cell.
-pub(crate) struct Found {
+pub(crate) struct CellBounds {
     /// Amounts that every place of the cell gets.
-    pub kept: Kept,
+    pub kept: CellAmounts,
     /// Lower bounds that hold for every height of the plate within its error: contact (above 0 where in contact), time \[s\], dose
     /// \[Pa·m\].
     pub bounds: [Lower; 3],
@@ -64,7 +64,7 @@ impl<'a> Passes<'a> {
         surface: &'a Surface,
         foundation: &'a Foundation,
         (moments, sags): (&'a [Moment], &'a [Sags]),
-        wanted: &'a Wanted,
+        wanted: &'a ContactThresholds,
     ) -> Self {
         let [low_m, high_m] = surface.height_bounds_m();
         let far_m = surface.rim_m() + low_m.abs().max(high_m.abs());
@@ -119,10 +119,10 @@ impl Passes<'_> {
     pub(crate) fn bounds(
         &self,
         cell: &Cell,
-        (mut kept, within): (Kept, &[[u32; 2]]),
+        (mut kept, within): (CellAmounts, &[[u32; 2]]),
         scratch: &mut Scratch,
         is_enough: impl Fn(&[Lower; 3]) -> bool,
-    ) -> Option<Found> {
+    ) -> Option<CellBounds> {
         let edges = &self.edges;
         let error_m = edges.wanted.height_error_m;
         let Scratch { all, spans } = scratch;
@@ -155,7 +155,7 @@ impl Passes<'_> {
             self.gains(cell, all.get(span.clone()).unwrap_or_default(), &mut gains);
         }
         let bounds = bounds(gains);
-        (!is_enough(&bounds)).then_some(Found {
+        (!is_enough(&bounds)).then_some(CellBounds {
             kept,
             bounds,
             compression_m: touch.compression_m,
@@ -168,9 +168,9 @@ impl Passes<'_> {
     fn runs(
         &self,
         cell: &Cell,
-        all: &[Seen],
+        all: &[CellState],
         first: usize,
-        (kept, touch, spans): (&mut Kept, &mut Touch, &mut Vec<Range<usize>>),
+        (kept, touch, spans): (&mut CellAmounts, &mut Touch, &mut Vec<Range<usize>>),
     ) {
         let reach_m = self.reach_m(cell);
         let mut from = first;
@@ -211,7 +211,7 @@ impl Passes<'_> {
     }
 
     /// Adds the gains of a cell in a window: those where its places leave or enter, and those that all places get.
-    fn gains(&self, cell: &Cell, window: &[Seen], gains: &mut [Lower; 2]) {
+    fn gains(&self, cell: &Cell, window: &[CellState], gains: &mut [Lower; 2]) {
         let mut add = |gain: &Gain| {
             gains[0].add(&gain.time);
             gains[1].add(&gain.dose);
@@ -232,7 +232,7 @@ impl Passes<'_> {
     }
 
     /// Returns the dose that all of a cell gets.
-    fn dose(&self, cell: &Cell, kept: &Kept) -> Lower {
+    fn dose(&self, cell: &Cell, kept: &CellAmounts) -> Lower {
         let (value, gradient) = kept.dose.at(&cell.point);
         let error_m = self.edges.wanted.height_error_m;
         let lost = kept.dose.bend(cell.away_m() + error_m) + gradient.z.abs() * cell.bend_m + self.sums.rounding();

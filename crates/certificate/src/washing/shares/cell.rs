@@ -30,7 +30,7 @@ pub(crate) struct Cell {
 
 /// State of a cell under the sponge at a moment.
 #[derive(Clone, Copy)]
-pub(crate) struct Seen {
+pub(crate) struct CellState {
     pub index: u32,
     /// Compression over the middle \[m\].
     pub compression_m: f64,
@@ -88,7 +88,7 @@ impl Cell {
     }
 
     /// Returns the state at a moment, with the plate higher or lower by up to `error_m`.
-    pub fn seen(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> Seen {
+    pub fn seen(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> CellState {
         let SpongePose { tip, axis } = &moment.pose;
         let away = self.point - tip;
         let along = away.dot(axis);
@@ -96,7 +96,7 @@ impl Cell {
         let [gx, gy] = self.along(axis);
         let sloping_m = (gx * gx + gy * gy).sqrt() * self.reach_m + axis.z.abs() * self.bend_m;
         let level_m = (axis.x * axis.x + axis.y * axis.y).sqrt();
-        Seen {
+        CellState {
             index,
             compression_m: foundation.compression_m - along,
             shallower_m: sloping_m + axis.z.abs() * error_m,

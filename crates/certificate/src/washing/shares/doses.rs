@@ -18,8 +18,8 @@
 //! along a run, as the difference of two.
 
 use crate::washing::shares::Sags;
-use crate::washing::shares::cell::{Cell, Lower, Seen};
-use crate::washing::shares::edges::{Edges, Gain, Leaving, Window};
+use crate::washing::shares::cell::{Cell, CellState, Lower};
+use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window};
 use nalgebra::{Matrix3, Vector3};
 use platewash_workcell::contact::{Foundation, Moment, at_least_0, both};
 use std::ops::{Add, AddAssign, Sub};
@@ -54,8 +54,8 @@ impl Factors {
 
 impl Edges<'_> {
     /// Returns the dose of a cell from the first moment of a window until its places leave.
-    pub(crate) fn dose(&self, cell: &Cell, window: Window<'_>, leaving: &Leaving) -> Lower {
-        let Leaving {
+    pub(crate) fn dose(&self, cell: &Cell, window: Window<'_>, leaving: &LeavingTimes) -> Lower {
+        let LeavingTimes {
             at_s,
             sooner_s,
             spread_s,
@@ -65,7 +65,7 @@ impl Edges<'_> {
         let direction = self.direction(cell, window, leaving.last);
         let (mut until, mut slack) = (0.0, 0.0);
         let mut rates = [f64::INFINITY, 0.0_f64];
-        let mut before: Option<(&Seen, Factors)> = None;
+        let mut before: Option<(&CellState, Factors)> = None;
         for seen in window.until(leaving.last) {
             let here = self.factors(cell, seen, &direction, self.elapsed_s(window, seen));
             if let Some((last, before)) = before {
@@ -108,7 +108,7 @@ impl Edges<'_> {
     }
 
     /// Sliding velocity of the sponge over the middle of a cell, across the sponge's axis \[m/s\].
-    fn slide(&self, cell: &Cell, seen: &Seen) -> Vector3<f64> {
+    fn slide(&self, cell: &Cell, seen: &CellState) -> Vector3<f64> {
         let moment = self.moment(seen.index);
         let axis = &moment.pose.axis;
         let slide = moment.speed + moment.turning.cross(&(cell.point - moment.pose.tip));
@@ -123,7 +123,7 @@ impl Edges<'_> {
     }
 
     /// Returns the factors at a moment.
-    fn factors(&self, cell: &Cell, seen: &Seen, direction: &Vector3<f64>, at_s: f64) -> Factors {
+    fn factors(&self, cell: &Cell, seen: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
         let turning = self.moment(seen.index).turning.norm();
         let away = turning * (cell.away_m() + self.wanted.height_error_m);
         Factors {
@@ -136,7 +136,7 @@ impl Edges<'_> {
 
     /// Returns lines between two moments that bound the factors of every place in contact from below: compression not below the one that
     /// counts, speed not below 0.
-    fn between(&self, seen: [&Seen; 2], ends: [Factors; 2]) -> [Factors; 2] {
+    fn between(&self, seen: [&CellState; 2], ends: [Factors; 2]) -> [Factors; 2] {
         let sags = self.sags(seen[0], seen[1]);
         let slower = sags.slide_m / (ends[1].at_s - ends[0].at_s);
         let above = |[a, b]: [f64; 2], least: f64| {
@@ -160,8 +160,8 @@ impl Edges<'_> {
 
     /// Returns the gain that places of a large cell are likely to get at most through a window in which not all of it is in contact. The
     /// proved gain is 0.
-    pub(crate) fn grazed(&self, cell: &Cell, window: &[Seen]) -> Gain {
-        let near = |seen: &&Seen| {
+    pub(crate) fn grazed(&self, cell: &Cell, window: &[CellState]) -> Gain {
+        let near = |seen: &&CellState| {
             self.pressed_m(seen) + 2.0 * seen.sloping_m >= 0.0 && self.inside_m(seen) + 2.0 * cell.away_m() >= 0.0
         };
         let (Some(first), Some(last)) = (window.iter().find(near), window.iter().rfind(near)) else {
@@ -181,7 +181,7 @@ impl Edges<'_> {
     }
 
     /// Returns the time and dose that all of a cell gets between two moments, with the likely slack.
-    pub(crate) fn flat(&self, cell: &Cell, ends: [&Seen; 2]) -> Gain {
+    pub(crate) fn flat(&self, cell: &Cell, ends: [&CellState; 2]) -> Gain {
         let sags = self.sags(ends[0], ends[1]);
         let least = common(
             ends.map(|end| self.pressed_m(end) - sags.compression_m),

@@ -16,9 +16,9 @@
 //! The file also finds out if a cell is in contact at one moment at least.
 
 use crate::washing::shares::Sags;
-use crate::washing::shares::cell::{Cell, Lower, Seen};
+use crate::washing::shares::cell::{Cell, CellState, Lower};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Foundation, Moment, Wanted};
+use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
 
 /// Error of the formulas above due to rounding \[m\].
 const ROUNDING_M: f64 = 1e-12;
@@ -28,7 +28,7 @@ pub(crate) struct Edges<'a> {
     pub foundation: &'a Foundation,
     pub moments: &'a [Moment],
     pub sags: &'a [Sags],
-    pub wanted: &'a Wanted,
+    pub wanted: &'a ContactThresholds,
 }
 
 /// Lower bounds of time and dose that a cell gets in a part of a window.
@@ -43,12 +43,12 @@ pub(crate) struct Gain {
 /// Consecutive moments, in order or in reversed time.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a> {
-    seen: &'a [Seen],
+    seen: &'a [CellState],
     pub reversed: bool,
 }
 
 /// Times at which the places of a cell leave, counted from the first moment of a window.
-pub(crate) struct Leaving {
+pub(crate) struct LeavingTimes {
     /// Time t₀ since the first moment \[s\].
     pub at_s: f64,
     /// Time η by which a place may leave sooner \[s\].
@@ -69,13 +69,13 @@ struct Line<T> {
 }
 
 impl Window<'_> {
-    pub fn at(&self, k: usize) -> Option<&Seen> {
+    pub fn at(&self, k: usize) -> Option<&CellState> {
         let last = self.seen.len().checked_sub(1)?;
         self.seen.get(if self.reversed { last.checked_sub(k)? } else { k })
     }
 
     /// Returns the states from the first moment to another one.
-    pub fn until(&self, last: usize) -> impl Iterator<Item = &Seen> {
+    pub fn until(&self, last: usize) -> impl Iterator<Item = &CellState> {
         (0..=last).map_while(|k| self.at(k))
     }
 }
@@ -86,7 +86,7 @@ impl Edges<'_> {
     }
 
     /// Returns the sags between two neighbouring moments, in any order; infinite where nothing is known.
-    pub fn sags(&self, a: &Seen, b: &Seen) -> Sags {
+    pub fn sags(&self, a: &CellState, b: &CellState) -> Sags {
         let unknown = Sags {
             compression_m: f64::INFINITY,
             aside_m: f64::INFINITY,
@@ -97,7 +97,7 @@ impl Edges<'_> {
     }
 
     /// Checks that all of a cell is in contact from one moment to the next.
-    pub fn is_full(&self, from: &Seen, to: &Seen) -> bool {
+    pub fn is_full(&self, from: &CellState, to: &CellState) -> bool {
         let sags = self.sags(from, to);
         [from, to]
             .iter()
@@ -105,18 +105,18 @@ impl Edges<'_> {
     }
 
     /// Depth of the whole cell within the sponge's rim \[m\]; negative where a part is outside.
-    pub fn inside_m(&self, seen: &Seen) -> f64 {
+    pub fn inside_m(&self, seen: &CellState) -> f64 {
         self.foundation.radius_m - seen.off_m - seen.farther_m
     }
 
     /// Compression of the whole cell above the wanted one \[m\]; negative where a part has less.
-    pub fn pressed_m(&self, seen: &Seen) -> f64 {
+    pub fn pressed_m(&self, seen: &CellState) -> f64 {
         seen.compression_m - seen.shallower_m - self.wanted.compression_m
     }
 
     /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
     /// moments, and one for entering, if it is at the last two.
-    pub fn gain(&self, cell: &Cell, seen: &[Seen]) -> [Option<Gain>; 2] {
+    pub fn gain(&self, cell: &Cell, seen: &[CellState]) -> [Option<Gain>; 2] {
         let leaves = seen.len() > 2 && self.is_full(&seen[0], &seen[1]);
         let enters = seen.len() > 2 && self.is_full(&seen[seen.len() - 2], &seen[seen.len() - 1]);
         let one = |reversed| self.one_way(cell, Window { seen, reversed });
@@ -158,12 +158,12 @@ impl Edges<'_> {
     }
 
     /// Time of a state since the first moment of a window \[s\].
-    pub fn elapsed_s(&self, window: Window<'_>, seen: &Seen) -> f64 {
+    pub fn elapsed_s(&self, window: Window<'_>, seen: &CellState) -> f64 {
         let first = window.at(0).map_or(0.0, |first| self.moment(first.index).t_s);
         (self.moment(seen.index).t_s - first).abs()
     }
 
-    fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<Leaving> {
+    fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<LeavingTimes> {
         let radius_m = self.foundation.radius_m;
         for k in 1.. {
             let (before, after) = (window.at(k - 1)?, window.at(k)?);
@@ -208,7 +208,7 @@ impl Edges<'_> {
         window: Window<'_>,
         line: &Line<Vector3<f64>>,
         axis: &Vector3<f64>,
-    ) -> Option<Leaving> {
+    ) -> Option<LeavingTimes> {
         let across = |v: Vector3<f64>| v - axis * v.dot(axis);
         let error_m = self.wanted.height_error_m;
         let (v0, b) = (&line.value, &line.rate);
@@ -219,7 +219,7 @@ impl Edges<'_> {
         let mu = cell.reach_m * (moved[0].norm_squared() + moved[1].norm_squared()).sqrt() + error_m * moved[2].norm();
         let spread_s = cell.reach_m * length(rates[0], rates[1]) + error_m * rates[2].abs();
         let last = self.all_left(window, line.at_s + spread_s)?;
-        let off = |seen: &Seen| (seen.way - v0 - b * (self.elapsed_s(window, seen) - line.at_s)).norm();
+        let off = |seen: &CellState| (seen.way - v0 - b * (self.elapsed_s(window, seen) - line.at_s)).norm();
         let (off_m, turned, sags) = self.astray(window, last, axis, off);
         let reach_m = cell.away_m() + error_m;
         let lost_m = ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
@@ -235,7 +235,7 @@ impl Edges<'_> {
         let pressed = window
             .until(last)
             .all(|seen| self.pressed_m(seen) >= sags.compression_m);
-        (pressed && begins_m <= free_m && line.at_s - spread_s - sooner_s >= 0.0).then_some(Leaving {
+        (pressed && begins_m <= free_m && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
             at_s: line.at_s,
             sooner_s,
             slope: [rates[0], rates[1]],
@@ -246,7 +246,7 @@ impl Edges<'_> {
     }
 
     /// Returns the times at which the foam on a cell is released while all of it is within the sponge.
-    fn released(&self, cell: &Cell, window: Window<'_>, line: &Line<f64>, axis: &Vector3<f64>) -> Option<Leaving> {
+    fn released(&self, cell: &Cell, window: Window<'_>, line: &Line<f64>, axis: &Vector3<f64>) -> Option<LeavingTimes> {
         let error_m = self.wanted.height_error_m;
         let falls = -line.rate;
         if falls.is_nan() || falls <= 0.0 {
@@ -257,7 +257,7 @@ impl Edges<'_> {
         let ge = -axis.z / falls;
         let spread_s = cell.reach_m * length(gx, gy) + error_m * ge.abs();
         let last = self.all_left(window, line.at_s + spread_s)?;
-        let off = |seen: &Seen| {
+        let off = |seen: &CellState| {
             (seen.compression_m - line.value - line.rate * (self.elapsed_s(window, seen) - line.at_s)).abs()
         };
         let (off_m, turned, sags) = self.astray(window, last, axis, off);
@@ -265,7 +265,7 @@ impl Edges<'_> {
         let sooner_s = lost_m / falls * (1.0 + 1e-12);
         let within = window.until(last).all(|seen| self.inside_m(seen) >= sags.aside_m);
         // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.
-        (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(Leaving {
+        (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
             at_s: line.at_s,
             sooner_s,
             slope: [gx, gy],
@@ -292,10 +292,10 @@ impl Edges<'_> {
         window: Window<'_>,
         last: usize,
         axis: &Vector3<f64>,
-        off: impl Fn(&Seen) -> f64,
+        off: impl Fn(&CellState) -> f64,
     ) -> (f64, f64, Sags) {
         let (mut off_m, mut turned, mut most) = (0.0_f64, 0.0_f64, Sags::default());
-        let mut before: Option<&Seen> = None;
+        let mut before: Option<&CellState> = None;
         for seen in window.until(last) {
             off_m = off_m.max(off(seen));
             turned = turned.max((self.moment(seen.index).pose.axis - axis).norm());
@@ -362,7 +362,7 @@ impl Touch {
 
     /// Updates the state with a moment. The squared lengths of the vectors P (X + J δ + b ẑ + e ẑ − p) are at most those of P (X + J δ −
     /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
-    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, seen: &Seen) {
+    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, seen: &CellState) {
         let (inside_m, pressed_m) = (edges.inside_m(seen), edges.pressed_m(seen));
         if inside_m >= 0.0 {
             self.compression_m = self.compression_m.max(seen.compression_m - seen.shallower_m);

@@ -16,10 +16,10 @@ pub(crate) mod edges;
 #[cfg(test)]
 mod tests;
 
-use crate::washing::shares::bounds::{Kept, Passes, Scratch};
+use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
 use crate::washing::shares::cell::{Cell, Lower};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Foundation, Moment, Wanted};
+use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
 use platewash_workcell::coverage::{SMALLEST_CELL, reaches};
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
@@ -81,7 +81,7 @@ pub fn shares(
     surface: &Surface,
     foundation: &Foundation,
     (moments, sags): (&[Moment], &[Sags]),
-    wanted: &Wanted,
+    wanted: &ContactThresholds,
     fineness: &Fineness,
 ) -> Shares {
     let rim_m = surface.rim_m();
@@ -95,7 +95,7 @@ pub fn shares(
         half *= 0.5;
     }
     let passes = Passes::new(surface, foundation, (moments, sags), wanted);
-    let mut missing = [Missing::default(); 3];
+    let mut missing = [MissingArea::default(); 3];
     let mut level = passes.first(half);
     let area_m2 = surface.area_m2();
     loop {
@@ -113,13 +113,13 @@ pub fn shares(
 
 /// Area that is not shown to get an amount.
 #[derive(Debug, Clone, Copy, Default)]
-struct Missing {
+struct MissingArea {
     area_m2: f64,
     /// Value and position of the worst place.
     worst: Option<(f64, [f64; 3])>,
 }
 
-impl Missing {
+impl MissingArea {
     fn add(&mut self, area_m2: f64, found: f64, place: &Vector3<f64>) {
         self.area_m2 += area_m2;
         if self.worst.is_none_or(|(worst, _)| found < worst) {
@@ -141,7 +141,7 @@ struct Node {
     middle: [f64; 2],
     point: Vector3<f64>,
     /// Amounts that every place of the cell gets, so that its quarters need not look for them.
-    kept: Kept,
+    kept: CellAmounts,
     /// Remaining windows, as a range in its level.
     windows: Range<usize>,
     /// Upper bound on the area that does not get the wanted amount, for contact, time and dose \[m²\].
@@ -153,7 +153,7 @@ struct Node {
 }
 
 impl Node {
-    fn tell(&self, missing: &mut [Missing; 3]) {
+    fn tell(&self, missing: &mut [MissingArea; 3]) {
         for (k, missing) in missing.iter_mut().enumerate() {
             if self.missing_m2[k] > 0.0 {
                 missing.add(self.missing_m2[k], self.found[k].max(0.0), &self.point);
@@ -187,14 +187,14 @@ impl Passes<'_> {
             let found = (&mut level.windows, &mut scratch);
             level
                 .nodes
-                .extend(self.node(&cell, middle, (Kept::default(), &windows), found));
+                .extend(self.node(&cell, middle, (CellAmounts::default(), &windows), found));
         }
         level
     }
 
     /// Returns the quarters of those cells of a level that are likely to get amounts that are not shown yet. The others are counted as
     /// missing.
-    fn halved(&self, level: &Level, half: f64, left: [bool; 3], missing: &mut [Missing; 3]) -> Level {
+    fn halved(&self, level: &Level, half: f64, left: [bool; 3], missing: &mut [MissingArea; 3]) -> Level {
         let (mut next, mut scratch) = (Level::default(), Scratch::default());
         for node in &level.nodes {
             if !(0..3).any(|k| left[k] && node.worth[k] > WORTH) {
@@ -220,7 +220,7 @@ impl Passes<'_> {
         &self,
         cell: &Cell,
         middle: [f64; 2],
-        known: (Kept, &[[u32; 2]]),
+        known: (CellAmounts, &[[u32; 2]]),
         (windows, scratch): (&mut Vec<[u32; 2]>, &mut Scratch),
     ) -> Option<Node> {
         let wanted = self.edges.wanted;

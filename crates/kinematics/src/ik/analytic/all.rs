@@ -2,11 +2,11 @@
 //!
 //! A branch that ends beyond a limit by no more than the uncertainty of its joints is closed onto the limit.
 
-use crate::ik::analytic::branch::{Branch, Degenerate, Label, OutOfReach};
+use crate::ik::analytic::branch::{Branch, Degeneracies, Label, OutOfReach};
 use crate::ik::analytic::nearest::{Window, nearest_integer};
 use crate::ik::analytic::wrist::Turn;
 use crate::ik::analytic::{AnalyticArm, AnalyticError, CLOSED, LIMIT_ROUNDING_RAD, check_finite};
-use crate::rotation::{Rigid, rotation_vector};
+use crate::rotation::{RigidTransform, rotation_vector};
 use crate::trig::sin_cos;
 use crate::{AXES, JointLimits, JointVector, LimitViolation};
 use nalgebra::{Complex, Matrix6, Vector6};
@@ -30,7 +30,7 @@ pub struct Solution {
     /// Name of the branch.
     pub label: Label,
     /// Degeneracies of the branch.
-    pub degenerate: Degenerate,
+    pub degenerate: Degeneracies,
     /// Lowest value of every joint within the limits \[rad\].
     pub lowest: JointVector,
     /// Number of values, a whole turn apart, that each joint has within its limits. A continuous joint counts as one: the value nearest to
@@ -121,7 +121,7 @@ impl AnalyticArm {
     /// limits: [`Solutions::rejections`] gives the reasons.
     pub fn solve_all(
         &self,
-        target: &Rigid,
+        target: &RigidTransform,
         previous: &JointVector,
         limits: &JointLimits,
     ) -> Result<Solutions, AnalyticError> {
@@ -139,7 +139,7 @@ impl AnalyticArm {
         Ok(moved.unwrap_or(kept))
     }
 
-    pub(crate) fn all_within(&self, target: &Rigid, window: &Window<'_>) -> Solutions {
+    pub(crate) fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> Solutions {
         let slots = self.all_branches(target, &window.anchor).map(|slot| match slot {
             Ok((branch, turn)) => self.solution(target, &branch, &turn, window),
             Err(miss) => Err(Rejection::OutOfReach(miss)),
@@ -150,7 +150,7 @@ impl AnalyticArm {
     /// Returns the branch with its turns, or its worst joint.
     fn solution(
         &self,
-        target: &Rigid,
+        target: &RigidTransform,
         branch: &Branch,
         turn: &Turn,
         window: &Window<'_>,
@@ -176,7 +176,13 @@ impl AnalyticArm {
     }
 
     /// Returns the branch's configuration nearest to the start, within the limits.
-    fn branch_within(&self, target: &Rigid, branch: &Branch, turn: &Turn, window: &Window<'_>) -> Option<JointVector> {
+    fn branch_within(
+        &self,
+        target: &RigidTransform,
+        branch: &Branch,
+        turn: &Turn,
+        window: &Window<'_>,
+    ) -> Option<JointVector> {
         let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
         let [q4, q5, q6] = self.wrist_within(turn, branch.label.wrist, window)?;
         let q = JointVector::new(q1?, q2?, q3?, q4, q5, q6);
@@ -206,7 +212,7 @@ const HOPELESS: f64 = 50.0 * CLOSED;
 impl AnalyticArm {
     /// Returns `q` within the limits, if it is so up to rounding or the free joints can make up for the rest.
     #[inline]
-    pub(crate) fn settled(&self, target: &Rigid, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
+    pub(crate) fn settled(&self, target: &RigidTransform, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
         if limits.contain(&q) {
             return Some(q);
         }
@@ -214,7 +220,7 @@ impl AnalyticArm {
     }
 
     #[cold]
-    fn settle(&self, target: &Rigid, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
+    fn settle(&self, target: &RigidTransform, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
         let mut here = limits.clamp(&q);
         let beyond = (here - q).amax();
         if beyond <= LIMIT_ROUNDING_RAD {
@@ -253,9 +259,9 @@ impl AnalyticArm {
     }
 
     /// Returns `(p* − p, log(R* Rᵀ))` of body 6 and its geometric Jacobian, in base axes \[m, rad\].
-    fn error_and_jacobian(&self, target: &Rigid, q: &JointVector) -> (Vector6<f64>, Matrix6<f64>) {
-        let mut body = Rigid::identity();
-        let bodies: [Rigid; AXES] = std::array::from_fn(|i| {
+    fn error_and_jacobian(&self, target: &RigidTransform, q: &JointVector) -> (Vector6<f64>, Matrix6<f64>) {
+        let mut body = RigidTransform::identity();
+        let bodies: [RigidTransform; AXES] = std::array::from_fn(|i| {
             let (s, c) = sin_cos(q[i]);
             body = body.then(&self.folded[i]).turned_about_z(s, c);
             body

@@ -5,7 +5,7 @@
 use crate::JointVector;
 use crate::ik::analytic::wrist::{Bend, Goal, Swing, Turn};
 use crate::ik::analytic::{AnalyticArm, AnalyticError, check_finite};
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ pub struct Branch {
     /// Name of the branch.
     pub label: Label,
     /// Degeneracies of the branch.
-    pub degenerate: Degenerate,
+    pub degenerate: Degeneracies,
 }
 
 /// The eight branches of one target, each present or out of reach.
@@ -47,7 +47,7 @@ impl AnalyticArm {
     ///
     /// # Errors
     /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite.
-    pub fn branches(&self, target: &Rigid, previous: &JointVector) -> Result<Branches, AnalyticError> {
+    pub fn branches(&self, target: &RigidTransform, previous: &JointVector) -> Result<Branches, AnalyticError> {
         check_finite(target, previous)?;
         Ok(Branches {
             slots: self.all_branches(target, previous).map(|slot| Ok(slot?.0)),
@@ -57,7 +57,7 @@ impl AnalyticArm {
     /// Returns all branches in the order of [`Label::ALL`], each with its wrist.
     pub(crate) fn all_branches(
         &self,
-        target: &Rigid,
+        target: &RigidTransform,
         previous: &JointVector,
     ) -> [Result<(Branch, Turn), OutOfReach>; 8] {
         let goal = self.goal(target);
@@ -87,7 +87,7 @@ impl AnalyticArm {
         Branch {
             q: q.map(principal),
             label,
-            degenerate: Degenerate {
+            degenerate: Degeneracies {
                 shoulder: swing.meets,
                 elbow: bend.meets,
                 wrist: turn.free,
@@ -182,7 +182,7 @@ impl Label {
 
 /// Degeneracies of a branch: it meets its neighbour, or leaves a joint free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Degenerate {
+pub struct Degeneracies {
     /// Front and back meet; with b = 0 joint 1 is free and keeps its previous value.
     pub shoulder: bool,
     /// Elbow up and down meet (full stretch or full fold).

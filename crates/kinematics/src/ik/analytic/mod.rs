@@ -12,7 +12,7 @@
 //!
 //! That is the ortho-parallel basis with spherical wrist (Brandstötter, Angerer & Hofbaur, 2014), with the
 //! direction of axis 4 left open. Each property must hold to [`GEOMETRY_TOLERANCE_M`] and
-//! [`GEOMETRY_TOLERANCE_RAD`]; anything else is refused with the property and its deviation ([`NotAnalytic`]).
+//! [`GEOMETRY_TOLERANCE_RAD`]; anything else is refused with the property and its deviation ([`StructureMismatch`]).
 //!
 //! # Equations
 //!
@@ -67,12 +67,12 @@ mod wrist;
 
 pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
 pub use crate::ik::analytic::branch::{
-    Branch, Branches, Degenerate, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist,
+    Branch, Branches, Degeneracies, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist,
 };
-pub use crate::ik::analytic::nearest::Nearest;
-pub use crate::ik::analytic::recognise::NotAnalytic;
+pub use crate::ik::analytic::nearest::NearestConfiguration;
+pub use crate::ik::analytic::recognise::StructureMismatch;
 
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::{AXES, JointVector, LimitViolation};
 use nalgebra::{Complex, Matrix3};
 
@@ -80,9 +80,9 @@ use nalgebra::{Complex, Matrix3};
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnalyticArm {
     /// `F_i` of the model.
-    pub(crate) folded: [Rigid; AXES],
+    pub(crate) folded: [RigidTransform; AXES],
     /// `T_S_base`: base coordinates to the shoulder frame at q₁ = 0.
-    pub(crate) shoulder_from_base: Rigid,
+    pub(crate) shoulder_from_base: RigidTransform,
     /// Wrist centre on the z axis of body 6 \[m\].
     pub(crate) wrist_along_axis_6: f64,
     /// x of axis 2 in the shoulder frame, a₁ \[m\].
@@ -161,7 +161,7 @@ pub enum AnalyticError {
 
 /// Refuses targets and starts with NaN or infinite entries.
 #[inline]
-pub(crate) fn check_finite(target: &Rigid, start: &JointVector) -> Result<(), AnalyticError> {
+pub(crate) fn check_finite(target: &RigidTransform, start: &JointVector) -> Result<(), AnalyticError> {
     // A sum is finite only if its terms are; targets so large that it overflows are no poses either.
     if !(target.rotation.sum() + target.translation.sum()).is_finite() {
         let position = target.translation.into();

@@ -3,23 +3,23 @@
 //! Joint limits, and the start from which distances are measured.
 
 use crate::ik::analytic::all::{Rejection, Solutions};
-use crate::ik::analytic::branch::{Degenerate, Elbow, Label, OutOfReach, Shoulder, Wrist};
+use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::wrist::{Bend, Goal, Swing};
 use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS, check_finite};
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::{JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Configuration within the limits, with its distance from the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Nearest {
+pub struct NearestConfiguration {
     /// Joint positions within the limits \[rad\].
     pub q: JointVector,
     /// Label of its branch.
     pub label: Label,
     /// Degeneracies of the branch.
-    pub degenerate: Degenerate,
+    pub degenerate: Degeneracies,
     /// Distance `‖q − start‖` \[rad\].
     pub distance_rad: f64,
 }
@@ -34,7 +34,12 @@ impl AnalyticArm {
     ///
     /// # Errors
     /// [`AnalyticError`]: input that is not finite, or the branch that misses the reach or the limits by least.
-    pub fn nearest(&self, target: &Rigid, start: &JointVector, limits: &JointLimits) -> Result<Nearest, AnalyticError> {
+    pub fn nearest(
+        &self,
+        target: &RigidTransform,
+        start: &JointVector,
+        limits: &JointLimits,
+    ) -> Result<NearestConfiguration, AnalyticError> {
         check_finite(target, start)?;
         let window = Window::new(limits, start);
         let goal = self.goal(target);
@@ -44,7 +49,7 @@ impl AnalyticArm {
         }
     }
 
-    fn search(&self, target: &Rigid, goal: &Goal, window: &Window<'_>) -> Option<Nearest> {
+    fn search(&self, target: &RigidTransform, goal: &Goal, window: &Window<'_>) -> Option<NearestConfiguration> {
         let mut search = Search {
             arm: self,
             target,
@@ -59,7 +64,12 @@ impl AnalyticArm {
 
     /// Searches the next values of joint 1 that may do, if it is free; otherwise returns the reason.
     #[cold]
-    fn search_elsewhere(&self, target: &Rigid, goal: &Goal, window: &Window<'_>) -> Result<Nearest, AnalyticError> {
+    fn search_elsewhere(
+        &self,
+        target: &RigidTransform,
+        goal: &Goal,
+        window: &Window<'_>,
+    ) -> Result<NearestConfiguration, AnalyticError> {
         self.critical_turns(goal, window)
             .find_map(|q1| self.search(target, goal, &window.anchored(q1)))
             .ok_or_else(|| least_miss(&self.all_within(target, window)))
@@ -70,9 +80,9 @@ impl AnalyticArm {
 /// or the joints so far are already further away than the best.
 struct Search<'a> {
     arm: &'a AnalyticArm,
-    target: &'a Rigid,
+    target: &'a RigidTransform,
     window: &'a Window<'a>,
-    best: Option<Nearest>,
+    best: Option<NearestConfiguration>,
     /// Squared distance of the best answer \[rad²\].
     least: f64,
 }
@@ -98,7 +108,7 @@ impl Search<'_> {
             return None;
         }
         let turn = self.arm.wrist(swing, bend, self.window.anchor[3]);
-        let degenerate = Degenerate {
+        let degenerate = Degeneracies {
             shoulder: swing.meets,
             elbow: bend.meets,
             wrist: turn.free,
@@ -114,13 +124,13 @@ impl Search<'_> {
 
     /// Takes the configuration if it is nearer than the best. One beyond a limit must be movable onto it.
     #[inline]
-    fn offer(&mut self, q: JointVector, label: Label, degenerate: Degenerate) -> Option<()> {
+    fn offer(&mut self, q: JointVector, label: Label, degenerate: Degeneracies) -> Option<()> {
         if self.window.squared_distance(q.as_slice()) >= self.least {
             return None;
         }
         let q = self.arm.settled(self.target, q, self.window.limits)?;
         self.least = self.window.squared_distance(q.as_slice());
-        self.best = Some(Nearest {
+        self.best = Some(NearestConfiguration {
             q,
             label,
             degenerate,

@@ -2,7 +2,7 @@
 
 use crate::ik::analytic::{AnalyticArm, GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, SHORTEST_LINK_M};
 use crate::model::Frame;
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, RobotModel};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -10,7 +10,7 @@ use nalgebra::{Complex, Matrix3, Vector3};
 /// Property of the structure that an arm does not have, with the deviation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NotAnalytic {
+pub enum StructureMismatch {
     /// Two axes that must be parallel are not.
     #[error("axes {} and {} are not parallel, by {by_rad:.3e} rad", .joints[0] + 1, .joints[1] + 1)]
     NotParallel {
@@ -60,8 +60,8 @@ impl AnalyticArm {
     /// Recognises the arm from the folded chain of the model.
     ///
     /// # Errors
-    /// [`NotAnalytic`]: the first property of the [module](super)'s list that fails its tolerance.
-    pub fn recognise(robot: &RobotModel) -> Result<Self, NotAnalytic> {
+    /// [`StructureMismatch`]: the first property of the [module](super)'s list that fails its tolerance.
+    pub fn recognise(robot: &RobotModel) -> Result<Self, StructureMismatch> {
         let folded = *robot.folded();
         let bodies = at_zero(&folded);
         let axes = bodies.map(|body| Line {
@@ -81,10 +81,10 @@ impl AnalyticArm {
         let (upper, fore) = (plane(third - second), plane(wrist - third));
         let [length_m, fore_m] = [upper, fore].map(|link| link.norm_sqr().sqrt());
         if length_m < SHORTEST_LINK_M {
-            return Err(NotAnalytic::NoUpperArm { length_m });
+            return Err(StructureMismatch::NoUpperArm { length_m });
         }
         if fore_m < SHORTEST_LINK_M {
-            return Err(NotAnalytic::NoForearm { length_m: fore_m });
+            return Err(StructureMismatch::NoForearm { length_m: fore_m });
         }
         let turn = (fore / fore_m) * (upper / length_m).conj();
         let y = shoulder.rotation.column(1);
@@ -116,40 +116,40 @@ impl AnalyticArm {
     ///
     /// `None` unless body 6, the one behind joint 6, carries the frame.
     #[must_use]
-    pub fn body_target(frame: &Frame, target: &Rigid) -> Option<Rigid> {
+    pub fn body_target(frame: &Frame, target: &RigidTransform) -> Option<RigidTransform> {
         (frame.body() == AXES).then(|| target.then(&frame.offset.inverse()))
     }
 }
 
 /// `T_base_i` at q = 0.
-fn at_zero(folded: &[Rigid; AXES]) -> [Rigid; AXES] {
-    let mut body = Rigid::identity();
+fn at_zero(folded: &[RigidTransform; AXES]) -> [RigidTransform; AXES] {
+    let mut body = RigidTransform::identity();
     folded.map(|next| {
         body = body.then(&next);
         body
     })
 }
 
-fn parallel(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), NotAnalytic> {
+fn parallel(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), StructureMismatch> {
     let [a, b] = joints.map(|i| axes[i].direction);
     let by_rad = atan2(a.cross(&b).norm(), a.dot(&b).abs());
     if by_rad <= GEOMETRY_TOLERANCE_RAD {
         return Ok(());
     }
-    Err(NotAnalytic::NotParallel { joints, by_rad })
+    Err(StructureMismatch::NotParallel { joints, by_rad })
 }
 
-fn perpendicular(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), NotAnalytic> {
+fn perpendicular(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), StructureMismatch> {
     let [a, b] = joints.map(|i| axes[i].direction);
     let by_rad = atan2(a.dot(&b).abs(), a.cross(&b).norm());
     if by_rad <= GEOMETRY_TOLERANCE_RAD {
         return Ok(());
     }
-    Err(NotAnalytic::NotPerpendicular { joints, by_rad })
+    Err(StructureMismatch::NotPerpendicular { joints, by_rad })
 }
 
 /// Returns the intersection of axes 4 and 5, if axis 6 passes through that point too. Axes 4 and 5 are perpendicular.
-fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, NotAnalytic> {
+fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, StructureMismatch> {
     let [fourth, fifth, sixth] = [axes[3], axes[4], axes[5]];
     let between = fifth.point - fourth.point;
     let gap = fourth.direction.cross(&fifth.direction).dot(&between);
@@ -157,7 +157,7 @@ fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, NotAnalytic> {
     let miss = sixth.direction.cross(&(centre - sixth.point)).norm();
     for (joints, by_m) in [([3, 4], gap.abs()), ([4, 5], miss)] {
         if by_m > GEOMETRY_TOLERANCE_M {
-            return Err(NotAnalytic::WristNotSpherical { joints, by_m });
+            return Err(StructureMismatch::WristNotSpherical { joints, by_m });
         }
     }
     Ok(centre)
@@ -167,7 +167,7 @@ fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, NotAnalytic> {
 ///
 /// The front is the side of axis 1 on which axis 2 lies. If they meet, it is the side on which the wrist centre lies at q = 0; if that lies
 /// on neither side, y points along axis 2.
-fn shoulder_frame(axes: &[Line; AXES], wrist: &Vector3<f64>) -> Rigid {
+fn shoulder_frame(axes: &[Line; AXES], wrist: &Vector3<f64>) -> RigidTransform {
     let z = axes[0].direction;
     let origin = axes[0].point + z * z.dot(&(axes[1].point - axes[0].point));
     let across = axes[1].direction;
@@ -178,7 +178,7 @@ fn shoulder_frame(axes: &[Line; AXES], wrist: &Vector3<f64>) -> Rigid {
         .find(|along| along.abs() > GEOMETRY_TOLERANCE_M)
         .unwrap_or(1.0);
     let x = x * 1.0_f64.copysign(front);
-    Rigid {
+    RigidTransform {
         rotation: Matrix3::from_columns(&[x, z.cross(&x), z]),
         translation: origin,
     }
@@ -192,7 +192,7 @@ struct WristZero {
 }
 
 impl WristZero {
-    fn of(folded: &[Rigid; AXES]) -> Self {
+    fn of(folded: &[RigidTransform; AXES]) -> Self {
         // Axis 5 in body 4 is y of the z–y–z form's first frame; axis 6 at q₅ = 0 gives α₅; α₆ is the rest.
         let [fifth, sixth] = [folded[4].rotation, folded[5].rotation];
         let first = atan2(-fifth.m13, fifth.m23);

@@ -16,7 +16,7 @@
 use crate::ik::analytic::branch::{Elbow, OutOfReach, ReachBorder, Shoulder, Wrist};
 use crate::ik::analytic::nearest::Window;
 use crate::ik::analytic::{AnalyticArm, FREE_SHOULDER_M, FREE_WRIST_RAD, REACH_ROUNDING_M};
-use crate::rotation::Rigid;
+use crate::rotation::RigidTransform;
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -70,7 +70,7 @@ pub(crate) struct Bend {
 
 impl AnalyticArm {
     #[inline]
-    pub(crate) fn goal(&self, target: &Rigid) -> Goal {
+    pub(crate) fn goal(&self, target: &RigidTransform) -> Goal {
         let seen = self.shoulder_from_base.then(target);
         Goal {
             rotation: seen.rotation,

@@ -4,17 +4,17 @@ mod input;
 mod other_arms;
 mod scale;
 
-use crate::redundancy::places::{Elsewhere, MOST_CHECKS, nearest_washable, on_grid};
+use crate::redundancy::places::{MOST_CHECKS, MovedPlate, nearest_washable, on_grid};
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::anywhere;
 use crate::redundancy::task::Profile;
-use crate::redundancy::washable::{Cause, Points, Washable, washable};
+use crate::redundancy::washability::{Cause, Points, Washability, washable};
 use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
 use crate::redundancy::*;
 use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, stance};
 use crate::trig::sin_cos;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
@@ -301,7 +301,7 @@ proptest! {
             assert!(side.dot(&Vector3::z().cross(&out)).abs() < 1e-12, "x of the tip lies in the arm's plane");
             assert!((pose.translation.vector - contact.point).norm() == 0.0);
             let leaning = world.scene.tip_leaning(&contact, &(out * tilt));
-            assert!((leaning.rotation - Rigid::from(&pose).rotation).norm() < 1e-12);
+            assert!((leaning.rotation - RigidTransform::from(&pose).rotation).norm() < 1e-12);
         });
     }
 
@@ -373,7 +373,7 @@ fn a_failure_is_the_arms_own() {
             let anywhere = |end: &&DeadEnd| anywhere(&task, end.theta).unwrap().is_some();
             let feasible = ends.iter().filter(anywhere).count() as f64 / ends.len() as f64;
             assert!(feasible <= elsewhere, "{rho} {azimuth}: {feasible}");
-            let Washable::Part {
+            let Washability::Part {
                 share,
                 causes,
                 conclusion,
@@ -486,8 +486,8 @@ fn a_better_position_is_one_that_the_caller_accepts() {
     });
 }
 
-fn elsewhere<'a>(world: &'a World<'a>, path: &'a WashPath) -> Elsewhere<'a> {
-    Elsewhere {
+fn elsewhere<'a>(world: &'a World<'a>, path: &'a WashPath) -> MovedPlate<'a> {
+    MovedPlate {
         scene: &world.scene,
         clearance: world.clearance,
         path,
@@ -526,8 +526,8 @@ fn what_is_given_up_is_neither_found_nor_refused() {
             assert_eq!(by_search(&task), Err(RedundancyError::Cancelled(cancelled)));
             assert_eq!(is_blocked(&task), Err(cancelled));
             assert_eq!(anywhere(&task, 1.0), Err(cancelled));
-            assert_eq!(washable::washable_part(&task), Err(cancelled));
-            let search = Elsewhere {
+            assert_eq!(washability::washable_part(&task), Err(cancelled));
+            let search = MovedPlate {
                 scene: &scene,
                 ..elsewhere(world, &path)
             };

@@ -44,8 +44,8 @@ fn cannot_is_said_where_a_bound_or_every_branch_proves_it() {
     let conclusion = |urdf: &str, lies: Plate, near: &JointVector| {
         with(urdf, lies, |world| {
             match washable(&world.task_near(&path(curve(0.09), 15.0), near)).unwrap() {
-                Washable::Whole => None,
-                Washable::Part { conclusion, causes, .. } => {
+                Washability::Whole => None,
+                Washability::Part { conclusion, causes, .. } => {
                     let word = if conclusion.is_proved() {
                         "cannot"
                     } else {

@@ -3,7 +3,7 @@ use crate::clearance::solid::*;
 use crate::clearance::{ITERATIVE_ERROR_M, part as convex};
 use nalgebra::Vector3;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use proptest::prelude::*;
 
@@ -58,7 +58,7 @@ fn outside(parts: &[Vec<Point3<f64>>], point: Point3<f64>) -> f64 {
 fn distance(points: &[Point3<f64>], point: Point3<f64>) -> f64 {
     let points = points.to_vec();
     let hull = convex::Part::new(&Shape::Hull { points }, Frame::base()).unwrap();
-    let at = Frame::base().offset(&Rigid::from(&Pose::translation(point.x, point.y, point.z)));
+    let at = Frame::base().offset(&RigidTransform::from(&Pose::translation(point.x, point.y, point.z)));
     let ball = convex::Part::ball(1e-12, at);
     let poses = RobotModel::irb120().unwrap().fk(&JointVector::zeros());
     bracketed(&hull.place(&poses), &ball.place(&poses)).0.distance

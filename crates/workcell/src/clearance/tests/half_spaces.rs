@@ -26,7 +26,7 @@ fn shape() -> impl Strategy<Value = Shape> {
 }
 
 fn half_space(pose: &Isometry3<f64>) -> Part {
-    Part::half_space(Frame::base().offset(&Rigid::from(pose)))
+    Part::half_space(Frame::base().offset(&RigidTransform::from(pose)))
 }
 
 proptest! {

@@ -9,7 +9,7 @@ use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
 use crate::tool::{StraightTool, Tool};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::Rigid;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -20,7 +20,7 @@ fn iso() -> impl Strategy<Value = Isometry3<f64>> {
 }
 
 fn part(shape: &Shape, pose: &Isometry3<f64>) -> Part {
-    Part::new(shape, Frame::base().offset(&Rigid::from(pose))).unwrap()
+    Part::new(shape, Frame::base().offset(&RigidTransform::from(pose))).unwrap()
 }
 
 fn gap(a: &Part, b: &Part) -> Separation {
@@ -230,9 +230,9 @@ fn the_sponge_may_touch_the_plate_it_works_on() {
     let model = model();
     // Tool straight down over plate 1 with the sponge on its surface: found by the place of contact alone.
     let robot = RobotModel::irb120().unwrap();
-    let tip = robot.tool_mount(None).unwrap().offset(&Rigid {
+    let tip = robot.tool_mount(None).unwrap().offset(&RigidTransform {
         translation: Vector3::new(0.0, 0.0, 0.15),
-        ..Rigid::identity()
+        ..RigidTransform::identity()
     });
     let solver = platewash_kinematics::ik::IkSolver::new(&robot, tip, Default::default()).unwrap();
     let down = crate::tool::tool_down(Vector3::new(0.35, 0.2, 0.029));

@@ -1,4 +1,4 @@
-mod stands;
+mod plate_load;
 
 use crate::contact::*;
 use crate::surface::Surface;
@@ -59,13 +59,13 @@ fn twice_along_x() -> Vec<Moment> {
 #[test]
 fn the_stays_of_a_place_are_its_time_in_contact() {
     let (foundation, moments) = (foundation(), twice_along_x());
-    let wanted = Wanted {
+    let wanted = ContactThresholds {
         compression_m: 0.001,
         height_error_m: 0.001,
         time_s: 0.0,
         dose_pa_m: 0.0,
     };
-    let looks = Looks::new(&foundation, &moments, &wanted);
+    let looks = ContactSampler::new(&foundation, &moments, &wanted);
     for (x, count) in [(0.1, 2), (0.03, 2), (0.199, 1), (0.3, 0)] {
         let point = Vector3::new(x, 0.01, 0.0);
         let stays = looks.stays(&point);
@@ -82,7 +82,7 @@ fn the_stays_of_a_place_are_its_time_in_contact() {
     let [from, _] = looks.stays(&Vector3::new(0.1, 0.01, 0.0))[0];
     let chord_m = (0.025f64.powi(2) - 0.01f64.powi(2)).sqrt();
     assert!((from - (0.1 - chord_m) / 0.1).abs() < 2e-2, "{from}");
-    let none = Looks::new(&foundation, &[], &wanted);
+    let none = ContactSampler::new(&foundation, &[], &wanted);
     assert!(
         none.stays(&Vector3::new(f64::NAN, 0.0, 0.0)).is_empty() && looks.stays(&Vector3::repeat(f64::NAN)).is_empty()
     );

@@ -6,7 +6,7 @@
 
 use crate::washing::shares::{Fineness, Sags, shares};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Dwell, Foundation, Looks, Moment, SpongePose, Wanted};
+use platewash_workcell::contact::{ContactSampler, ContactThresholds, Dwell, Foundation, Moment, SpongePose};
 use platewash_workcell::random::stream;
 use platewash_workcell::surface::{Knot, SHARPEST_M, Surface};
 use rand::RngExt;
@@ -74,17 +74,22 @@ fn little(random: &mut Pcg64, radius_m: f64) -> Surface {
 }
 
 /// Returns the amounts proved for a single cell that covers the whole face.
-fn proved(surface: &Surface, foundation: &Foundation, (moments, sags): (&[Moment], &[Sags]), wanted: &Wanted) -> Dwell {
+fn proved(
+    surface: &Surface,
+    foundation: &Foundation,
+    (moments, sags): (&[Moment], &[Sags]),
+    wanted: &ContactThresholds,
+) -> Dwell {
     let fineness = Fineness {
         cell_m: 2.0 * surface.rim_m(),
         enough: [1.0; 3],
     };
-    let worst = |wanted: &Wanted| {
+    let worst = |wanted: &ContactThresholds| {
         let found = shares(surface, foundation, (moments, sags), wanted, &fineness);
         [found.contact, found.time, found.dose].map(|share| share.worst)
     };
     let [_, time_s, dose_pa_m] = worst(wanted);
-    let [compression_m, ..] = worst(&Wanted {
+    let [compression_m, ..] = worst(&ContactThresholds {
         compression_m: NEVER,
         ..*wanted
     });
@@ -95,8 +100,8 @@ fn proved(surface: &Surface, foundation: &Foundation, (moments, sags): (&[Moment
     }
 }
 
-fn wanted(random: &mut Pcg64) -> Wanted {
-    Wanted {
+fn wanted(random: &mut Pcg64) -> ContactThresholds {
+    ContactThresholds {
         compression_m: CONTACT_M,
         height_error_m: any(random, [0.0, 1e-3]),
         time_s: NEVER,
@@ -130,7 +135,7 @@ fn a_point_is_measured_to_get_what_its_cell_is_proved_to() {
             slide_m: 1e-2 * lost,
         };
         let least = proved(&surface, &foundation, (&moments, &vec![sags; 400]), &wanted);
-        let looks = Looks::new(&foundation, &moments, &wanted);
+        let looks = ContactSampler::new(&foundation, &moments, &wanted);
         for _ in 0..20 {
             let point = place(random, &surface);
             let got = looks.at(&point);
@@ -162,7 +167,7 @@ fn a_small_cell_is_proved_to_get_nearly_what_its_points_are_measured_to() {
         let moments = motion(random, 2000);
         let surface = little(random, 1e-5);
         let least = proved(&surface, &foundation, (&moments, &vec![Sags::default(); 2000]), &wanted);
-        let got = Looks::new(&foundation, &moments, &wanted).at(&Vector3::zeros());
+        let got = ContactSampler::new(&foundation, &moments, &wanted).at(&Vector3::zeros());
         let most = |of: fn(&Moment) -> f64| moments.iter().map(of).fold(0.0, f64::max);
         let [fastest, turning] = [most(|moment| moment.speed.norm()), most(|moment| moment.turning.norm())];
         let greatest_pa = foundation.stiffness_pa[0] / foundation.free_height_m * got.compression_m.max(0.0);

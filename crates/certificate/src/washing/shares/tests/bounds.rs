@@ -1,10 +1,10 @@
 //! Bounds over a cell against dense sums at points of it, for a sponge that goes along an arc while it turns.
 
-use crate::washing::shares::bounds::{Kept, Passes, Scratch};
+use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
 use crate::washing::shares::cell::Cell;
 use crate::washing::shares::{Fineness, Sags, shares};
 use nalgebra::{Rotation3, Unit, Vector3};
-use platewash_workcell::contact::{Foundation, Moment, SpongePose, Wanted};
+use platewash_workcell::contact::{ContactThresholds, Foundation, Moment, SpongePose};
 use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
 
@@ -15,7 +15,7 @@ const SPONGE: Foundation = Foundation {
     stiffness_pa: [1.1e4, 4.4e4],
 };
 
-const WANTED: Wanted = Wanted {
+const WANTED: ContactThresholds = ContactThresholds {
     compression_m: 1e-3,
     height_error_m: 1e-3,
     time_s: 0.05,
@@ -124,7 +124,7 @@ proptest! {
         let mut windows = Vec::new();
         passes.near(&cell, &mut windows);
         let mut scratch = Scratch::default();
-        let found = passes.bounds(&cell, (Kept::default(), &windows), &mut scratch, |_| false).unwrap();
+        let found = passes.bounds(&cell, (CellAmounts::default(), &windows), &mut scratch, |_| false).unwrap();
         // A quarter that starts from what is known of the whole.
         let windows: Vec<_> = scratch.windows().collect();
         let quarter = [middle[0] + 0.5 * half, middle[1] - 0.5 * half];

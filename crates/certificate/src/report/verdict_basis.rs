@@ -49,7 +49,7 @@ const PARENT: &str =
 
 /// Basis of a verdict: the job as it was judged, and the assumptions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RestsOn {
+pub struct VerdictBasis {
     /// Mount, tool and obstacles. The arm is the one that the motion was judged for, and the exclusions are the pairs that were not judged.
     pub workcell: Workcell,
     /// The plates.
@@ -70,7 +70,7 @@ pub struct RestsOn {
     pub assumptions: Vec<String>,
 }
 
-impl RestsOn {
+impl VerdictBasis {
     pub(crate) fn new(job: &JobTerms, arm: &RobotModel, exclusions: Exclusions) -> Self {
         Self {
             workcell: Workcell {
@@ -122,7 +122,7 @@ fn unchecked(arm: &RobotModel) -> Option<String> {
 /// Greatest sine of the angle between the vertical and the normal of a half-space that counts as a floor.
 const LEVEL: f64 = 0.5;
 
-impl RestsOn {
+impl VerdictBasis {
     /// Returns the end of the first line for a job without a floor; empty for a job with one.
     #[must_use]
     pub fn without_floor(&self) -> &'static str {
@@ -161,7 +161,7 @@ impl RestsOn {
     }
 }
 
-impl fmt::Display for RestsOn {
+impl fmt::Display for VerdictBasis {
     /// Some compact lines; a name stands before the first of its lines.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "\nthe proof rests on")?;

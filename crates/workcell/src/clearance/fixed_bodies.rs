@@ -15,7 +15,7 @@ mod tests;
 use crate::clearance::body::{Body, BodyKind, obstacle_body, place, plate_body, world};
 use crate::clearance::distance::bracketed;
 use crate::clearance::model::{ClearanceError, ClearanceModel, from_base};
-use crate::clearance::part::{Core, Extent, Part, Placed};
+use crate::clearance::part::{Core, Extent, Part, PlacedPart};
 use crate::dry_run::DryRun;
 use crate::plate::Plate;
 use crate::words::printable;
@@ -31,7 +31,7 @@ pub const TOUCH_M: f64 = 1e-6;
 
 /// Fixed body that overlaps another.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Standing {
+pub enum FixedBody {
     /// Obstacle, by its name.
     Obstacle(String),
     /// Obstacle of several convex parts, by its name.
@@ -40,7 +40,7 @@ pub enum Standing {
     Plate(usize),
 }
 
-impl fmt::Display for Standing {
+impl fmt::Display for FixedBody {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Obstacle(name) | Self::Parts(name) => write!(f, "obstacle '{}'", printable(name)),
@@ -51,9 +51,9 @@ impl fmt::Display for Standing {
 
 /// Two fixed bodies that overlap.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StandingOverlap {
+pub struct FixedOverlap {
     /// The first body.
-    pub standing: Standing,
+    pub standing: FixedBody,
     /// Name of the plate, or of the link of the arm.
     pub other: String,
     /// Upper bound on the depth of the overlap \[m\].
@@ -74,7 +74,7 @@ pub fn standing_overlaps(
     workcell: &Workcell,
     plates: &[Plate],
     dry_run: Option<&DryRun>,
-) -> Result<Vec<StandingOverlap>, ClearanceError> {
+) -> Result<Vec<FixedOverlap>, ClearanceError> {
     let is_real_plate = |obstacle: &Obstacle| {
         let named = |i| obstacle.name == DryRun::real_name(i);
         dry_run.is_some() && (0..plates.len()).any(named)
@@ -113,10 +113,10 @@ pub fn standing_overlaps(
             if by_m > TOUCH_M {
                 let (name, other) = (obstacle.name.clone(), other.name.clone());
                 let standing = match obstacle.shape {
-                    ObstacleShape::Parts(_) => Standing::Parts(name),
-                    _ => Standing::Obstacle(name),
+                    ObstacleShape::Parts(_) => FixedBody::Parts(name),
+                    _ => FixedBody::Obstacle(name),
                 };
-                found.push(StandingOverlap { standing, other, by_m });
+                found.push(FixedOverlap { standing, other, by_m });
             }
         }
     }
@@ -126,7 +126,7 @@ pub fn standing_overlaps(
 impl ClearanceModel {
     /// Returns the overlap with the base of a plate that is not level with it, if there is one.
     #[must_use]
-    pub fn plate_in_base(&self, plate: usize) -> Option<StandingOverlap> {
+    pub fn plate_in_base(&self, plate: usize) -> Option<FixedOverlap> {
         let here = self.bodies.iter().find(|body| body.kind == BodyKind::Plate(plate))?;
         let poses = self.robot.fk(&JointVector::zeros());
         let tilted = self
@@ -138,12 +138,12 @@ impl ClearanceModel {
 }
 
 /// Returns the overlap of a plate with the base, which is among `bodies`, if there is one.
-fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Option<StandingOverlap> {
+fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Option<FixedOverlap> {
     let mut base = bodies.iter().filter(|body| body.kind == BodyKind::Link(0));
     base.find_map(|link| {
         let by_m = overlap(plate, link, poses);
-        (by_m > TOUCH_M).then(|| StandingOverlap {
-            standing: Standing::Plate(index),
+        (by_m > TOUCH_M).then(|| FixedOverlap {
+            standing: FixedBody::Plate(index),
             other: link.name.clone(),
             by_m,
         })
@@ -153,7 +153,7 @@ fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Op
 /// Upper bound on the depth by which two bodies overlap \[m\]; 0 if they do not.
 fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
     let outer = [a, b].map(|body| place(std::slice::from_ref(body), poses).remove(0));
-    let near = |p: &Placed<'_>, r: &Placed<'_>| p.sphere_gap(r) <= 0.0;
+    let near = |p: &PlacedPart<'_>, r: &PlacedPart<'_>| p.sphere_gap(r) <= 0.0;
     let [first, second] = &outer;
     let meet = first
         .iter()
@@ -170,7 +170,7 @@ fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
 }
 
 /// Upper bound on the depth by which two parts overlap \[m\]; 0 or less if they do not.
-fn depth(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
+fn depth(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> f64 {
     let (found, at_least) = bracketed(a, b);
     if a.outwards().is_some() || b.outwards().is_some() || at_least > 0.0 {
         return -found.distance;
@@ -193,7 +193,7 @@ fn depth(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
 }
 
 /// Returns directions between the middles of two parts: directly, and across the axes of both, which separate round parts.
-fn between(a: &Placed<'_>, b: &Placed<'_>) -> impl Iterator<Item = Vector> {
+fn between(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> impl Iterator<Item = Vector> {
     let way = b.pose.translation - a.pose.translation;
     let across = [a, b].map(|part| {
         let axis = part.axis().unwrap_or(Vector::ZERO);
@@ -205,7 +205,7 @@ fn between(a: &Placed<'_>, b: &Placed<'_>) -> impl Iterator<Item = Vector> {
 }
 
 /// Returns the directions of a part's faces, and of its axis if it has one; both ways.
-fn faces(part: &Placed<'_>) -> std::vec::IntoIter<Vector> {
+fn faces(part: &PlacedPart<'_>) -> std::vec::IntoIter<Vector> {
     let own: Vec<Vector> = match part.core {
         Core::Solid(solid, Extent::Vertices(_)) => match solid.as_convex_polyhedron() {
             Some(hull) => hull.faces().iter().map(|face| face.normal).collect(),

@@ -13,7 +13,7 @@
 use crate::contact::SpongePose;
 use crate::contact::columns::{Columns, meet_from};
 use crate::contact::moment::Drift;
-use crate::contact::parts::{Bends, Met, PartBounds, Size, Spread};
+use crate::contact::parts::{Bends, PartBounds, Size, Spread, SurfaceHit};
 use nalgebra::Vector3;
 
 /// Load on the foam by a plate, for every height within its error.
@@ -47,8 +47,8 @@ impl Press {
     };
 
     /// Adds a part on a plate with the given rim.
-    fn add(&mut self, both: &Both, size: &Size, rim_m: f64) {
-        let Both { low, high, .. } = both;
+    fn add(&mut self, both: &PlatePartBounds, size: &Size, rim_m: f64) {
+        let PlatePartBounds { low, high, .. } = both;
         let is_on = both.far_m < rim_m;
         self.sag_m = self.sag_m.max(low.sag_m).max(high.sag_m);
         if is_on {
@@ -71,7 +71,7 @@ impl Press {
 
 /// Load that a plate certainly puts on the foam at a moment, for some height within its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct PlateLoad {
     /// Attained ∫ max(w, 0) dA \[m³\]: no more than the first with the plate at its lowest, no less than the second with it at its highest.
     pub volume_m3: [f64; 2],
     /// Compression that a column has at least \[m\].
@@ -82,7 +82,7 @@ pub struct Seen {
 
 /// Part of the sponge's face that may touch a plate over a stretch of time, in the frame of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touching {
+pub struct TouchRegion {
     /// Middle of the part, along the direction that turns with the tool, and across that and the axis \[m\].
     pub at_m: [f64; 2],
     /// Least and greatest distance from the tip along the axis at which it touches \[m\].
@@ -91,8 +91,8 @@ pub struct Touching {
 
 /// State of a sponge on a plate at a moment: the points where its columns meet the plate at its lowest and at its highest.
 #[derive(Debug, Clone)]
-pub struct Standing {
-    met: Vec<[Met; 2]>,
+pub struct SpongeState {
+    met: Vec<[SurfaceHit; 2]>,
     /// Point where the deepest column meets the plate at its highest \[m\].
     deepest_at_m: [f64; 3],
     /// Greatest |λ| \[m\].
@@ -100,7 +100,7 @@ pub struct Standing {
 }
 
 /// Bounds of a part over a stretch, with the plate at its lowest and at its highest.
-struct Both {
+struct PlatePartBounds {
     low: PartBounds,
     high: PartBounds,
     /// Least, and below greatest distance from the plate's axis at which it is met, for every height of the plate \[m\].
@@ -112,11 +112,11 @@ impl Columns {
     /// Computes the state of the sponge on a surface that may lie higher and lower by `error_m` \[m\]. `side` is a direction that turns
     /// with the tool, across its axis.
     #[must_use]
-    pub fn stand(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> Standing {
+    pub fn stand(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> SpongeState {
         let (surface, rim_m, axis) = (bends.surface(), bends.rim_m(), &pose.axis);
         let across = axis.cross(side);
         let compression_m = self.foundation().compression_m;
-        let mut standing = Standing {
+        let mut standing = SpongeState {
             met: Vec::with_capacity(self.sizes().size_hint().0),
             deepest_at_m: [0.0; 3],
             along_m: 0.0,
@@ -140,7 +140,7 @@ impl Columns {
             let higher = meet_from(surface, (&high, axis), guess_m, bends.settled_m());
             let met = [&meets, &higher].map(|(along_m, point, normal)| {
                 standing.along_m = standing.along_m.max(along_m.abs());
-                Met::new(compression_m - along_m, point, normal, axis)
+                SurfaceHit::new(compression_m - along_m, point, normal, axis)
             });
             if met[1].compression_m > deepest_m && met[1].rho_m < rim_m {
                 deepest_m = met[1].compression_m;
@@ -153,7 +153,7 @@ impl Columns {
 
     /// Bounds the load on the foam from one moment to another.
     #[must_use]
-    pub fn press(&self, bends: &Bends<'_>, ends: [&Standing; 2], drift: &Drift) -> Press {
+    pub fn press(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Press {
         let mut press = Press::NONE;
         for (both, size) in self.over(bends, ends, drift).zip(self.sizes()) {
             press.add(&both, &size, bends.rim_m());
@@ -163,10 +163,10 @@ impl Columns {
 
     /// Returns the load that the plate certainly puts on the foam at a moment, and bounds of it.
     #[must_use]
-    pub fn seen(&self, bends: &Bends<'_>, at: &Standing) -> (Seen, Press) {
+    pub fn seen(&self, bends: &Bends<'_>, at: &SpongeState) -> (PlateLoad, Press) {
         let rim_m = bends.rim_m();
         let mut press = Press::NONE;
-        let mut seen = Seen {
+        let mut seen = PlateLoad {
             volume_m3: [0.0; 2],
             deepest_m: f64::NEG_INFINITY,
             deepest_at_m: at.deepest_at_m,
@@ -188,10 +188,10 @@ impl Columns {
     /// Returns the parts that may touch the plate at some moment of a stretch, for every height within its error. None reaches farther than
     /// [`Columns::reach_m`] from its middle. `None` if nothing is known of a part.
     #[must_use]
-    pub fn touching(&self, bends: &Bends<'_>, ends: [&Standing; 2], drift: &Drift) -> Option<Vec<Touching>> {
+    pub fn touching(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Option<Vec<TouchRegion>> {
         let (rim_m, c) = (bends.rim_m(), self.foundation().compression_m);
         let mut all = Vec::new();
-        for (at_m, Both { low, high, near_m, .. }) in self.middles_m().zip(self.over(bends, ends, drift)) {
+        for (at_m, PlatePartBounds { low, high, near_m, .. }) in self.middles_m().zip(self.over(bends, ends, drift)) {
             if high.ends_m[1] < 0.0 || near_m > rim_m {
                 continue;
             }
@@ -200,7 +200,7 @@ impl Columns {
             }
             // It reaches no farther out than the free face.
             let along_m = [c - high.ends_m[1], (c - low.ends_m[0]).min(c)];
-            all.push(Touching { at_m, along_m });
+            all.push(TouchRegion { at_m, along_m });
         }
         Some(all)
     }
@@ -209,9 +209,9 @@ impl Columns {
     fn over<'a>(
         &'a self,
         bends: &'a Bends<'_>,
-        [from, to]: [&'a Standing; 2],
+        [from, to]: [&'a SpongeState; 2],
         drift: &Drift,
-    ) -> impl Iterator<Item = Both> + 'a {
+    ) -> impl Iterator<Item = PlatePartBounds> + 'a {
         let spread = Spread::new(self.foundation(), self.reach_m(), from.along_m.max(to.along_m), drift);
         let ends = from.met.iter().zip(&to.met).zip(self.sizes());
         ends.map(move |((from, to), size)| {
@@ -220,7 +220,7 @@ impl Columns {
             // With the plate between its lowest and its highest a part's place is between those of both, on a straight line seen from
             // above, and no farther from one of them than half of what they are apart.
             let apart_m = apart(from).max(apart(to)) + 0.5 * (low.slid_m + high.slid_m);
-            Both {
+            PlatePartBounds {
                 // If nothing is known, the position is unbounded.
                 near_m: if apart_m.is_finite() {
                     low.rho_m[0].min(high.rho_m[0]) - apart_m
@@ -236,6 +236,6 @@ impl Columns {
 }
 
 /// Half of the distance between the positions of a part with the plate at its lowest and at its highest \[m\].
-fn apart([low, high]: &[Met; 2]) -> f64 {
+fn apart([low, high]: &[SurfaceHit; 2]) -> f64 {
     0.5 * (low.seen_m - high.seen_m).norm()
 }

@@ -7,7 +7,7 @@
 //! from the point than its radius, nor than half-way to either neighbour, measured at the tip. The true size on a controller is
 //! not known: programs are judged with no corners, and with corners of half, once and twice their size.
 
-use crate::reading::{Between, ReadPoint, Reading};
+use crate::reading::{Interpolation, ReadPoint, Reading};
 use crate::refusal::Refusal;
 use platewash_certificate::{
     Certified, Check, Measure, ProgramLimits, ProgramProof, ProveError, Requirement, Sense, prove_program,
@@ -24,7 +24,7 @@ pub const JOINT_SPEED_SHARE: f64 = 0.95;
 
 /// Judgement of a program.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Judged {
+pub struct ProgramJudgement {
     /// Judgements under each assumption, in the order of [`CORNER_SCALES`] where there are corners.
     pub cases: Vec<Case>,
 }
@@ -39,12 +39,12 @@ pub struct Case {
     pub proof: ProgramProof,
     /// Demands on the controller.
     #[serde(flatten)]
-    pub asked: Asked,
+    pub asked: ControllerDemands,
 }
 
 /// Demands of a motion on the controller, which times it: measured, not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Asked {
+pub struct ControllerDemands {
     /// The greatest acceleration of a joint at each corner, as a share of the limit of the plan's job: the median of all corners.
     /// `None` where there are none.
     pub acceleration_median: Option<f64>,
@@ -64,7 +64,7 @@ pub fn judge(
     arm: &RobotModel,
     tolerance_m: f64,
     cancel: &CancelToken,
-) -> Result<Judged, ProveError> {
+) -> Result<ProgramJudgement, ProveError> {
     let job = &certified.plan().job;
     let tip = job.workcell.tool.tip_frame(arm);
     let limits = ProgramLimits {
@@ -72,21 +72,21 @@ pub fn judge(
         joint_speed_share: JOINT_SPEED_SHARE,
         speed_share: reading.share(),
     };
-    let case = |interpreted: Interpreted| {
+    let case = |interpreted: ProgramMotion| {
         let motion = &interpreted.motion;
         Ok(Case {
             corner_scale: interpreted.corner_scale,
             proof: prove_program(certified, motion, arm, &limits, cancel)?,
-            asked: Asked::of(&interpreted, &job.limits.joint_acceleration_rad_s2),
+            asked: ControllerDemands::of(&interpreted, &job.limits.joint_acceleration_rad_s2),
         })
     };
     let motions = motions(reading, arm, &tip)?;
-    Ok(Judged {
+    Ok(ProgramJudgement {
         cases: motions.into_iter().map(case).collect::<Result<_, ProveError>>()?,
     })
 }
 
-impl Judged {
+impl ProgramJudgement {
     /// Returns true where the program holds under every assumption.
     #[must_use]
     pub fn holds(&self) -> bool {
@@ -136,8 +136,8 @@ impl Case {
     }
 }
 
-impl Asked {
-    fn of(interpreted: &Interpreted, limits_rad_s2: &[f64; AXES]) -> Self {
+impl ControllerDemands {
+    fn of(interpreted: &ProgramMotion, limits_rad_s2: &[f64; AXES]) -> Self {
         let pieces = interpreted.motion.pieces();
         let mut shares: Vec<f64> = Vec::new();
         let mut speed_step_rad_s = 0.0_f64;
@@ -202,7 +202,7 @@ const NOTHING_S: f64 = 1e-9;
 
 /// The motion of a program under one assumption.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Interpreted {
+pub struct ProgramMotion {
     /// Size of its corners relative to the program's text; `None` where it has none.
     pub corner_scale: Option<f64>,
     /// The motion in the plan's time.
@@ -211,7 +211,7 @@ pub struct Interpreted {
 
 /// A point of a program in the plan's time.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Passed {
+pub(crate) struct TimedPoint {
     /// \[s\]
     pub t_s: f64,
     /// \[rad\]
@@ -226,19 +226,19 @@ pub(crate) struct Passed {
 ///
 /// # Errors
 /// [`KnotError`] for points that are no motion: times that do not ascend, numbers that are not finite.
-pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<Interpreted>, KnotError> {
+pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<ProgramMotion>, KnotError> {
     let share = reading.share();
-    let in_plan_time = |point: &ReadPoint| Passed {
+    let in_plan_time = |point: &ReadPoint| TimedPoint {
         t_s: point.t_s * share,
         q_rad: point.q_rad,
         qd_rad_s: point.qd_rad_s.unwrap_or_default() / share,
         corner_m: point.corner_m.unwrap_or(0.0),
     };
     let points: Vec<_> = reading.points.iter().map(in_plan_time).collect();
-    let piece: fn(&Passed, &Passed) -> MotionPiece = match reading.between {
-        Between::RoundedLines => return rounded_motions(&points, arm, tip),
-        Between::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
-        Between::Cubics => |a, b| MotionPiece {
+    let piece: fn(&TimedPoint, &TimedPoint) -> MotionPiece = match reading.between {
+        Interpolation::RoundedLines => return rounded_motions(&points, arm, tip),
+        Interpolation::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
+        Interpolation::Cubics => |a, b| MotionPiece {
             t_s: [a.t_s, b.t_s],
             q_rad: [a.q_rad, b.q_rad],
             qd_rad_s: [a.qd_rad_s, b.qd_rad_s],
@@ -246,7 +246,7 @@ pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<I
     };
     check(&points)?;
     let pieces = points.windows(2).map(|both| piece(&both[0], &both[1]));
-    Ok(vec![Interpreted {
+    Ok(vec![ProgramMotion {
         corner_scale: None,
         motion: PiecewiseMotion::new(pieces.collect())?,
     }])
@@ -256,13 +256,17 @@ pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<I
 ///
 /// # Errors
 /// As [`motions`].
-pub(crate) fn rounded_motions(points: &[Passed], arm: &RobotModel, tip: &Frame) -> Result<Vec<Interpreted>, KnotError> {
+pub(crate) fn rounded_motions(
+    points: &[TimedPoint],
+    arm: &RobotModel,
+    tip: &Frame,
+) -> Result<Vec<ProgramMotion>, KnotError> {
     check(points)?;
-    let at = |point: &Passed| arm.fk(&point.q_rad).rigid(tip).translation;
+    let at = |point: &TimedPoint| arm.fk(&point.q_rad).rigid(tip).translation;
     let places: Vec<_> = points.iter().map(at).collect();
     let reach_m: Vec<_> = places.windows(2).map(|both| (both[1] - both[0]).norm()).collect();
     let motion = |scale| {
-        Ok(Interpreted {
+        Ok(ProgramMotion {
             corner_scale: Some(scale),
             motion: PiecewiseMotion::new(rounded(points, &reach_m, scale))?,
         })
@@ -271,7 +275,7 @@ pub(crate) fn rounded_motions(points: &[Passed], arm: &RobotModel, tip: &Frame) 
 }
 
 /// Refuses points that are no motion.
-fn check(points: &[Passed]) -> Result<(), KnotError> {
+fn check(points: &[TimedPoint]) -> Result<(), KnotError> {
     for (knot, point) in points.iter().enumerate() {
         let t_s = point.t_s;
         let numbers = point.q_rad.iter().chain(&point.qd_rad_s).copied();
@@ -290,7 +294,7 @@ fn check(points: &[Passed]) -> Result<(), KnotError> {
 }
 
 /// Straight segments with corners of `scale` times their radius.
-fn rounded(points: &[Passed], reach_m: &[f64], scale: f64) -> Vec<MotionPiece> {
+fn rounded(points: &[TimedPoint], reach_m: &[f64], scale: f64) -> Vec<MotionPiece> {
     let [first, .., last] = points else {
         return Vec::new();
     };
@@ -314,7 +318,7 @@ fn rounded(points: &[Passed], reach_m: &[f64], scale: f64) -> Vec<MotionPiece> {
 }
 
 /// The corner at a point.
-fn corner(points: &[Passed], reach_m: &[f64], k: usize, scale: f64) -> MotionPiece {
+fn corner(points: &[TimedPoint], reach_m: &[f64], k: usize, scale: f64) -> MotionPiece {
     let [before, after] = [k - 1, k];
     let radius_m = (points[k].corner_m * scale)
         .min(0.5 * reach_m[before])
@@ -326,7 +330,7 @@ fn corner(points: &[Passed], reach_m: &[f64], k: usize, scale: f64) -> MotionPie
         _ => 0.0,
     };
     let half_s = time_s(before).min(time_s(after));
-    let Passed { t_s: t, q_rad: q, .. } = points[k];
+    let TimedPoint { t_s: t, q_rad: q, .. } = points[k];
     let qd_rad_s = [before, after].map(|i| (points[i + 1].q_rad - points[i].q_rad) / step_s(i));
     MotionPiece {
         t_s: [t - half_s, t + half_s],
@@ -341,7 +345,7 @@ mod tests {
     use crate::dialect::Place;
     use proptest::prelude::*;
 
-    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], between: Between) -> Reading {
+    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], between: Interpolation) -> Reading {
         let mut t_s = 0.0;
         let mut points = vec![(0.0, [0.1; 6], None)];
         for &(step_s, q, corner_m) in steps {
@@ -373,7 +377,7 @@ mod tests {
         prop::collection::vec((0.01..0.1_f64, prop::array::uniform6(0.0..0.2_f64), corner), 2..12)
     }
 
-    fn interpreted(reading: &Reading) -> (Vec<Interpreted>, RobotModel, Frame) {
+    fn interpreted(reading: &Reading) -> (Vec<ProgramMotion>, RobotModel, Frame) {
         let arm = RobotModel::irb120().unwrap();
         let tip = platewash_workcell::fixtures::kitchen_tool().tip_frame(&arm);
         (motions(reading, &arm, &tip).unwrap(), arm, tip)
@@ -383,11 +387,11 @@ mod tests {
         /// Through every stop, near every other point, in speed without a step but at stops, and as long as the program.
         #[test]
         fn corners_are_smooth_and_small(steps in steps()) {
-            let reading = reading(&steps, Between::RoundedLines);
+            let reading = reading(&steps, Interpolation::RoundedLines);
             let (motions, arm, tip) = interpreted(&reading);
             prop_assert_eq!(motions.len(), CORNER_SCALES.len());
             let place = |q: &JointVector| arm.fk(q).rigid(&tip).translation;
-            for Interpreted { corner_scale, motion } in &motions {
+            for ProgramMotion { corner_scale, motion } in &motions {
                 let scale = corner_scale.unwrap();
                 let last = reading.points.last().unwrap();
                 prop_assert!((motion.duration_s() - last.t_s).abs() < 1e-12);
@@ -417,7 +421,7 @@ mod tests {
         /// A corner is the parabola of even acceleration, worked out here from its three points.
         #[test]
         fn a_corner_is_a_parabola(steps in steps(), share in 0.0..1.0_f64) {
-            let reading = reading(&steps, Between::RoundedLines);
+            let reading = reading(&steps, Interpolation::RoundedLines);
             let (motions, ..) = interpreted(&reading);
             for piece in motions[2].motion.pieces() {
                 let [from, to] = piece.accelerations();
@@ -436,7 +440,7 @@ mod tests {
 
         #[test]
         fn without_corners_it_is_a_polyline(steps in steps(), share in 0.0..1.0_f64) {
-            let reading = reading(&steps, Between::RoundedLines);
+            let reading = reading(&steps, Interpolation::RoundedLines);
             let (motions, ..) = interpreted(&reading);
             for both in reading.points.windows(2) {
                 let t_s = both[0].t_s + share * (both[1].t_s - both[0].t_s);
@@ -451,7 +455,7 @@ mod tests {
     #[test]
     fn motions_are_in_the_time_of_the_plan() {
         let steps = [(0.2, [0.2; 6], Some(0.005)), (0.2, [0.15; 6], None)];
-        let whole = reading(&steps, Between::RoundedLines);
+        let whole = reading(&steps, Interpolation::RoundedLines);
         let mut slow = whole.clone();
         slow.speed_share = Some(0.25);
         slow.points.iter_mut().for_each(|point| point.t_s *= 4.0);
@@ -466,7 +470,7 @@ mod tests {
     fn points_that_are_no_motion_are_refused() {
         let arm = RobotModel::irb120().unwrap();
         let tip = platewash_workcell::fixtures::kitchen_tool().tip_frame(&arm);
-        for between in [Between::Lines, Between::RoundedLines, Between::Cubics] {
+        for between in [Interpolation::Lines, Interpolation::RoundedLines, Interpolation::Cubics] {
             for t_s in [0.0, -1.0, f64::NAN, f64::INFINITY] {
                 let mut reading = reading(&[(0.1, [0.2; 6], Some(0.005)), (0.1, [0.3; 6], None)], between);
                 reading.points[2].t_s = t_s;

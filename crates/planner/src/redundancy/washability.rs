@@ -17,7 +17,7 @@ use std::fmt;
 /// Extent to which a plate can be washed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum Washable {
+pub enum Washability {
     /// Each contact point on its own. (That they connect is for [`crate::redundancy::washing()`] to find; it always did.)
     Whole,
     /// Not all of it.
@@ -55,9 +55,9 @@ pub struct Cause {
 }
 
 /// A [`Cause`] in words: the part in percent, where it lies, and by how much it is missed at most, rounded to the worse.
-struct Words<'a>(&'a Cause, Conclusion);
+struct CauseText<'a>(&'a Cause, Conclusion);
 
-impl fmt::Display for Words<'_> {
+impl fmt::Display for CauseText<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(cause, conclusion) = self;
         let [near, far] = cause.from_axis_m;
@@ -85,7 +85,7 @@ impl Cause {
     /// missed at most, rounded up.
     #[must_use]
     pub fn words(&self, conclusion: Conclusion) -> String {
-        Words(self, conclusion).to_string()
+        CauseText(self, conclusion).to_string()
     }
 }
 
@@ -93,9 +93,9 @@ impl Cause {
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn washable(task: &Task<'_>) -> Result<Washable, Cancelled> {
+pub fn washable(task: &Task<'_>) -> Result<Washability, Cancelled> {
     match by_policy(task, Width::Everywhere)? {
-        Some(_) => Ok(Washable::Whole),
+        Some(_) => Ok(Washability::Whole),
         None => washable_part(task),
     }
 }
@@ -104,18 +104,18 @@ pub fn washable(task: &Task<'_>) -> Result<Washable, Cancelled> {
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn washable_part(task: &Task<'_>) -> Result<Washable, Cancelled> {
+pub fn washable_part(task: &Task<'_>) -> Result<Washability, Cancelled> {
     let graph = Graph::new(task);
     let mut starts = search_starts(task, &graph)?;
     starts.push(task.anywhere_near());
-    let mut best: Option<Vec<Unwashed>> = None;
+    let mut best: Option<Vec<EmptyLayer>> = None;
     for start in &starts {
         let fewer_than = best.as_ref().map_or(usize::MAX, Vec::len);
         best = survey(task, &graph, start, fewer_than)?.or(best);
     }
     let best = best.unwrap_or_default();
     if best.is_empty() {
-        return Ok(Washable::Whole);
+        return Ok(Washability::Whole);
     }
     let tried = graph.surveyed().len() as f64;
     let dead: Vec<f64> = best.iter().map(|(k, _)| graph.theta[*k]).collect();
@@ -128,7 +128,7 @@ pub fn washable_part(task: &Task<'_>) -> Result<Washable, Cancelled> {
         let reasons = reasons(graph.tilts.iter().filter_map(hindrance));
         unwashed.push((task.scene.distance(&contact.point), reasons));
     }
-    Ok(Washable::Part {
+    Ok(Washability::Part {
         share: 1.0 - best.len() as f64 / tried,
         causes: causes(unwashed, tried),
         conclusion,
@@ -137,7 +137,7 @@ pub fn washable_part(task: &Task<'_>) -> Result<Washable, Cancelled> {
 }
 
 /// The contact points of a survey, by whether their layer is among the `unwashed`.
-fn points(task: &Task<'_>, graph: &Graph, unwashed: &[Unwashed]) -> Points {
+fn points(task: &Task<'_>, graph: &Graph, unwashed: &[EmptyLayer]) -> Points {
     let dead = |k: &usize| unwashed.binary_search_by_key(k, |(layer, _)| *layer).is_ok();
     let place = |k: usize| task.scene.in_world(&task.samples.at(graph.theta[k]).point).into();
     let (dead, free): (Vec<usize>, Vec<usize>) = graph.surveyed().partition(dead);
@@ -148,7 +148,7 @@ fn points(task: &Task<'_>, graph: &Graph, unwashed: &[Unwashed]) -> Points {
 }
 
 /// A layer without a vertex, and where the arm was before.
-type Unwashed = (usize, Start);
+type EmptyLayer = (usize, Start);
 
 /// The layers of a graph without a vertex on the branch of `start`; `None` as soon as they are not fewer than asked.
 fn survey(
@@ -156,7 +156,7 @@ fn survey(
     graph: &Graph,
     start: &Start,
     fewer_than: usize,
-) -> Result<Option<Vec<Unwashed>>, Cancelled> {
+) -> Result<Option<Vec<EmptyLayer>>, Cancelled> {
     let mut here = *start;
     let mut unwashed = Vec::new();
     for k in graph.surveyed() {

@@ -1,4 +1,4 @@
-use crate::clearance::standing::*;
+use crate::clearance::fixed_bodies::*;
 use crate::dry_run::DryRun;
 use crate::fixtures::{kitchen_plate, kitchen_terms};
 use crate::workcell::ObstacleShape;
@@ -12,7 +12,7 @@ fn block(name: &str, half_m: [f64; 3], [x, y, z]: [f64; 3]) -> Obstacle {
     Obstacle::new(name, shape, Pose::translation(x, y, z))
 }
 
-fn found(obstacles: Vec<Obstacle>) -> Vec<StandingOverlap> {
+fn found(obstacles: Vec<Obstacle>) -> Vec<FixedOverlap> {
     let robot = RobotModel::irb120().unwrap();
     let mut terms = kitchen_terms(&robot, vec![kitchen_plate([0.3, 0.2]), kitchen_plate([0.3, -0.2])]);
     terms.workcell.obstacles.extend(obstacles);
@@ -141,7 +141,7 @@ fn a_plate_in_the_base_is_named_however_it_is_turned() {
         assert_eq!(wrong.len(), 1, "{angle}: {wrong:?}");
         assert_eq!(
             (&wrong[0].standing, wrong[0].other.as_str()),
-            (&Standing::Plate(1), "base_link")
+            (&FixedBody::Plate(1), "base_link")
         );
         assert_eq!(found(vec![tilted(0.24, angle)]), [], "{angle}");
     }

@@ -16,7 +16,7 @@ use std::time::Instant;
 pub struct Milliseconds(BTreeMap<&'static str, f64>);
 
 /// An answer: lines, as long as somebody listens, and how long the steps to them took.
-pub struct Told<'a> {
+pub struct AnswerWriter<'a> {
     tell: &'a mut dyn FnMut(String) -> bool,
     /// Cancelled once nobody listens any more, or the work shall end for another reason.
     pub gone: CancelToken,
@@ -24,7 +24,7 @@ pub struct Told<'a> {
     took: Milliseconds,
 }
 
-impl<'a> Told<'a> {
+impl<'a> AnswerWriter<'a> {
     /// Lines go to `tell`, which returns false once nobody listens. The first step begins now.
     pub fn new(tell: &'a mut dyn FnMut(String) -> bool, gone: &CancelToken) -> Self {
         Self {

@@ -8,7 +8,7 @@
 use crate::order::Optimality;
 use crate::redundancy::TiltChoice;
 use crate::scene::Scene;
-use crate::timing::{MotionLimits, Timed};
+use crate::timing::{MotionLimits, TimedPath};
 use crate::transit::TransitKind;
 use platewash_kinematics::words::decimals_down;
 use platewash_kinematics::{AXES, Axes, JointVector};
@@ -22,7 +22,7 @@ use std::fmt;
 
 /// A job, planned.
 #[derive(Debug, Clone)]
-pub struct Planned {
+pub struct PlannedJob {
     /// The plan, sealed.
     pub plan: Plan,
     /// One entry a plate, in the order of washing.
@@ -91,7 +91,7 @@ impl VisitSummary {
     }
 }
 
-impl Planned {
+impl PlannedJob {
     /// Largest jerk of each joint between knots \[rad/s³\]: no plan keeps a limit of it. At knots the acceleration may jump.
     #[must_use]
     pub fn largest_jerk(&self) -> JointVector {
@@ -124,7 +124,7 @@ impl Pace {
     pub(crate) fn of(
         scene: &Scene<'_>,
         (plate, terms): (&Plate, &JobTerms),
-        wash: &Timed,
+        wash: &TimedPath,
         limits: &MotionLimits,
     ) -> Self {
         let tip = limits
