@@ -10,7 +10,7 @@
 //!   is a lower bound of the distance, for any n. Each n·b is a continuous function of time whose second derivative is bounded by
 //!   A = sup ‖b̈‖, but at moments at which the speeds of joints jump by Δq̇: there its first one jumps by Σ_j ρ_j |Δq̇_j| at most.
 //!   Between two times h apart it is therefore at least the smaller of its end values less A h²/8 and less h/4 of each such jump,
-//!   and so is g (proof: `docs/certificate.md`, "Clearance").
+//!   and so is g (proof: `docs/certificate.md`, (24.3)).
 //!
 //! No function here allocates.
 
