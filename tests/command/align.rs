@@ -97,11 +97,11 @@ fn the_mount_is_found_and_points_are_carried_over() {
     assert!(number(&answer["tilt_rad"]) < 1e-7);
 }
 
-/// The table of the page on dry runs is one that can be typed in.
+/// The table of the page on robot programs is one that can be typed in.
 #[test]
 fn the_example_of_the_documentation_fits() {
     let folder = folder();
-    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/dry-run.md")).unwrap();
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/robot-programs.md")).unwrap();
     let table = text.split("```csv\n").nth(1).unwrap().split("```").next().unwrap();
     write(folder.path(), table);
     let ran = platewash(folder.path(), &["align", "touched.csv", "--tolerance", "0.000002"]).done();
