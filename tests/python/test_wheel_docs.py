@@ -36,7 +36,7 @@ def test_the_readmes_example_is_short_and_runs_as_printed() -> None:
     assert shape == "(3, 6)"
 
 
-@pytest.mark.parametrize("page", ["python.md", "from-matlab.md"])
+@pytest.mark.parametrize("page", ["python.md", "tutorial-matlab.md"])
 def test_the_pages_blocks_run_from_top_to_bottom(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs" / page).read_text(), flags=re.MULTILINE | re.DOTALL)
     assert len(blocks) > 4
@@ -44,7 +44,7 @@ def test_the_pages_blocks_run_from_top_to_bottom(page: str, tmp_path: Path, monk
     after: dict[str, Any] = {}
     for number, block in enumerate(blocks, 1):
         exec(compile(block, f"docs/{page}, block {number}", "exec"), after)
-    if page == "from-matlab.md":
+    if page == "tutorial-matlab.md":
         np.testing.assert_allclose(after["axis"], [[0, 0, -1], [1, 0, 0]], atol=1e-5)  # The trap: down and forwards.
         np.testing.assert_allclose(after["eul2quat"]([0.3, 0.2, 0.1]), [0.98334744, 0.0342708, 0.10602051, 0.14357218], atol=1e-8)
 
