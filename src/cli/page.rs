@@ -54,7 +54,8 @@ pub fn html(plan: &Plan, arm: &RobotModel, beside: &ViewExtras<'_>, bundle: &Bun
 pub fn add(
     files: &mut Files<'_>,
     options: &Options,
-    (plan, arm): (&Plan, &RobotModel),
+    plan: &Plan,
+    arm: &RobotModel,
     certificate: Option<&Certificate>,
     executed: Option<&ExecutedMotion>,
     region: &TaskRegion,

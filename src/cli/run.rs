@@ -173,7 +173,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -
     let is_swept = report.verdict == Verdict::Swept;
     let executed = ExecutedMotion::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
     let region = scenario.task_region();
-    page::add(&mut files, options, (&plan, arm), None, Some(&executed), &region)?;
+    page::add(&mut files, options, &plan, arm, None, Some(&executed), &region)?;
     files.answer(options, &report, || arguments.details.printed(&report))?;
     Ok(ExitCode::from(report.verdict).job(scenario.job.on_failure))
 }
@@ -210,14 +210,7 @@ fn run_washing(
     files.add_report("report", &report)?;
     let executed = report.simulation.executed();
     let (proof, region) = (&report.wash.certificate, scenario.task_region());
-    page::add(
-        &mut files,
-        options,
-        (plan, arm),
-        Some(proof),
-        executed.as_ref(),
-        &region,
-    )?;
+    page::add(&mut files, options, plan, arm, Some(proof), executed.as_ref(), &region)?;
     files.answer(options, &report, || arguments.details.printed(&report))?;
     if let Some(show) = show {
         show.part(options);

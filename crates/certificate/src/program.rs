@@ -1,5 +1,7 @@
 //! Judgement of the motion that a controller is assumed to make of a certified plan.
 //!
+//! Requirement 33, formula (33.1) in `docs/certificate.md`.
+//!
 //! Such a motion is near the plan and not the plan: it is straight between points, its corners are rounded, its speed may jump. What is
 //! proved of it, at every moment: where the tip is, against the plan; joint positions and speeds; clearance of every pair; contact with
 //! each plate, and the share of it that is swept. Accelerations and rest are the controller's to time: what the motion implies of them is
@@ -114,15 +116,15 @@ pub fn prove_program(
     let (tilt, rates): (Vec<_>, _) = rates
         .into_iter()
         .partition(|check| check.requirement == Requirement::Tilt);
-    let washes = coverage::washes(&tip, &subject, (&pieces, &schedule), &tips, cancel)?;
+    let washes = coverage::washes(&tip, &subject, &pieces, &schedule, &tips, cancel)?;
     let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
 
     let exclusions = Exclusions::of(&subject)?;
     let model = exclusions.model(&subject)?;
     let waived = exclusions.waived_in(&model);
     let work = Work::Scheduled(&schedule);
-    let mut clearance = pairs::judge(&subject, (&model, &waived), &timeline, work, cancel)?;
-    let judged = check(&tip, (&pieces, &schedule), &planned, limits.deviation_m);
+    let mut clearance = pairs::judge(&subject, &model, &waived, &timeline, work, cancel)?;
+    let judged = check(&tip, &pieces, &schedule, &planned, limits.deviation_m);
     let mut checks = vec![
         position,
         in_program_time(speed, limits.speed_share),
@@ -170,8 +172,8 @@ fn in_program_time(mut check: Check, speed_share: f64) -> Check {
 fn contact(tips: &Tips, pieces: &[Piece], schedule: &Schedule, deviation_m: f64) -> Check {
     let height = tip_limits::greatest(&tips.height);
     let worst = tip_limits::worst(&height, pieces, Some(schedule));
-    let limit = (PATH_TOLERANCE_M + deviation_m.min(CONTACT_M), Unit::Metre);
-    let check = tip_limits::check(Requirement::ContactHeight, &height, limit, worst);
+    let limit_m = PATH_TOLERANCE_M + deviation_m.min(CONTACT_M);
+    let check = tip_limits::check(Requirement::ContactHeight, &height, limit_m, Unit::Metre, worst);
     if tips.height.is_empty() {
         return Check {
             status: Status::NotProved,
@@ -199,12 +201,7 @@ impl StretchPair<'_> {
 
 /// Checks the deviation of the tip of a motion from that of a plan, for as long as both last, against a tolerance \[m\]. Segments are those
 /// of the motion.
-pub(crate) fn check(
-    arm: &Arm<'_>,
-    (motion, schedule): (&[Piece], &Schedule),
-    plan: &[Piece],
-    tolerance_m: f64,
-) -> Check {
+pub(crate) fn check(arm: &Arm<'_>, motion: &[Piece], schedule: &Schedule, plan: &[Piece], tolerance_m: f64) -> Check {
     let mut tracker = BoundTracker::new(tolerance_m, RESOLUTION * tolerance_m);
     let stretches = common(arm, motion, plan);
     tracker.allow_for(stretches.len());
@@ -215,7 +212,7 @@ pub(crate) fn check(
     }
     stretches.iter().for_each(|both| refine(arm, both, &mut tracker, 0));
     let worst = tip_limits::worst(&tracker, motion, Some(schedule));
-    tip_limits::check(Requirement::PlanDeviation, &tracker, (tolerance_m, Unit::Metre), worst)
+    tip_limits::check(Requirement::PlanDeviation, &tracker, tolerance_m, Unit::Metre, worst)
 }
 
 /// Returns the stretches of time in which each of two motions is one cubic.

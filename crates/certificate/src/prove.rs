@@ -17,7 +17,7 @@ use crate::statements::schedule::{self, Schedule};
 use crate::statements::{dry_run, plates, wash_paths};
 use crate::subject::{self, Subject};
 use crate::washing::contact::{self, PlateContact};
-use crate::washing::coverage::{self, PlateCoverage};
+use crate::washing::coverage::{self, PlateCoverage, Wash};
 use crate::washing::{following, landing, reach};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::CancelToken;
@@ -77,7 +77,6 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     };
     let mut proof = judged.proof(Check::stated(Requirement::Segments, gaps))?;
     cancel.check()?;
-    proof.checks.sort_by_key(|check| check.requirement);
     let world = World::of(&plan.job.workcell.mount);
     world.tell_checks(&mut proof.checks);
     world.tell_pairs(&mut proof.clearance);
@@ -104,7 +103,7 @@ pub fn prove_motion(
     let model = Exclusions::of(&subject)?.model(&subject)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
     let tips = Tips::new(&carrier, &subject, &pieces, None);
-    let mut clearance = pairs::judge(&subject, (&model, &[]), &timeline, Work::Nothing, cancel)?;
+    let mut clearance = pairs::judge(&subject, &model, &[], &timeline, Work::Nothing, cancel)?;
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
@@ -124,9 +123,6 @@ struct PlanUnderProof<'a> {
     cancel: &'a CancelToken,
 }
 
-/// Coverage and contact of each plate.
-type WashResults = (Vec<PlateCoverage>, Vec<PlateContact>);
-
 /// Results of the proof of a plan.
 struct Proof {
     checks: Vec<Check>,
@@ -137,25 +133,58 @@ struct Proof {
 }
 
 impl PlanUnderProof<'_> {
-    /// Judges everything. `segments` is the check that was made before.
+    /// Checks every requirement, in the order of the report and by its number in `docs/certificate.md`. `segments` is the check that was
+    /// made before.
     fn proof(&self, segments: Check) -> Result<Proof, ProveError> {
-        let (subject, schedule) = (self.subject, self.schedule);
+        let Self {
+            plan,
+            subject,
+            pieces,
+            schedule,
+            ..
+        } = *self;
+        // Several requirements use these.
         let exclusions = Exclusions::of(subject)?;
         let model = exclusions.model(subject)?;
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
-        let tips = Tips::new(&arm, subject, self.pieces, schedule);
-        let mut checks = self.stated(segments, &tips)?;
-        checks.extend(dry_run::check(subject)?);
-        checks.extend(joints::checks(self.pieces, &subject.limits, schedule));
-        checks.extend(tips.checks(subject, self.pieces, schedule));
-        checks.push(landing::check(&arm, subject, (self.pieces, schedule), &tips));
-        checks.extend(wrist::check(subject, self.pieces, schedule));
-        let (swept, contact) = self.washing(&arm, &tips, &mut checks)?;
+        let tips = Tips::new(&arm, subject, pieces, schedule);
+        let wash_paths = wash_paths::check(plan);
+        let deviations = following::checks(&arm, subject, pieces, schedule);
+        // A deviation bounds the distance from the plate only where the stated path is on it.
+        let path_deviation_m = deviations[0].measure.and_then(|m| m.bound);
+        let path_deviation_m = path_deviation_m.filter(|_| wash_paths.status == Status::Proved);
+        let washes = self.washes(&arm, &tips, path_deviation_m)?;
+        let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
+        let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         let waived = exclusions.waived_in(&model);
         let work = schedule.map_or(Work::Unknown, Work::Scheduled);
-        let clearance = pairs::judge(subject, (&model, &waived), self.timeline, work, self.cancel)?;
-        checks.push(pairs::check(subject.limits.clearance_m, &clearance));
-        checks.push(exclusions.check(subject, &model, &clearance));
+        let clearance = pairs::judge(subject, &model, &waived, self.timeline, work, self.cancel)?;
+        let upright_cosine = |plate| schedule.map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate));
+
+        let mut checks = vec![
+            plates::arm(subject),    // 1
+            plates::tool(subject),   // 2
+            plates::plates(subject), // 3
+        ];
+        checks.extend(dry_run::check(subject)?); // 4
+        checks.extend([
+            exclusions.check(subject, &model, &clearance),           // 5
+            wash_paths,                                              // 6
+            segments,                                                // 7
+            plates::every_plate_once(subject, plan, upright_cosine), // 8
+            schedule::home_to_home(plan),                            // 9
+            schedule::rest_at_wash_ends(plan, schedule),             // 10
+            plates::plates_apart(subject)?,                          // 11
+        ]);
+        checks.extend(joints::checks(pieces, &subject.limits, schedule)); // 12–14: position, speed, acceleration
+        checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
+        checks.push(landing::check(&arm, subject, pieces, schedule, &tips)); // 21: contact speed
+        checks.extend(deviations); // 22, 23: path, line
+        checks.push(pairs::check(subject.limits.clearance_m, &clearance)); // 24
+        checks.push(reach::check(subject, &swept)); // 25
+        checks.push(coverage::check(subject, &swept)); // 26
+        checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: share, time, dose, strain, force
+        checks.extend(wrist::check(subject, pieces, schedule)); // 32
         Ok(Proof {
             checks,
             swept,
@@ -165,55 +194,22 @@ impl PlanUnderProof<'_> {
         })
     }
 
-    /// Checks the plan's statements.
-    fn stated(&self, segments: Check, tips: &Tips) -> Result<Vec<Check>, ProveError> {
-        let (subject, plan) = (self.subject, self.plan);
-        let upright_cosine = |plate| {
-            self.schedule
-                .map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate))
+    /// Bounds on coverage, contact and reach of each wash; none where the segments are not known.
+    fn washes(&self, arm: &Arm<'_>, tips: &Tips, path_deviation_m: Option<f64>) -> Result<Vec<Wash>, ProveError> {
+        let Self { subject, pieces, .. } = *self;
+        let Some(schedule) = self.schedule else {
+            return Ok(Vec::new());
         };
-        Ok(vec![
-            plates::arm(subject),
-            plates::tool(subject),
-            plates::plates(subject),
-            wash_paths::check(plan),
-            segments,
-            plates::every_plate_once(subject, plan, upright_cosine),
-            schedule::home_to_home(plan),
-            match self.schedule {
-                Some(schedule) => schedule::rest_at_wash_ends(plan, schedule),
-                None => Check::not_judged(Requirement::RestAtWashEnds),
-            },
-            plates::check(subject)?,
-        ])
-    }
-
-    /// Checks the motion of the tip and the sponge on the plates: deviations, coverage, contact and reach.
-    fn washing(&self, arm: &Arm<'_>, tips: &Tips, checks: &mut Vec<Check>) -> Result<WashResults, ProveError> {
-        let (subject, pieces) = (self.subject, self.pieces);
-        let deviations = following::checks(arm, subject, pieces, self.schedule);
-        let mut washes = Vec::new();
-        if let Some(schedule) = self.schedule {
-            washes = coverage::washes(arm, subject, (pieces, schedule), tips, self.cancel)?;
-            // A deviation is one from the stated path: it tells of the plate where there is one on it.
-            let has_paths = |c: &Check| c.requirement == Requirement::WashPaths && c.status == Status::Proved;
-            let has_paths = checks.iter().any(has_paths);
-            let proved = reach::ReachInputs {
-                arm,
-                pieces,
-                schedule,
-                tips,
-                path_deviation_m: deviations[0].measure.and_then(|m| m.bound).filter(|_| has_paths),
-            };
-            reach::settle(subject, &mut washes, &proved);
-        }
-        let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
-        let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
-        checks.extend(deviations);
-        checks.push(reach::check(subject, &swept));
-        checks.push(coverage::check(subject, &swept));
-        checks.extend(contact::checks(subject, (pieces, self.schedule), &contact));
-        Ok((swept, contact))
+        let mut washes = coverage::washes(arm, subject, pieces, schedule, tips, self.cancel)?;
+        let inputs = reach::ReachInputs {
+            arm,
+            pieces,
+            schedule,
+            tips,
+            path_deviation_m,
+        };
+        reach::settle(subject, &mut washes, &inputs);
+        Ok(washes)
     }
 }
 

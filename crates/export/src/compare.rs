@@ -95,14 +95,15 @@ pub fn compare(
     let of = |dialect: &&&'static dyn Dialect| files.iter().any(|file| dialect.is_in(file));
     let unknown = || CompareError::Unknown { name: name(files) };
     let dialect = *DIALECTS.iter().find(of).ok_or_else(unknown)?;
-    compare_in(certified, arm, (dialect, files), cancel)
+    compare_in(certified, arm, dialect, files, cancel)
 }
 
 /// Compares as [`compare`], for a known dialect.
 pub(crate) fn compare_in(
     certified: &Certified<Plan>,
     arm: &RobotModel,
-    (dialect, files): (&dyn Dialect, &[ProgramFile]),
+    dialect: &dyn Dialect,
+    files: &[ProgramFile],
     cancel: &CancelToken,
 ) -> Result<ProgramComparison, CompareError> {
     refuse_other_plan(certified.plan(), files)?;

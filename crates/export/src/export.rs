@@ -145,7 +145,7 @@ fn written(
             points: points.clone(),
             speed_share: settings.speed_share,
             corner_m: settings.corner_m,
-            header: header::lines(certified, &source, (dialect, settings), (&points, judged)),
+            header: header::lines(certified, &source, dialect, settings, (&points, judged)),
         };
         let files = dialect.write(&program);
         let reading = dialect

@@ -28,7 +28,8 @@ const MOST_PLATES: usize = 24;
 pub(crate) fn lines(
     certified: &Certified<Plan>,
     source: &Source<'_>,
-    (dialect, settings): (&dyn Dialect, &ExportSettings),
+    dialect: &dyn Dialect,
+    settings: &ExportSettings,
     (points, judged): (&[Point], Option<&ProgramJudgement>),
 ) -> Vec<String> {
     let plan = certified.plan();

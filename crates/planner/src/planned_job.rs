@@ -123,7 +123,8 @@ impl Pace {
     /// The pace of a wash of `plate`, sampled in the middle of its pieces.
     pub(crate) fn of(
         scene: &Scene<'_>,
-        (plate, terms): (&Plate, &JobTerms),
+        plate: &Plate,
+        terms: &JobTerms,
         wash: &TimedPath,
         limits: &MotionLimits,
     ) -> Self {

@@ -50,7 +50,7 @@ pub type Places = Vec<(u64, u64)>;
 /// Tells the rows of a folder, in the order in which they were done.
 pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(u64, Row)) -> Result<(), StudyError> {
     let (path, file) = opened(folder)?;
-    each_row((&path, &file), manifest, |at, row, _| {
+    each_row(&path, &file, manifest, |at, row, _| {
         each(at, row);
         Ok(())
     })?;
@@ -159,13 +159,14 @@ fn opened(folder: &Path) -> Result<(PathBuf, File), StudyError> {
 /// Tells each row of a study with its place in the file and its line, from 1; which rows are there, and the length of all whole lines.
 /// Each of them is there once at most, as this program writes it.
 pub(crate) fn each_row(
-    (path, file): (&Path, &File),
+    path: &Path,
+    file: &File,
     manifest: &Manifest,
     mut each: impl FnMut(u64, Row, usize) -> Result<(), StudyError>,
 ) -> Result<(Vec<bool>, u64), StudyError> {
     let rows = manifest.rows;
     let (mut number, mut seen) = (0, vec![false; rows as usize]);
-    let whole = lines::read((path, file), |at, line| {
+    let whole = lines::read(path, file, |at, line| {
         number += 1;
         let wrong = |problem: String| Err(StudyError::kept(path, Some(number), problem));
         let row: Row = match serde_json::from_slice(line) {

@@ -68,7 +68,7 @@ impl Journal {
             return Self::open(folder, study);
         }
         let manifest = state(folder, study, kept)?;
-        let (has, whole) = each_row((&path, &rows), &manifest, |_, row, line| {
+        let (has, whole) = each_row(&path, &rows, &manifest, |_, row, line| {
             let of_study = study.row(row.index)?;
             let scenario = &study.bases[of_study.base].name;
             if (&of_study.key, scenario, &of_study.axes) == (&row.key, &row.scenario, &row.axes) {
@@ -81,7 +81,7 @@ impl Journal {
             Err(StudyError::kept(&path, Some(line), problem))
         })?;
         let timings = lines::open(&timed)?;
-        let timings_whole = lines::read((&timed, &timings), |_, _| Ok(()))?;
+        let timings_whole = lines::read(&timed, &timings, |_, _| Ok(()))?;
         Ok(Self {
             folder: folder.to_owned(),
             manifest,

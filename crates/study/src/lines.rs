@@ -61,7 +61,8 @@ pub(crate) fn open(path: &Path) -> Result<File, StudyError> {
 
 /// Reads whole lines, one after the other, with their place in the file; the length of all of them.
 pub(crate) fn read(
-    (path, from): (&Path, impl io::Read),
+    path: &Path,
+    from: impl io::Read,
     mut each: impl FnMut(u64, &[u8]) -> Result<(), StudyError>,
 ) -> Result<u64, StudyError> {
     let (mut from, mut line, mut whole) = (BufReader::new(from), Vec::new(), 0);
@@ -160,7 +161,7 @@ mod tests {
     #[test]
     fn a_torn_line_does_not_count() {
         let mut told = Vec::new();
-        let whole = read((Path::new("rows"), &b"one\ntwo\nthr"[..]), |at, line| {
+        let whole = read(Path::new("rows"), &b"one\ntwo\nthr"[..], |at, line| {
             told.push((at, line.to_vec()));
             Ok(())
         });

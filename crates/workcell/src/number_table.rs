@@ -73,7 +73,7 @@ pub struct Row<'t> {
 ///
 /// # Errors
 /// [`TableError`] for an empty header, other separators, and columns that are unknown, missing or repeated.
-fn column_names<'a>((line, header): (usize, &'a str), shape: &TableShape<'_>) -> Result<Vec<&'a str>, TableError> {
+fn column_names<'a>(line: usize, header: &'a str, shape: &TableShape<'_>) -> Result<Vec<&'a str>, TableError> {
     let expected = shape.required.join(",");
     if header.trim().is_empty() {
         return refused(line, format!("it is empty; expected the header \"{expected}\""));
@@ -141,7 +141,7 @@ impl<'a> NumberTable<'a> {
             });
         let mut lines = lines.filter(|(_, text)| !(shape.has_comments && text.trim().is_empty()));
         let (header_line, header) = lines.next().unwrap_or((1, ""));
-        let names = column_names((header_line, header), shape)?;
+        let names = column_names(header_line, header, shape)?;
         let rows: Vec<_> = lines.take(shape.most_rows + 1).collect();
         match rows
             .get(shape.most_rows)

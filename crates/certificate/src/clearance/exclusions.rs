@@ -1,4 +1,6 @@
 //! Pairs of bodies that need not keep clear: those that follow from the arm and its SRDF, and no others.
+//!
+//! Requirement 5 of `docs/certificate.md`.
 
 use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Discrepancy, Status};

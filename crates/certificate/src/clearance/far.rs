@@ -17,7 +17,8 @@ const SETTLED_M: f64 = 4e-3;
 
 /// Returns the pairs of the model, by index, whose distance is never below `needed_m`, with a lower bound on the distance \[m\].
 pub(crate) fn far(
-    (robot, cancel): (&RobotModel, &CancelToken),
+    robot: &RobotModel,
+    cancel: &CancelToken,
     model: &ClearanceModel,
     timeline: &Timeline<'_>,
     pairs: &[usize],

@@ -37,7 +37,7 @@ impl ClearanceRule {
         let touchable = |(kind, on)| {
             plates
                 .clone()
-                .filter(|&plate| may_touch(&subject, (kind, on), plate))
+                .filter(|&plate| may_touch(&subject, kind, on, plate))
                 .collect()
         };
         let segments = plan.segments.iter().map(|segment| (segment.kind, segment.plate));

@@ -1,5 +1,7 @@
 //! Clearance of every pair over the whole motion.
 //!
+//! Requirement 24, formulas (24.1) to (24.3) in `docs/certificate.md`.
+//!
 //! Every pair keeps the job's clearance at all times, except the sponge and the plates. While it approaches, washes or leaves a plate, the
 //! sponge may touch that plate, and over its rim a neighbour within reach; the reach has a requirement of its own. It keeps clear of all
 //! other plates, and of all plates at all other times. Pairs that only the job excludes are judged, too, and waived where they do not keep
@@ -94,13 +96,14 @@ struct Task {
 /// [`Cancelled`].
 pub(crate) fn judge(
     subject: &Subject<'_>,
-    (model, waived): (&ClearanceModel, &[usize]),
+    model: &ClearanceModel,
+    waived: &[usize],
     timeline: &Timeline<'_>,
     work: Work<'_>,
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
     let limit_m = subject.limits.clearance_m;
-    let tasks = tasks(subject, (model, waived), timeline, work);
+    let tasks = tasks(subject, model, waived, timeline, work);
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
     let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
@@ -109,7 +112,7 @@ pub(crate) fn judge(
             enough_m,
             budget,
         };
-        Search::run((subject.robot, cancel), timeline, parts, during, goal)
+        Search::run(subject.robot, cancel, timeline, parts, during, goal)
     };
     let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
     let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
@@ -119,22 +122,18 @@ pub(crate) fn judge(
         .map(|task| if beside(task) { None } else { searched(task) })
         .collect();
     let beside_obstacles: Vec<_> = tasks.iter().filter(|task| beside(task)).map(|task| task.pair).collect();
-    if !beside_obstacles.is_empty() {
-        // Obstacles that are never as near as the nearest of the others need not be known any better.
-        let nearest_m = Some(least_seen(&found, &tasks)).filter(|nearest_m| nearest_m.is_finite());
-        let needed_m = FAR * nearest_m.map_or(limit_m, |nearest_m| nearest_m.max(limit_m)).max(FAR_M);
-        let far = far((subject.robot, cancel), model, timeline, &beside_obstacles, needed_m);
-        found
-            .par_iter_mut()
-            .zip(&tasks)
-            .filter(|(_, task)| beside(task))
-            .for_each(|(found, task)| {
-                *found = match far.get(&task.pair) {
-                    Some(at_least_m) => Some(PairDistance::never_nearer(*at_least_m)),
-                    None => searched(task),
-                };
-            });
-    }
+    let needed_m = far_from_m(limit_m, least_seen(&found, &tasks));
+    let far = far(subject.robot, cancel, model, timeline, &beside_obstacles, needed_m);
+    found
+        .par_iter_mut()
+        .zip(&tasks)
+        .filter(|(_, task)| beside(task))
+        .for_each(|(found, task)| {
+            *found = match far.get(&task.pair) {
+                Some(at_least_m) => Some(PairDistance::never_nearer(*at_least_m)),
+                None => searched(task),
+            };
+        });
     // The pairs that might be the nearest one, once more and finely.
     let least = least_seen(&found, &tasks);
     let enough_m = least - FINE_M;
@@ -153,6 +152,17 @@ pub(crate) fn judge(
     Ok(lines
         .map(|(task, found)| line(names[task.pair], task, found, limit_m))
         .collect())
+}
+
+/// Distance from which on a pair counts as far \[m\]: obstacles that are never as near as the nearest of the other pairs need no closer
+/// bound.
+fn far_from_m(limit_m: f64, nearest_m: f64) -> f64 {
+    let nearest_m = if nearest_m.is_finite() {
+        nearest_m.max(limit_m)
+    } else {
+        limit_m
+    };
+    FAR * nearest_m.max(FAR_M)
 }
 
 /// Least distance found at a single moment over the pairs that must keep clear \[m\].
@@ -235,7 +245,8 @@ pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
 
 fn tasks(
     subject: &Subject<'_>,
-    (model, waived): (&ClearanceModel, &[usize]),
+    model: &ClearanceModel,
+    waived: &[usize],
     timeline: &Timeline<'_>,
     work: Work<'_>,
 ) -> Vec<Task> {
@@ -267,7 +278,7 @@ fn tasks(
             }
             (Work::Scheduled(schedule), PairKind::SpongeAndPlate(plate)) => (schedule, plate),
         };
-        let touches = |span: &Span| may_touch(subject, (span.kind, span.plate), plate);
+        let touches = |span: &Span| may_touch(subject, span.kind, span.plate, plate);
         let clear = joined(schedule, |span| !touches(span));
         if !clear.is_empty() {
             add(keeps, Some(clear), Vec::new());
@@ -283,7 +294,7 @@ fn tasks(
 }
 
 /// True if the sponge may touch `plate` during a segment of this kind at the plate `on`.
-pub(crate) fn may_touch(subject: &Subject<'_>, (kind, on): (SegmentKind, usize), plate: usize) -> bool {
+pub(crate) fn may_touch(subject: &Subject<'_>, kind: SegmentKind, on: usize, plate: usize) -> bool {
     is_at_plate(kind) && (on == plate || reach::is_within_reach(subject, on, plate))
 }
 

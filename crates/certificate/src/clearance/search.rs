@@ -177,7 +177,8 @@ impl<'a> Search<'a> {
     /// Bounds the distance of a pair of bodies, given by its pairs of parts, during the pieces. Nothing is shown where the work is
     /// cancelled.
     pub fn run(
-        (robot, cancel): (&'a RobotModel, &'a CancelToken),
+        robot: &'a RobotModel,
+        cancel: &'a CancelToken,
         timeline: &'a Timeline<'a>,
         parts: &'a PartPairs<'a>,
         during: &[Range<usize>],
@@ -249,7 +250,7 @@ impl<'a> Search<'a> {
     fn look(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
         self.looked_at += 1;
         let Some(pair) = self.parts.get(part) else { return };
-        let (bound, normal) = self.bound((part, pair), &interval, normal);
+        let (bound, normal) = self.bound(part, pair, &interval, normal);
         self.open.push(Candidate {
             bound: inherited.max(bound),
             order: self.looked_at,
@@ -261,7 +262,7 @@ impl<'a> Search<'a> {
 
     /// Returns a lower bound over an interval, and the direction that led to it. Tries spheres around the parts, then the known direction,
     /// then the nearest points, until a bound is good enough.
-    fn bound(&mut self, (part, pair): (usize, &PartPair<'_>), interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
+    fn bound(&mut self, part: usize, pair: &PartPair<'_>, interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
         let extent = self.timeline.extent(interval);
         let (time_s, q) = self.timeline.middle(interval);
         let poses = self.robot.fk(&q);
@@ -409,7 +410,7 @@ mod tests {
             let all = 0..pieces.len();
             for pair in 0..model.pair_count() {
                 let parts = model.parts_of(pair);
-                let found = Search::run((&robot, &cancel), &timeline, &parts, std::slice::from_ref(&all), goal);
+                let found = Search::run(&robot, &cancel, &timeline, &parts, std::slice::from_ref(&all), goal);
                 for piece in &pieces {
                     for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
                         let poses = robot.fk(&piece.position(share * piece.length_s));

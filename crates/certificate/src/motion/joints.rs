@@ -1,5 +1,7 @@
 //! Joint positions, speeds and accelerations against the limits of the arm and the job: piece by piece, exact but for the
 //! rounding that the bounds include.
+//!
+//! Requirements 12–14, formulas (12.1) and (12.2) in `docs/certificate.md`.
 
 use crate::motion::piece::Piece;
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};

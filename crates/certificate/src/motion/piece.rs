@@ -1,5 +1,7 @@
 //! One cubic of the motion, with its extremes, and bounds over several pieces.
 //!
+//! Rounding: formula (12.2) in `docs/certificate.md`.
+//!
 //! The motion is what the numbers in the file say: the cubic c through the knots as they stand. What is computed is another one, ĉ,
 //! and the shorter a piece, the farther its derivatives may be from those of c. With m = Δq/h, M = |m| + |v₀| + |v₁| and the unit
 //! roundoff u = 2⁻⁵³ (Higham, *Accuracy and Stability of Numerical Algorithms*, §3.1): h, Δq and m are right to u, u and 3u as parts

@@ -1,4 +1,6 @@
 //! Limits of the tip: speed, acceleration, tilt of the tool, and height of the contact.
+//!
+//! Requirements 15–20, formulas (15.1) to (20.1) in `docs/certificate.md`.
 
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
@@ -79,12 +81,12 @@ impl Tips {
             let face = Face::of(plate);
             let against = against(subject, span, &face);
             let tracker = BoundTracker::new(sine, TILT_RESOLUTION);
-            tips.tilt.push((i, tilted(arm, tracker, of(span), (&face, against))));
+            tips.tilt.push((i, tilted(arm, tracker, of(span), &face, against)));
             if !face.surface().is_flat() {
                 // No limit is asked of it.
                 let tracker = BoundTracker::new(1.0, TILT_RESOLUTION);
                 let upright = TiltNormal::Fixed(*face.upright());
-                tips.upright.push((i, tilted(arm, tracker, of(span), (&face, upright))));
+                tips.upright.push((i, tilted(arm, tracker, of(span), &face, upright)));
             }
             if span.kind == SegmentKind::Wash {
                 // The sponge touches where the tip is on the face.
@@ -146,18 +148,11 @@ impl Tips {
     pub fn moving_checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
         let (limits, [speed, acceleration]) = (&subject.limits, &self.moving);
         let at = |tracker: &BoundTracker| worst(tracker, pieces, schedule);
-        let (speed_limit, acceleration_limit) = (
-            (limits.tip_speed_m_s, Unit::MetrePerSecond),
-            (limits.tip_acceleration_m_s2, Unit::MetrePerSecondSquared),
-        );
+        let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
+        let (v, a) = (limits.tip_speed_m_s, limits.tip_acceleration_m_s2);
         [
-            check(Requirement::TipSpeed, speed, speed_limit, at(speed)),
-            check(
-                Requirement::TipAcceleration,
-                acceleration,
-                acceleration_limit,
-                at(acceleration),
-            ),
+            check(Requirement::TipSpeed, speed, v, m_s, at(speed)),
+            check(Requirement::TipAcceleration, acceleration, a, m_s2, at(acceleration)),
         ]
     }
 
@@ -178,30 +173,23 @@ impl Tips {
             return all;
         };
         let [speed, acceleration] = &self.washing;
-        all.push(check(
-            Requirement::WashSpeed,
-            speed,
-            (limits.wash_speed_m_s, m_s),
-            at(speed),
-        ));
-        all.push(check(
-            Requirement::WashAcceleration,
-            acceleration,
-            (limits.wash_acceleration_m_s2, m_s2),
-            at(acceleration),
-        ));
-        let tilt = greatest(&self.tilt);
+        let (tilt, height) = (greatest(&self.tilt), greatest(&self.height));
         let angle = tilt.through(angle);
         let place = |tracker: &BoundTracker| in_segment(tracker, pieces, schedule);
-        all.push(check(
-            Requirement::Tilt,
-            &angle,
-            (limits.tilt_rad + TILT_ROUNDING_RAD, Unit::Radian),
-            place(&tilt),
-        ));
-        let height = greatest(&self.height);
-        let limit = (PATH_TOLERANCE_M, Unit::Metre);
-        all.push(check(Requirement::ContactHeight, &height, limit, place(&height)));
+        let (v, a) = (limits.wash_speed_m_s, limits.wash_acceleration_m_s2);
+        let most_tilt_rad = limits.tilt_rad + TILT_ROUNDING_RAD;
+        all.extend([
+            check(Requirement::WashSpeed, speed, v, m_s, at(speed)),
+            check(Requirement::WashAcceleration, acceleration, a, m_s2, at(acceleration)),
+            check(Requirement::Tilt, &angle, most_tilt_rad, Unit::Radian, place(&tilt)),
+            check(
+                Requirement::ContactHeight,
+                &height,
+                PATH_TOLERANCE_M,
+                Unit::Metre,
+                place(&height),
+            ),
+        ]);
         all
     }
 }
@@ -210,7 +198,8 @@ impl Tips {
 pub(crate) fn check(
     requirement: Requirement,
     tracker: &BoundTracker,
-    (limit, unit): (f64, Unit),
+    limit: f64,
+    unit: Unit,
     worst: WorstCase,
 ) -> Check {
     let finite = |v: f64| Some(v).filter(|v| v.is_finite());
@@ -289,7 +278,8 @@ fn tilted(
     arm: &Arm<'_>,
     mut tracker: BoundTracker,
     pieces: &[Piece],
-    (face, against): (&Face<'_>, TiltNormal),
+    face: &Face<'_>,
+    against: TiltNormal,
 ) -> BoundTracker {
     match against {
         TiltNormal::Fixed(normal) => {

@@ -1,5 +1,7 @@
 //! Checks of a dry run: its plates are raised, and the real ones stand below them as obstacles.
 //!
+//! Requirement 4 of `docs/certificate.md`.
+//!
 //! The real plates are checked like those of a washing: they must not reach into the floor, an obstacle, each other or the base. The
 //! clearance check covers them, as it covers any obstacle. The name of the parent plan is stated and not judged: comparing takes the other
 //! plan.
@@ -55,7 +57,7 @@ fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>
         ..job.clone()
     };
     let washing = Subject::new(&washing, subject.robot, Vec::new());
-    let checks = [plates::plates(&washing), plates::check(&washing)?];
+    let checks = [plates::plates(&washing), plates::plates_apart(&washing)?];
     let broken = checks.into_iter().filter(|check| !check.status.is_kept());
     let of_real = |wrong: Discrepancy| Discrepancy {
         what: format!("real plates: {}", wrong.what),

@@ -1,5 +1,7 @@
 //! Checks of the plan's statements about its arm, its tool, its plates and their order.
 //!
+//! Requirements 1–3, 8 and 11 of `docs/certificate.md`.
+//!
 //! Plates keep apart from each other and from the base, obstacles from both.
 
 use crate::report::check::{Check, Discrepancy};
@@ -129,7 +131,7 @@ fn quoted(text: &str) -> String {
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
-pub(crate) fn check(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
+pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
     let overlaps = subject.job.plate_overlaps(subject.robot);
     let mut wrong: Vec<_> = overlaps.iter().map(discrepancy).collect();
     let obstacles = &subject.job.workcell.obstacles;

@@ -1,5 +1,7 @@
 //! Checks of the wash paths: one for each plate, in the order of washing, within the ranges that can be judged.
 //!
+//! Requirement 6 of `docs/certificate.md`.
+//!
 //! The planner is free to choose a wash path. Its quality is judged by the coverage, the deviation of the tip and the reach of the sponge;
 //! here only its numbers are checked.
 

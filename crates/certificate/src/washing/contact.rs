@@ -1,4 +1,6 @@
 //! Contact of the sponge with a plate: the pressed share, contact time and dose, and the load on the sponge.
+//!
+//! Requirements 27–31, formulas (27.1) to (31.2) in `docs/contact.md`.
 
 use crate::error::ProveError;
 use crate::motion::piece::Piece;
@@ -177,7 +179,7 @@ impl ContactInputs<'_> {
         if plate.surface.is_flat() {
             Pressing::around_disc(plate, foundation, instants, error_m)
         } else if self.around_meets {
-            pressing::around_face(plate, foundation, (instants, wash), error_m)
+            pressing::around_face(plate, foundation, instants, wash, error_m)
         } else {
             Pressing::unknown()
         }
@@ -208,7 +210,8 @@ impl ContactInputs<'_> {
 /// Checks the contact requirements, where the job has any.
 pub(crate) fn checks(
     subject: &Subject<'_>,
-    (pieces, schedule): (&[Piece], Option<&Schedule>),
+    pieces: &[Piece],
+    schedule: Option<&Schedule>,
     all: &[PlateContact],
 ) -> Vec<Check> {
     let Some(wanted) = &subject.job.requirements.contact else {
@@ -235,7 +238,7 @@ pub(crate) fn checks(
     let [least_n, most_n] = wanted.force_n;
     let strain = (Requirement::Strain, wanted.strain, Sense::AtMost, Unit::Share);
     let force = |limit, sense| (Requirement::ContactForce, limit, sense, Unit::Newton);
-    let extreme = |asked, of: fn(&PlateContact) -> &ProvedExtreme| of_extreme(asked, (pieces, schedule), all, of);
+    let extreme = |asked, of: fn(&PlateContact) -> &ProvedExtreme| of_extreme(asked, pieces, schedule, all, of);
     let (low, high) = (
         extreme(force(least_n, Sense::AtLeast), |c| &c.least_force_n),
         extreme(force(most_n, Sense::AtMost), |c| &c.greatest_force_n),
@@ -268,7 +271,8 @@ fn of_share(requirement: Requirement, plate: usize, share: &ProvedShare) -> Chec
 /// Checks that an extreme keeps its limit on every plate. Reports the plate with the worst bound.
 fn of_extreme(
     (requirement, limit, sense, unit): (Requirement, f64, Sense, Unit),
-    (pieces, schedule): (&[Piece], Option<&Schedule>),
+    pieces: &[Piece],
+    schedule: Option<&Schedule>,
     all: &[PlateContact],
     of: impl Fn(&PlateContact) -> &ProvedExtreme,
 ) -> Check {
@@ -289,7 +293,7 @@ fn of_extreme(
         sense,
         unit,
     };
-    let segment = schedule.and_then(|s| s.at_plate(pieces, (worst.plate, of(worst).time_s)));
+    let segment = schedule.and_then(|s| s.at_plate(pieces, worst.plate, of(worst).time_s));
     let place = WorstCase {
         plate: Some(worst.plate),
         time_s: Some(of(worst).time_s),

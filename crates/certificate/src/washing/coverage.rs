@@ -1,5 +1,7 @@
 //! Lower bound on the swept share of a plate: from the sponge's face on a disc, from the area it touches on other faces.
 //!
+//! Requirement 26, formula (26.1) in `docs/certificate.md`.
+//!
 //! Tilted by τ, the sponge's face lies over a disc of radius s cos τ about the tip. Between neighbours of a polyline of
 //! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
 //! would along the polyline.
@@ -75,7 +77,8 @@ pub(crate) struct Wash {
 pub(crate) fn washes(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    (pieces, schedule): (&[Piece], &Schedule),
+    pieces: &[Piece],
+    schedule: &Schedule,
     tips: &Tips,
     cancel: &CancelToken,
 ) -> Result<Vec<Wash>, ProveError> {

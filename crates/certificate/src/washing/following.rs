@@ -1,5 +1,7 @@
 //! The tip follows its curve: all of it, in order, and never farther away than the tolerance.
 //!
+//! Requirements 22 and 23, formula (22.1) in `docs/certificate.md`.
+//!
 //! To every moment belongs a parameter θ(t) that starts at 0, never falls and ends at the curve's end; between two moments a
 //! and b it runs evenly. The deviation e(t) = p(t) − c(θ(t)) then keeps
 //! ‖e‖ ≤ max(‖e(a)‖, ‖e(b)‖) + h²/8 · sup ‖p̈‖ + Δθ²/8 · sup ‖c″‖. Which θ is chosen at a moment (the nearest point's;
@@ -63,7 +65,7 @@ pub(crate) fn checks(
             return Check::not_judged(requirements[i]);
         }
         let worst = tip_limits::worst(&trackers[i], pieces, Some(schedule));
-        tip_limits::check(requirements[i], &trackers[i], (limits[i], Unit::Metre), worst)
+        tip_limits::check(requirements[i], &trackers[i], limits[i], Unit::Metre, worst)
     })
 }
 

@@ -1,5 +1,7 @@
 //! Touching speed: the speed of any point of the sponge that touches a plate while it comes down or leaves.
 //!
+//! Requirement 21, formulas (21.1) and (21.2) in `docs/certificate.md`.
+//!
 //! Where a job states how fast it may land, or lift off, the free sponge counts: its face lies beyond the tip by its compression, and the
 //! plate as much higher as it may lie. Where it states nothing, the face that the sponge has while it washes counts, and it touches no
 //! faster than it washes. Stretches in which nothing touches count for nothing; the others are halved like those of every quantity
@@ -56,14 +58,15 @@ struct TouchSpeedLimit<'a> {
 pub(crate) fn check(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    (pieces, schedule): (&[Piece], Option<&Schedule>),
+    pieces: &[Piece],
+    schedule: Option<&Schedule>,
     tips: &Tips,
 ) -> Check {
     let Some(schedule) = schedule else {
         return Check::not_judged(Requirement::ContactSpeed);
     };
     let wanted = &subject.job.requirements;
-    let judged = |asked: &TouchSpeedLimit<'_>| judge(arm, subject, (pieces, schedule), tips, asked);
+    let judged = |asked: &TouchSpeedLimit<'_>| judge(arm, subject, pieces, schedule, tips, asked);
     let as_washed = FarFace {
         beyond_m: 0.0,
         error_m: 0.0,
@@ -96,7 +99,8 @@ pub(crate) fn check(
 fn judge(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    (pieces, schedule): (&[Piece], &Schedule),
+    pieces: &[Piece],
+    schedule: &Schedule,
     tips: &Tips,
     asked: &TouchSpeedLimit<'_>,
 ) -> Check {
@@ -130,12 +134,7 @@ fn judge(
     } else {
         WorstCase::default()
     };
-    tip_limits::check(
-        Requirement::ContactSpeed,
-        &tracker,
-        (limit, Unit::MetrePerSecond),
-        worst,
-    )
+    tip_limits::check(Requirement::ContactSpeed, &tracker, limit, Unit::MetrePerSecond, worst)
 }
 
 /// Records the speed at both ends of all pieces.
@@ -347,7 +346,7 @@ impl Rim<'_> {
             None if self.is_clear(stretch, &bounds) => return,
             Some(_) if self.is_far(stretch, &bounds) => return,
             None => self.at_most(stretch, &bounds),
-            Some(columns) => match self.bound_on(columns, stretch, (tracker, &bounds)) {
+            Some(columns) => match self.bound_on(columns, stretch, tracker, &bounds) {
                 None => return,
                 Some(bound) => bound,
             },
@@ -372,7 +371,8 @@ impl Rim<'_> {
         &self,
         columns: &(Columns, Bends<'_>),
         stretch: &Stretch<'_>,
-        (tracker, bounds): (&mut BoundTracker, &Derivatives),
+        tracker: &mut BoundTracker,
+        bounds: &Derivatives,
     ) -> Option<f64> {
         let rough = self.at_most(stretch, bounds);
         if tracker.keeps(rough) {

@@ -262,7 +262,7 @@ struct Search<'a> {
 
 /// Bounds the load during a wash on any face, which may lie higher or lower by `error_m`.
 pub(crate) fn on_face(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Pressing {
-    search((plate, error_m), foundation, instants, [f64::NEG_INFINITY; QUANTITIES])
+    search(plate, error_m, foundation, instants, [f64::NEG_INFINITY; QUANTITIES])
 }
 
 /// Bounds the load before or after a wash on any face. Refines until the load is shown to be no higher than in `wash`, otherwise as far as
@@ -270,15 +270,17 @@ pub(crate) fn on_face(plate: &Plate, foundation: &Foundation, instants: &Instant
 pub(crate) fn around_face(
     plate: &Plate,
     foundation: &Foundation,
-    (instants, wash): (&Instants, &Pressing),
+    instants: &Instants,
+    wash: &Pressing,
     error_m: f64,
 ) -> Pressing {
     let enough = [f64::INFINITY, wash.volume[1].bound, wash.deepest.bound, wash.twist_m4];
-    search((plate, error_m), foundation, instants, enough)
+    search(plate, error_m, foundation, instants, enough)
 }
 
 fn search(
-    (plate, error_m): (&Plate, f64),
+    plate: &Plate,
+    error_m: f64,
     foundation: &Foundation,
     instants: &Instants,
     enough: [f64; QUANTITIES],

@@ -1,5 +1,7 @@
 //! Reach of the sponge beyond the rims.
 //!
+//! Requirement 25, formula (25.1) in `docs/certificate.md`.
+//!
 //! Two questions are answered: which plates the sponge may touch while it works on another, and its reach beyond the rim of that one.
 //!
 //! The tip keeps within the wash path's radius R of the pole of its plate of radius r. At the height of the plate's face a sponge of
@@ -61,7 +63,7 @@ pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &ReachI
         });
         // About the axis of a face that is no disc no tilt is asked for.
         let most_tilted = if plate.surface.is_flat() { most_tilted } else { cos_tilt };
-        let [tip_m, seen_m] = tip_m(allowed_m, (radius_m, plate), wash, proved);
+        let [tip_m, seen_m] = tip_m(allowed_m, radius_m, plate, wash, proved);
         let reach_m = beyond_rim_m(subject, plate, tip_m, cos_tilt);
         let swept = &mut wash.swept;
         let touched = |reach_m| touched(subject, index, reach_m);
@@ -87,7 +89,7 @@ fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
 
 /// Returns an upper bound on the distance of the tip from the pole of a plate, seen along its axis, in its wash and in all approaches and
 /// retreats at the plate, and the greatest distance found \[m\]. The bound is infinite where nothing is proved.
-fn tip_m(allowed_m: f64, (radius_m, plate): (f64, &Plate), wash: &Wash, proved: &ReachInputs<'_>) -> [f64; 2] {
+fn tip_m(allowed_m: f64, radius_m: f64, plate: &Plate, wash: &Wash, proved: &ReachInputs<'_>) -> [f64; 2] {
     let along_path_m = (proved.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
     let tips = proved.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
         // The wash of another entry.

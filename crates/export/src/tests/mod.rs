@@ -311,7 +311,7 @@ fn compared(change: impl Fn(&str) -> String) -> Result<ProgramComparison, Compar
         text: change(&file.text),
     });
     let changed: Vec<_> = changed.collect();
-    compare::compare_in(kitchen(), &arm(), (&Toy, &changed), &CancelToken::new())
+    compare::compare_in(kitchen(), &arm(), &Toy, &changed, &CancelToken::new())
 }
 
 /// The text that is changed.

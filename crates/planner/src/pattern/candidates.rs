@@ -185,7 +185,7 @@ impl Estimate {
     }
 
     /// Checks that the curve keeps the promise on the bare face, with the tool set by its rule.
-    pub fn keeps(&self, promise: &Promise, surface: &Surface, (rule, cone_rad): (&AxisRule, f64)) -> bool {
+    pub fn keeps(&self, promise: &Promise, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> bool {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));
         promise.seems_kept(surface, &self.moments(surface, rule, cone_rad), &Margin::BARE_FACE)

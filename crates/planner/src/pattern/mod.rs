@@ -177,7 +177,7 @@ impl Patterns {
 
     /// The shortest of the usual curves that keep the promise at full speed; a stated curve is taken in any case.
     fn usual(&self, cone_rad: f64) -> Vec<Pattern> {
-        let keeps = |estimate: &&Estimate| estimate.keeps(&self.promise, &self.surface, (&self.rule, cone_rad));
+        let keeps = |estimate: &&Estimate| estimate.keeps(&self.promise, &self.surface, &self.rule, cone_rad);
         let kept = self
             .candidates
             .iter()

@@ -172,7 +172,8 @@ impl Promise {
         &self,
         scene: &Scene<'_>,
         plate: &Plate,
-        (along, speed_m_s): (&[JointVector], f64),
+        along: &[JointVector],
+        speed_m_s: f64,
         margin: &Margin,
     ) -> Option<Shortfall> {
         let moments = moments(scene, plate, along, speed_m_s);

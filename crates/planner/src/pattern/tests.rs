@@ -181,7 +181,7 @@ fn the_kitchen_presses_as_is_promised() {
                     .map(|(_, q)| *q)
                     .collect();
                 let promise = Promise::of(job.terms(), &plate.surface);
-                promise.shortfall(&scene, plate, (&along, 0.25), &Margin::ARM).is_none()
+                promise.shortfall(&scene, plate, &along, 0.25, &Margin::ARM).is_none()
             })
     };
     assert!(pressed(&job));

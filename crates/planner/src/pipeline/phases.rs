@@ -115,7 +115,8 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
         wash_s: duration(&visit.wash.motion),
         pace: Pace::of(
             &scene,
-            (&pipeline.plates[visit.path.plate], job.terms()),
+            &pipeline.plates[visit.path.plate],
+            job.terms(),
             &visit.wash,
             &pipeline.washing,
         ),

@@ -136,7 +136,8 @@ pub(crate) fn lines(
             scene,
             path,
             &washing.feet[end],
-            (washing.tilt_rad[k], &washing.q[k]),
+            washing.tilt_rad[k],
+            &washing.q[k],
             touching,
         )
     };
@@ -165,7 +166,8 @@ fn line(
     scene: &Scene<'_>,
     path: &WashPath,
     foot: &Contact,
-    (tilt_rad, q): (f64, &JointVector),
+    tilt_rad: f64,
+    q: &JointVector,
     touching: TouchSpeed,
 ) -> Result<LiftLine, PlanError> {
     let (plate, lift_m, terms) = (path.plate, path.lift_m, pipeline.terms);

@@ -171,7 +171,7 @@ impl Pipeline<'_> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
         let promise = Promise::of(self.terms, &plate.surface);
-        promise.shortfall(scene, plate, (&turn.washing.q, turn.speed_m_s), margin)
+        promise.shortfall(scene, plate, &turn.washing.q, turn.speed_m_s, margin)
     }
 
     /// Refuses a washing with a chosen curve if no plan of it could be proved; the certificate judges stated curves.

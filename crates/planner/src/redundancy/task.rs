@@ -258,7 +258,7 @@ impl<'a> Task<'a> {
             let is_last = sample + 1 == length_m.len();
             let looked_at = length_m[sample] >= free_until || is_last;
             let along_m = sample.checked_sub(1).map(|before| length_m[sample] - length_m[before]);
-            match self.next(contact, tilt, &last, (along_m, looked_at)) {
+            match self.next(contact, tilt, &last, along_m, looked_at) {
                 Ok((q, has_room)) => {
                     if has_room {
                         free_until = length_m[sample] + STRIDE_M;
@@ -278,7 +278,8 @@ impl<'a> Task<'a> {
         contact: &Contact,
         tilt: f64,
         last: &Start,
-        (along_m, looked_at): (Option<f64>, bool),
+        along_m: Option<f64>,
+        looked_at: bool,
     ) -> Result<(JointVector, bool), Hindrance> {
         let target = self.scene.tip_rigid(contact, tilt);
         self.check_cone(contact, &target)?;

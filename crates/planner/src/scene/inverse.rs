@@ -92,7 +92,7 @@ impl<'a> Inverse<'a> {
             return Ok(found?.q);
         };
         if let Ok(found) = found
-            && on_sides(found.label, found.degenerate, (shoulder, elbow))
+            && on_sides(found.label, found.degenerate, shoulder, elbow)
         {
             return Ok(found.q);
         }
@@ -180,7 +180,7 @@ pub(crate) fn merge_starts(starts: &mut Vec<Start>, more: Vec<Start>) {
     }
 }
 
-fn on_sides(label: Label, meets: Degeneracies, (shoulder, elbow): (Shoulder, Elbow)) -> bool {
+fn on_sides(label: Label, meets: Degeneracies, shoulder: Shoulder, elbow: Elbow) -> bool {
     (label.shoulder == shoulder || meets.shoulder) && (label.elbow == elbow || meets.elbow)
 }
 

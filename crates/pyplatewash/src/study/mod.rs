@@ -72,7 +72,7 @@ impl StudyObject {
         name: Option<&Bound<'_, PyAny>>,
         plans: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let text = text(py, scenario, (axes, rows), name, plans)?;
+        let text = text(py, scenario, axes, rows, name, plans)?;
         let study = Study::parse(&text, UNSAVED, Path::new(""));
         Self::of(py, study.map_err(without_line))
     }
@@ -254,7 +254,8 @@ const SCENARIO: &str = "a Scenario, the name of a shipped one, the path of a fil
 pub fn text(
     py: Python<'_>,
     scenario: &Bound<'_, PyAny>,
-    (axes, rows): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
+    axes: Option<&Bound<'_, PyAny>>,
+    rows: Option<&Bound<'_, PyAny>>,
     name: Option<&Bound<'_, PyAny>>,
     plans: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {

@@ -57,7 +57,7 @@ impl Scenario {
         for (index, section) in self.tool_body.iter().enumerate() {
             shapes.push(match section_shape(index, section).map_err(refused)? {
                 ToolBodySource::Convex(shape) => shape,
-                ToolBodySource::Mesh { file, scale } => self.tool_hull(index, section, (file, scale))?,
+                ToolBodySource::Mesh { file, scale } => self.tool_hull(index, section, file, scale)?,
             });
         }
         Ok(shapes)
@@ -67,7 +67,8 @@ impl Scenario {
         &self,
         index: usize,
         section: &ToolBodySection,
-        (file, scale): (&Path, [f64; 3]),
+        file: &Path,
+        scale: [f64; 3],
     ) -> Result<Shape, BodyError> {
         let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, SolidParts::Hull);

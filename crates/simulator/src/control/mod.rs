@@ -107,7 +107,7 @@ pub fn law<'a>(
         substeps: substeps.max(1),
     };
     check(&stability, settings.rate_hz, model, configurations)
-        .map_err(|at| unstable(name, settings, &stability, &at, (model, configurations)))?;
+        .map_err(|at| unstable(name, settings, &stability, &at, model, configurations))?;
     Ok(made(model, gains, settings.feed_forward))
 }
 

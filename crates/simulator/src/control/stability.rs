@@ -181,7 +181,8 @@ pub(crate) fn unstable(
     settings: &ControlSettings,
     stability: &Stability,
     at: &OperatingPoint,
-    (model, configurations): (&DynamicsModel, &[OperatingPoint]),
+    model: &DynamicsModel,
+    configurations: &[OperatingPoint],
 ) -> ControlError {
     let rate_hz = settings.rate_hz;
     let holds = |law: &Stability, rate: f64| check(law, rate, model, configurations).is_ok();

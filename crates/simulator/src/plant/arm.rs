@@ -60,7 +60,7 @@ impl Plant {
     #[must_use]
     pub fn step(&self, state: &PlantState, torque: &JointVector, h: f64) -> (PlantState, JointVector) {
         match self.integrator {
-            Integrator::SemiImplicitEuler => euler_step((&self.model, &self.friction), state, torque, h),
+            Integrator::SemiImplicitEuler => euler_step(&self.model, &self.friction, state, torque, h),
             Integrator::Rk4 => rk4_step(state, h, |state| self.acceleration(state, torque)),
         }
     }
@@ -78,7 +78,7 @@ impl Plant {
         let first = sponge.push(&self.model, state);
         let pushed = |push: &Push| torque + push.torque;
         let (next, qdd) = match self.integrator {
-            Integrator::SemiImplicitEuler => euler_step((&self.model, &self.friction), state, &pushed(&first), h),
+            Integrator::SemiImplicitEuler => euler_step(&self.model, &self.friction, state, &pushed(&first), h),
             Integrator::Rk4 => rk4_step(state, h, |at| {
                 let push = if at == state {
                     first
@@ -101,7 +101,8 @@ impl Plant {
 
 #[inline]
 pub(crate) fn euler_step(
-    (model, friction): (&DynamicsModel, &Friction),
+    model: &DynamicsModel,
+    friction: &Friction,
     state: &PlantState,
     torque: &JointVector,
     h: f64,

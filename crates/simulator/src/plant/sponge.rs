@@ -219,7 +219,7 @@ impl SpongeOnPlates {
             let rim_m = plate.rim_m();
             self.level.pressed(&self.foam, rim_m, (&pose, &across), twist.as_ref())
         } else {
-            self.summed(plate, (&pose, &across), twist.as_ref())
+            self.summed(plate, &pose, &across, twist.as_ref())
         };
         let (left, slope) = faded(-pose.axis.z);
         // Leaning by a rotation vector r changes the cosine by r·(ẑ × a).
@@ -239,7 +239,8 @@ impl SpongeOnPlates {
     fn summed(
         &self,
         plate: &Plate,
-        (pose, across): (&SpongePose, &[Vector3<f64>; 2]),
+        pose: &SpongePose,
+        across: &[Vector3<f64>; 2],
         twist: Option<&[Vector3<f64>; 2]>,
     ) -> Wrench {
         let mut wrench = Wrench::default();
@@ -327,7 +328,7 @@ mod tests {
             let across = [turn * Vector3::x(), turn * -Vector3::y()];
             let [a, b, c, d, e, f] = speeds;
             let twist = (damping_pa_s > 0.0).then_some([Vector3::new(a, b, c), Vector3::new(d, e, f)]);
-            let one_by_one = sponge.summed(&plate, (&pose, &across), twist.as_ref());
+            let one_by_one = sponge.summed(&plate, &pose, &across, twist.as_ref());
             let at_once = sponge.level.pressed(&sponge.foam, plate.rim_m(), (&pose, &across), twist.as_ref());
             let scale = one_by_one.felt.force_n.max(1.0);
             prop_assert!((at_once.force - one_by_one.force).amax() < 1e-9 * scale, "{at_once:?} {one_by_one:?}");

@@ -72,7 +72,7 @@ pub fn simulate_watched(
     let schedule = Schedule::new(plan, settings.period_s())?;
     let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
     token.check()?;
-    let plant = plant(plan, robot, (settings, &mount))?;
+    let plant = plant(plan, robot, settings, &mount)?;
     let sponge = sponge(plan, robot, settings);
     let mut law: Box<dyn ControlLaw + '_> = match &plant {
         Some(plant) => {
@@ -99,7 +99,8 @@ pub fn simulate_watched(
 fn plant(
     plan: &Plan,
     robot: &RobotModel,
-    (settings, mount): (&SimulationSettings, &Pose),
+    settings: &SimulationSettings,
+    mount: &Pose,
 ) -> Result<Option<Plant>, SimulationError> {
     if settings.law.is_kinematic() {
         return Ok(None);

@@ -150,7 +150,7 @@ impl Map {
     }
 
     fn draw(&self, drawing: &mut Drawing, cell: Rect, subject: &Subject<'_>, step_s: f64) {
-        colour_cells(drawing, cell, (&self.dwell_s, CELLS), |dwell_s| {
+        colour_cells(drawing, cell, &self.dwell_s, CELLS, |dwell_s| {
             dwell_s.map(|s| colour(s, step_s))
         });
         drawing.circle(cell.middle(), 0.5 * cell.size[0], &stroke(LINE, 2.0));

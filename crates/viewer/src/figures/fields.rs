@@ -48,7 +48,8 @@ impl Fields {
 pub(super) fn colour_cells<T>(
     drawing: &mut Drawing,
     face: Rect,
-    (cells, along): (&[T], usize),
+    cells: &[T],
+    along: usize,
     colour: impl Fn(&T) -> Option<&'static str>,
 ) {
     let mut of_colour: Vec<(&str, Vec<Rect>)> = Vec::new();

@@ -156,7 +156,7 @@ impl<'a> Panel<'a> {
             drawing.circle(middle, radius, &fill(GROUND));
             let face = Rect::new(middle[0] - radius, middle[1] - radius, 2.0 * radius, 2.0 * radius);
             let is_reached = |seconds: &Option<f64>| seconds.is_some_and(|seconds| seconds > 0.0);
-            colour_cells(drawing, face, (&raster.dwell_s(), CELLS), |seconds| {
+            colour_cells(drawing, face, &raster.dwell_s(), CELLS, |seconds| {
                 is_reached(seconds).then_some(BAND)
             });
             drawing.circle(middle, radius, &stroke(LINE, 2.0));

@@ -133,7 +133,7 @@ impl ClearanceModel {
         let all = self.pairs.iter().map(|&(a, b)| {
             let least = self
                 .part_pairs(a, b)
-                .filter_map(|parts| self.separation((a, b), parts, (&placed, &poses), f64::INFINITY));
+                .filter_map(|parts| self.separation(a, b, parts, (&placed, &poses), f64::INFINITY));
             self.describe(a, b, nearest(least))
         });
         all.collect()
@@ -177,7 +177,7 @@ impl ClearanceModel {
                 break;
             }
             let below = best.as_ref().map_or(f64::INFINITY, |(.., s)| s.distance);
-            let found = self.separation((a, b), (p, r), (&placed, &poses), below);
+            let found = self.separation(a, b, (p, r), (&placed, &poses), below);
             if let Some(found) = found
                 && best.as_ref().is_none_or(|(.., s)| found.distance < s.distance)
             {
@@ -199,7 +199,7 @@ impl ClearanceModel {
             let candidates = candidates.filter(|&(p, r)| placed[a][p].sphere_gap(&placed[b][r]) <= required_m);
             // A pair at this distance or beyond is not too near.
             let below = required_m.max(f64::MIN_POSITIVE);
-            let found = candidates.filter_map(|parts| self.separation((a, b), parts, (&placed, &poses), below));
+            let found = candidates.filter_map(|parts| self.separation(a, b, parts, (&placed, &poses), below));
             self.describe(a, b, nearest(found))
         });
         let mut near: Vec<_> = near.filter(|pair| !is_clear(pair.distance_m, required_m)).collect();
@@ -228,7 +228,8 @@ impl ClearanceModel {
     /// less than `below` \[m\]; otherwise `None`, or a distance not below it.
     fn separation(
         &self,
-        (a, b): (usize, usize),
+        a: usize,
+        b: usize,
         (p, r): (usize, usize),
         (placed, poses): (&[Vec<PlacedPart<'_>>], &BodyPoses),
         below: f64,

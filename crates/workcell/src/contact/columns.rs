@@ -253,13 +253,14 @@ pub(crate) type Meets = (f64, Vector3<f64>, Vector3<f64>);
 
 /// Intersects a line along a unit vector from a point with a surface, by Newton's method on the height over the surface.
 fn meet(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>) -> Meets {
-    meet_from(surface, (start, axis), 0.0, MEETS_M)
+    meet_from(surface, start, axis, 0.0, MEETS_M)
 }
 
 /// Same as [`meet`], from a guess, until a step is no longer than `settled_m`: each squares the error.
 pub(crate) fn meet_from(
     surface: &Surface,
-    (start, axis): (&Vector3<f64>, &Vector3<f64>),
+    start: &Vector3<f64>,
+    axis: &Vector3<f64>,
     guess_m: f64,
     settled_m: f64,
 ) -> Meets {

@@ -131,13 +131,13 @@ impl Columns {
             let guess_m = planes.get(inner).map_or(0.0, |(from, along_m, normal, over)| {
                 along_m + (from - low).dot(normal) * over
             });
-            let meets = meet_from(surface, (&low, axis), guess_m, bends.settled_m());
+            let meets = meet_from(surface, &low, axis, guess_m, bends.settled_m());
             let (along_m, normal) = (meets.0, meets.2);
             let over = 1.0 / normal.dot(axis);
             planes.push((low, along_m, normal, over));
             let high = middle - Vector3::z() * error_m;
             let guess_m = along_m + 2.0 * error_m * normal.z * over;
-            let higher = meet_from(surface, (&high, axis), guess_m, bends.settled_m());
+            let higher = meet_from(surface, &high, axis, guess_m, bends.settled_m());
             let met = [&meets, &higher].map(|(along_m, point, normal)| {
                 standing.along_m = standing.along_m.max(along_m.abs());
                 SurfaceHit::new(compression_m - along_m, point, normal, axis)

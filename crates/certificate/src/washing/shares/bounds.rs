@@ -132,7 +132,7 @@ impl Passes<'_> {
         for &[from, to] in within {
             let first = all.len();
             all.extend((from..=to).map(|index| cell.seen(edges.foundation, (index, edges.moment(index)), error_m)));
-            self.runs(cell, all, first, (&mut kept, &mut touch, spans));
+            self.runs(cell, all, first, &mut kept, &mut touch, spans);
         }
         let bounds = |[mut time, mut dose]: [Lower; 2]| {
             time.add(&Lower::flat(kept.time_s, 0.0));
@@ -170,7 +170,9 @@ impl Passes<'_> {
         cell: &Cell,
         all: &[CellState],
         first: usize,
-        (kept, touch, spans): (&mut CellAmounts, &mut Touch, &mut Vec<Range<usize>>),
+        kept: &mut CellAmounts,
+        touch: &mut Touch,
+        spans: &mut Vec<Range<usize>>,
     ) {
         let reach_m = self.reach_m(cell);
         let mut from = first;

@@ -95,13 +95,13 @@ impl Search<'_> {
         let triangle = self.arm.triangle(&swing).ok()?;
         for elbow in [Elbow::Up, Elbow::Down] {
             let bend = self.arm.bend(&triangle, shoulder, elbow, self.window.anchor[1]);
-            self.elbow(&swing, &bend, q1, (shoulder, elbow));
+            self.elbow(&swing, &bend, q1, shoulder, elbow);
         }
         Some(())
     }
 
     #[inline]
-    fn elbow(&mut self, swing: &Swing, bend: &Bend, q1: f64, (shoulder, elbow): (Shoulder, Elbow)) -> Option<()> {
+    fn elbow(&mut self, swing: &Swing, bend: &Bend, q1: f64, shoulder: Shoulder, elbow: Elbow) -> Option<()> {
         let q3 = self.window.value(2, bend.q3)?;
         let q2 = self.window.value(1, bend.q2)?;
         if self.window.squared_distance(&[q1, q2, q3]) >= self.least {
