@@ -157,7 +157,7 @@ mod tests {
 
     /// The range holds more seeds than could ever be planned.
     #[test]
-    fn nothing_more_is_planned_once_nobody_wants_rows() {
+    fn planning_ends_when_nobody_reads_rows() {
         let mut told = Vec::new();
         let mut tell = |row: &SweepRow| {
             told.push(row.seed);

@@ -45,7 +45,7 @@ fn the_shipped_scenarios_are_proved() {
 
 /// The angle at which a spiral leaves the centre is judged within a turn of 0, whatever remains of its turns.
 #[test]
-fn a_wash_path_of_any_number_of_turns_is_proved() {
+fn proves_wash_paths_of_any_number_of_turns() {
     for turns in [2.7, 3.9, 4.85, 30.0] {
         let mut scenario = Scenario::load("kitchen-spiral").unwrap();
         scenario.wash.turns = Some(turns);
@@ -122,7 +122,7 @@ fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
 
 /// Whoever waits is told what is tried: configurations, what is in the way, other places and jobs there.
 #[test]
-fn an_infeasible_job_says_what_it_is_trying() {
+fn an_infeasible_job_reports_its_attempts() {
     let heard = Mutex::new(Vec::new());
     let tell = |activity: &Activity| heard.lock().unwrap().push(*activity);
     let job = explicit(&[[0.40, 0.0], [0.1, 0.56]]).job().unwrap();
@@ -151,7 +151,7 @@ fn an_infeasible_job_says_what_it_is_trying() {
 
 /// A line that is not clear is that of the configurations taken; out of reach is out of reach.
 #[test]
-fn what_is_known_to_be_impossible_is_told_from_what_was_not_found() {
+fn distinguishes_proved_impossible_from_not_found() {
     let mut low = explicit(&[[0.40, 0.0]]);
     low.wash.lift_m = 0.005;
     let error = planned(&low).unwrap_err();
@@ -162,7 +162,7 @@ fn what_is_known_to_be_impossible_is_told_from_what_was_not_found() {
 
 /// Where no tilt at all is allowed, or next to none, the plan keeps to that.
 #[test]
-fn the_smallest_of_tilts_is_kept() {
+fn keeps_the_smallest_allowed_tilt() {
     for tilt_max_deg in [0.0, 0.01, 0.5] {
         let mut scenario = explicit(&[[0.40, 0.0]]);
         scenario.wash.tilt_max_deg = tilt_max_deg;
@@ -239,7 +239,7 @@ fn the_best_order_is_no_slower_than_nearest_next() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_by_name() {
+fn rejects_senseless_input_by_name() {
     let refused = |change: fn(&mut Scenario), word: &str| {
         let mut scenario = Scenario::load("kitchen-spiral").unwrap();
         change(&mut scenario);
@@ -269,7 +269,7 @@ fn what_makes_no_sense_is_refused_by_name() {
 
 /// A job without a promise about contact that leaves the pattern open: however large the plates, what is chosen sweeps the share required.
 #[test]
-fn what_is_chosen_sweeps_plates_of_any_size() {
+fn chosen_patterns_sweep_plates_of_any_size() {
     let radii = [0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, 0.145];
     let swept: Vec<_> = radii
         .into_par_iter()

@@ -52,7 +52,7 @@ fn judged(plan: &Plan) -> Certificate {
 
 /// Plates that lean are raised along their own axes, so that the next one lies in another direction: the paths are the parent's all the same.
 #[test]
-fn paths_on_plates_that_lean_are_the_parents() {
+fn wash_paths_on_tilted_plates_equal_the_parents() {
     let rack = planned(&Scenario::load("rack").unwrap());
     let raised = dry_run_of(&rack, 0.024, 0.1).plan;
     assert_eq!(raised.wash_paths, rack.1.wash_paths);
@@ -70,7 +70,7 @@ fn changed(change: impl FnOnce(&mut Plan)) -> Plan {
 }
 
 #[test]
-fn it_is_proved_and_never_reads_as_a_washing() {
+fn a_dry_run_is_proved_and_never_reads_as_a_washing() {
     let plan = dry_run();
     let certificate = judged(&plan);
     assert_eq!(certificate.verdict, Verdict::Pass, "{certificate}");
@@ -138,7 +138,7 @@ fn a_washing_that_calls_itself_a_dry_run_is_refused() {
 }
 
 #[test]
-fn it_is_the_parents_motion_in_order_and_paths_slower_and_higher() {
+fn a_dry_run_repeats_its_parent_slower_and_higher() {
     let (plan, parent) = (dry_run(), &PARENT.1);
     assert_eq!((&plan.order, &plan.wash_paths), (&parent.order, &parent.wash_paths));
     assert_eq!(plan.job.home_rad, parent.job.home_rad);
@@ -159,7 +159,7 @@ fn it_is_the_parents_motion_in_order_and_paths_slower_and_higher() {
 
 /// Independently of the certificate: sampled, nothing ever comes nearer to a real plate than the clearance, the sponge included.
 #[test]
-fn nothing_comes_near_the_real_plates() {
+fn a_dry_run_keeps_clear_of_the_real_plates() {
     let (plan, (job, parent)) = (dry_run(), &*PARENT);
     let model = ClearanceModel::new(job.arm(), &parent.job.workcell, &parent.job.plates).unwrap();
     let names: Vec<_> = model.pair_names();
@@ -189,7 +189,7 @@ fn other_seeds_heights_and_speeds_are_proved_too() {
 }
 
 #[test]
-fn real_plates_that_are_not_stated_as_they_are_break_it() {
+fn a_dry_run_with_false_real_plates_fails() {
     let fails = |name: &str, plan: &Plan| {
         let certificate = judged(plan);
         let check = certificate.check(Requirement::DryRun).unwrap();
@@ -282,7 +282,7 @@ fn a_motion_that_goes_down_to_the_real_plates_breaks_the_clearance() {
 }
 
 #[test]
-fn a_parent_that_cannot_be_one_is_no_dry_run() {
+fn rejects_an_invalid_parent_of_a_dry_run() {
     let error = |parent: &str, height_m: f64| {
         let mut plan = dry_run();
         *plan.job.dry_run.as_mut().unwrap() = DryRun {
@@ -305,7 +305,7 @@ fn a_parent_that_cannot_be_one_is_no_dry_run() {
 }
 
 #[test]
-fn what_is_asked_for_in_vain_is_refused() {
+fn refuses_impossible_dry_runs() {
     let (job, parent) = &*PARENT;
     let refused = |parent: &Plan, height_m: f64, speed_m_s: f64| {
         dry_run_terms(parent, job.arm(), height_m, speed_m_s).unwrap_err()
@@ -335,7 +335,7 @@ fn what_is_asked_for_in_vain_is_refused() {
 }
 
 #[test]
-fn an_order_that_is_none_is_refused() {
+fn rejects_an_invalid_order() {
     let job = &PARENT.0;
     for bad in [&[][..], &[0, 1, 2], &[0, 1, 2, 2], &[0, 1, 2, 4], &[0, 1, 2, 3, 3]] {
         let error = plan_in_order(job, bad, &[], &Watch::silent(&CancelToken::new())).unwrap_err();
@@ -360,7 +360,7 @@ fn a_pair_that_the_parent_waives_is_waived() {
 }
 
 #[test]
-fn its_terms_are_worked_out_again_to_the_bit() {
+fn the_terms_of_a_dry_run_are_recomputed_to_the_bit() {
     let (job, parent) = &*PARENT;
     let again = dry_run_terms(parent, job.arm(), 0.05, 0.1).unwrap();
     assert_eq!(differences(&dry_run().job, &again), []);
@@ -369,7 +369,7 @@ fn its_terms_are_worked_out_again_to_the_bit() {
 }
 
 #[test]
-fn a_simulation_of_it_washes_nothing_either() {
+fn a_simulated_dry_run_washes_nothing() {
     let (plan, job) = (dry_run(), &PARENT.0);
     let execution = simulate(&plan, job.arm(), &plan.job.simulation).unwrap();
     let report = SimulationReport::new(&plan, job.arm(), &plan.job.simulation, &execution).unwrap();
@@ -390,7 +390,7 @@ fn a_simulation_of_it_washes_nothing_either() {
 
 /// A forger seals again. What the file says of itself must still be so.
 #[test]
-fn what_is_declared_falsely_is_found_out() {
+fn false_statements_of_a_dry_run_are_found() {
     let (job, parent) = &*PARENT;
     let sealed = |mut plan: Plan| {
         plan.hash = plan.seal().ok();

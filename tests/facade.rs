@@ -60,7 +60,7 @@ impl Public {
 }
 
 #[test]
-fn what_is_public_is_counted() {
+fn public_items_are_counted() {
     let source = "//! pub mod no;\n#[cfg(x)]\npub mod cli;\nmod own;\npub use a_b as b;\npub use a::c::d;\n\
                   pub use a::{E,\n    f, // pub g\n};\npub const H: u8 = 1;\n#[cfg(doctest)]\npub struct I;\n";
     let found = Public::of(source);

@@ -121,7 +121,7 @@ fn plates_of_every_shape_are_washed_as_promised() {
 
 /// A radius, a profile by name and a profile of level knots: the same plan and the same certificate, to the byte.
 #[test]
-fn a_flat_plate_is_the_same_however_it_is_said() {
+fn both_statements_of_a_flat_plate_give_the_same_plan() {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "kitchen").unwrap();
     let radius = "plate_radius_m = 0.145";
     assert!(shipped.text.contains(radius));

@@ -67,7 +67,7 @@ fn dialects(plan: &Certified<Plan>, arm: &RobotModel) -> Vec<&'static dyn Dialec
 fn checked(plan: &Certified<Plan>, arm: &RobotModel, dialect: &dyn Dialect) -> ExportedProgram {
     let exported = export(plan, arm, dialect, &ExportSettings::default(), &CancelToken::new()).unwrap();
     points_are_the_plans(plan.plan(), dialect, &exported);
-    for case in &exported.judged.cases {
+    for case in &exported.judgement.cases {
         let off = case
             .proof
             .checks
@@ -89,7 +89,7 @@ fn checked(plan: &Certified<Plan>, arm: &RobotModel, dialect: &dyn Dialect) -> E
 fn is_found_unchanged(plan: &Certified<Plan>, arm: &RobotModel, exported: &ExportedProgram) {
     let compared = compare(plan, arm, &exported.files, &CancelToken::new()).unwrap();
     assert!(compared.is_unchanged(), "{:?}", compared.changes);
-    assert!(compared.judged.holds());
+    assert!(compared.judgement.holds());
 }
 
 /// Each point within 1e-4° of the plan at its time, the times in sum those of the plan, no step too short.
@@ -157,7 +157,7 @@ fn programs_of_the_shipped_scenarios_hold_and_have_the_committed_bytes() {
 
 #[test]
 #[ignore = "takes minutes"]
-fn many_kitchens_hold() {
+fn programs_of_many_kitchens_hold() {
     (1..=200_u64).into_par_iter().for_each(|seed| {
         let (plan, arm) = certified("kitchen", seed);
         for dialect in dialects(&plan, &arm) {
@@ -187,7 +187,7 @@ at_m = [0.44607, 0.029204, 0.498]
 /// A table without speeds is straight lines, whose speed jumps at every row: joint 6 turns away by 0.16 rad and back within 16 rows, the
 /// tip stays where it is, and the lever goes 4 mm into the post. Wherever that begins, it is found.
 #[test]
-fn a_jump_of_speed_hides_no_collision() {
+fn finds_collisions_at_a_jump_of_speed() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/kitchen-spiral.toml")).unwrap();
     let text = text
         .replace("count = 4\n", "positions_m = [[0.36, 0.1]]\n")
@@ -212,7 +212,7 @@ fn a_jump_of_speed_hides_no_collision() {
         };
         table.text = table.text.lines().enumerate().map(without_speeds).collect();
         let compared = compare(&plan, &arm, &[table], &cancel).unwrap();
-        let worst = compared.judged.worst();
+        let worst = compared.judgement.worst();
         let clearance = worst
             .iter()
             .find(|check| check.requirement == Requirement::Clearance)
@@ -271,9 +271,9 @@ fn attacked(name: &str, every: usize) -> usize {
         let reading = export(&plan, &arm, dialect, &ExportSettings::default(), &cancel)
             .unwrap()
             .reading;
-        if reading.between == Interpolation::Cubics {
+        if reading.interpolation == Interpolation::Cubics {
             readings.push(Reading {
-                between: Interpolation::Lines,
+                interpolation: Interpolation::Lines,
                 ..reading.clone()
             });
         }
@@ -305,7 +305,7 @@ fn attacked(name: &str, every: usize) -> usize {
                 assert!(
                     bound_m <= nearest_m + 1e-6,
                     "{name}, {:?} about row {row} at {t_s} s: {bound_m} {nearest_m}",
-                    reading.between
+                    reading.interpolation
                 );
             }
         }

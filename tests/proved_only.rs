@@ -67,7 +67,7 @@ fn without_collision(link: Option<&str>) -> String {
 }
 
 #[test]
-fn a_body_without_a_shape_keeps_clear_of_nothing() {
+fn bodies_without_shape_are_never_proved_clear() {
     let folder = tempfile::tempdir().unwrap();
     for (link, named) in [(None, "\"base_link\""), (Some("link_3"), "\"link_3\"")] {
         let mut scenario = one_plate();
@@ -96,7 +96,7 @@ fn a_sponge_in_the_air_does_not_wash() {
 }
 
 #[test]
-fn a_flat_sponge_is_tilted_no_more_than_it_gives_way() {
+fn a_flat_sponge_is_tilted_no_more_than_its_compression_allows() {
     let mut scenario = one_plate();
     scenario.tool.sponge_radius_m = 0.1;
     scenario.tool.sponge_height_m = 0.02;
@@ -113,7 +113,7 @@ fn a_flat_sponge_is_tilted_no_more_than_it_gives_way() {
 }
 
 #[test]
-fn limits_of_the_tip_hold_while_it_washes_too() {
+fn limits_of_the_tip_hold_during_the_wash() {
     let mut scenario = one_plate();
     scenario.limits.tip_speed_m_s = 0.2;
     scenario.limits.tip_acceleration_m_s2 = 2.0;
@@ -144,7 +144,7 @@ fn overlap_that_is_only_reported_is_waived_and_not_proved() {
 }
 
 #[test]
-fn what_is_waived_is_in_the_first_line_and_in_the_data() {
+fn waived_requirements_are_in_the_first_line_and_data() {
     let mut scenario = one_plate();
     scenario.layout.positions_m = Some(vec![[0.36, -0.1], [0.36, 0.11]]);
     scenario.layout.overlap = Overlap::Report;
@@ -212,7 +212,7 @@ fn a_wash_that_sweeps_the_neighbour_too_is_not_every_plate_once() {
 
 /// The rims of neighbours are run over where the wash path ends at the rim; that is what such a job is, and it is named.
 #[test]
-fn a_neighbours_rim_may_be_touched_and_is_named() {
+fn a_touched_rim_of_a_neighbour_is_allowed_and_named() {
     let mut scenario = Scenario::load("kitchen-rim").unwrap();
     scenario.layout.positions_m = Some(vec![[0.3, -0.15], [0.3, 0.15]]);
     let (_, certificate) = judged(&scenario);
@@ -228,7 +228,7 @@ fn a_neighbours_rim_may_be_touched_and_is_named() {
 }
 
 #[test]
-fn plates_may_touch() {
+fn touching_plates_are_allowed() {
     let mut scenario = one_plate();
     scenario.layout.positions_m = Some(vec![[0.36, -0.1], [0.36, -0.1 + 0.29]]);
     let (_, certificate) = judged(&scenario);
@@ -236,7 +236,7 @@ fn plates_may_touch() {
 }
 
 #[test]
-fn the_headline_says_no_more_than_is_covered() {
+fn the_headline_claims_no_more_than_the_swept_share() {
     let mut scenario = one_plate();
     scenario.wash.turns = Some(0.5);
     scenario.wash.closing_ring = Some(false);
@@ -276,7 +276,7 @@ fn only_plates_that_are_swept_count_as_washed() {
 }
 
 #[test]
-fn no_tilt_at_all_can_be_proved() {
+fn proves_a_wash_without_tilt() {
     let mut scenario = one_plate();
     scenario.wash.tilt_max_deg = 0.0;
     let (_, certificate) = judged(&scenario);
@@ -294,7 +294,7 @@ fn a_wash_path_that_starts_many_turns_away_is_refused() {
 }
 
 #[test]
-fn a_plan_with_a_key_too_many_is_no_plan() {
+fn rejects_a_plan_with_an_unknown_key() {
     let text = judged(&one_plate()).0.plan.to_json().unwrap();
     let edited = text.replacen("{", "{\"bogus\":1,", 1);
     let error = Plan::from_json(&edited).unwrap_err().to_string();
@@ -327,7 +327,7 @@ fn tables(at: &str, data: &Value, all: &mut Vec<String>) {
 }
 
 #[test]
-fn keys_that_no_plan_has_are_refused_wherever_they_are() {
+fn rejects_unknown_keys_at_every_level() {
     let data = as_data();
     let mut all = Vec::new();
     tables("", &data, &mut all);
@@ -352,7 +352,7 @@ fn keys_that_no_plan_has_are_refused_wherever_they_are() {
 const CHOICES: [&str; 3] = ["path_radius_m", "turns", "closing_ring"];
 
 #[test]
-fn keys_that_are_missing_are_not_filled_in() {
+fn missing_keys_have_no_defaults() {
     let data = as_data();
     let mut all = Vec::new();
     tables("", &data, &mut all);
@@ -496,7 +496,7 @@ fn another_mesh_is_another_arm() {
 
 /// The tilted rim is down while the arm still moves: no faster than it washes, however slowly that is.
 #[test]
-fn the_sponge_comes_down_and_leaves_no_faster_than_it_washes() {
+fn the_sponge_lands_and_lifts_no_faster_than_it_washes() {
     let mut scenario = one_plate();
     scenario.wash.speed_m_s = 0.06;
     let (_, certificate) = judged(&scenario);

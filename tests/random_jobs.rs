@@ -103,7 +103,7 @@ fn judged(seed: u64, arm: &Arc<RobotModel>) -> Option<PlannedJob> {
 }
 
 #[test]
-fn what_is_planned_of_random_jobs_is_proved() {
+fn plans_of_random_jobs_are_proved() {
     let arm = Arc::new(RobotModel::irb120().unwrap());
     let seeds: Vec<_> = SEEDS.collect();
     let planned: Vec<_> = seeds.par_iter().filter_map(|seed| judged(*seed, &arm)).collect();

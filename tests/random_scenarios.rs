@@ -138,7 +138,7 @@ fn judged(seed: u64) -> Outcome {
 }
 
 #[test]
-fn what_is_planned_of_random_scenarios_is_proved() {
+fn plans_of_random_scenarios_are_proved() {
     let count = std::env::var("PLATEWASH_RANDOM_JOBS").ok();
     let count = count.map_or(JOBS, |count| count.parse().unwrap());
     let outcomes: Vec<_> = (1..=count)

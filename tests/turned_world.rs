@@ -73,7 +73,7 @@ proptest! {
     #![proptest_config(Config { cases: 6, failure_persistence: None, ..Config::default() })]
 
     #[test]
-    fn a_moved_world_is_the_same_to_its_arm(seed in 1..40u64, rotation in rotation(), at in prop::array::uniform3(-3.0..3.0f64)) {
+    fn moving_the_whole_cell_changes_nothing_for_the_arm(seed in 1..40u64, rotation in rotation(), at in prop::array::uniform3(-3.0..3.0f64)) {
         let by = Pose::from_parts(Vector3::from(at).into(), rotation);
         let here = kitchen(seed);
         let there = moved(&here, &by);

@@ -98,10 +98,10 @@ struct ProgramProofAnswer {
 }
 
 impl ProgramProofAnswer {
-    fn new(judged: &ProgramJudgement, plan: &Plan) -> Self {
+    fn new(judgement: &ProgramJudgement, plan: &Plan) -> Self {
         Self {
-            checks: judged.worst(),
-            implied: judged.implied(),
+            checks: judgement.worst(),
+            implied: judgement.implied(),
             proved_of_the_plan_alone: contact_not_judged(&plan.job.requirements),
         }
     }
@@ -125,7 +125,7 @@ struct Answer<'a> {
     points: usize,
     duration_s: f64,
     #[serde(flatten)]
-    proved: ProgramProofAnswer,
+    proof: ProgramProofAnswer,
     /// Demands on the controller, by the size of the corners.
     asked: &'a [Case],
 }
@@ -212,14 +212,14 @@ fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Export
     }
     let paths: Vec<_> = files.paths().map(Path::to_owned).collect();
     check_places(&paths)?;
-    let judged = &exported.judged;
+    let judged = &exported.judgement;
     let answer = Answer {
         target: target.name(),
         dry_run: plan.job.dry_run.as_ref().map(DryRun::words),
         files: paths,
         points: exported.reading.points.len(),
         duration_s: exported.reading.points.last().map_or(0.0, |point| point.t_s),
-        proved: ProgramProofAnswer::new(judged, plan),
+        proof: ProgramProofAnswer::new(judged, plan),
         asked: &judged.cases,
     };
     files.answer(options, &answer, || answer.text())?;
@@ -240,11 +240,11 @@ impl Answer<'_> {
             self.points,
             self.duration_s
         );
-        for check in &self.proved.checks {
+        for check in &self.proof.checks {
             text += &format!("  {:<20} {}\n", check.requirement.words(), check.detail());
         }
         text += "  not judged: accelerations and stops at the plates, which the controller decides (see the head of the program)\n";
-        text + &self.proved.not_judged()
+        text + &self.proof.not_judged()
     }
 }
 
@@ -282,7 +282,7 @@ struct HandoverAnswer {
     changes: Vec<Change>,
     more_changes: usize,
     #[serde(flatten)]
-    proved: ProgramProofAnswer,
+    proof: ProgramProofAnswer,
     /// Note where the tool of the program is not the plan's.
     #[serde(skip_serializing_if = "Option::is_none")]
     tool: Option<String>,
@@ -329,7 +329,7 @@ pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Resul
         unchanged,
         checks_start: compared.checks_start,
         files: files.into_iter().map(|file| file.name).collect(),
-        proved: ProgramProofAnswer::new(&compared.judged, &file.plan),
+        proof: ProgramProofAnswer::new(&compared.judgement, &file.plan),
         changes: compared.changes,
         more_changes: compared.more_changes,
         tool: compared.tool.as_ref().map(ToString::to_string),
@@ -390,11 +390,11 @@ impl HandoverAnswer {
         if let Some(tool) = &self.tool {
             let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");
         }
-        for check in &self.proved.checks {
+        for check in &self.proof.checks {
             let status = if check.status.is_kept() { "kept" } else { "NOT KEPT" };
             let (name, detail) = (check.requirement.words(), check.detail());
             let _ = writeln!(text, "  {name:<20} {status:<9} {detail}; {}", check.worst);
         }
-        text + &self.proved.not_judged()
+        text + &self.proof.not_judged()
     }
 }

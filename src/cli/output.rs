@@ -242,7 +242,7 @@ mod progress_tests {
     }
 
     #[test]
-    fn where_there_is_no_terminal_a_line_now_and_then_says_what_is_tried() {
+    fn without_a_terminal_prints_a_progress_line_now_and_then() {
         let written = SharedBuffer::default();
         let progress = Progress::silent("planning").lines(Duration::from_millis(1), written.clone());
         for what in ["ring 1 of 30", "ring 2 of 30"] {
@@ -259,7 +259,7 @@ mod progress_tests {
     }
 
     #[test]
-    fn quiet_work_starts_no_one_who_could_speak() {
+    fn quiet_work_starts_no_progress_thread() {
         let progress = Progress::new(true, "planning");
         progress.say(&"ring 1 of 30");
         assert!(progress.timer.is_none() && progress.bar.is_hidden());

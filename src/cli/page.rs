@@ -44,8 +44,8 @@ pub fn needed_bundle() -> Result<Bundle> {
 }
 
 /// The page of a plan.
-pub fn html(plan: &Plan, arm: &RobotModel, beside: &ViewExtras<'_>, bundle: &Bundle) -> Result<String> {
-    let view = View::of_plan(plan, arm, beside)?;
+pub fn html(plan: &Plan, arm: &RobotModel, extras: &ViewExtras<'_>, bundle: &Bundle) -> Result<String> {
+    let view = View::of_plan(plan, arm, extras)?;
     Ok(platewash::viewer::page::html(&view, bundle)?)
 }
 

@@ -126,12 +126,12 @@ fn edits(count: usize) {
 }
 
 #[test]
-fn balls_at_the_border_of_what_is_swept() {
+fn proves_cells_with_balls_at_the_border_of_the_swept_volume() {
     edits(8);
 }
 
 #[test]
 #[ignore = "200 balls"]
-fn many_balls_at_the_border_of_what_is_swept() {
+fn proves_many_cells_with_balls_at_the_border_of_the_swept_volume() {
     edits(200);
 }

@@ -25,14 +25,14 @@ fn share(cells: u64) -> usize {
 }
 
 #[test]
-fn a_way_past_a_wall_is_found_and_proved() {
+fn finds_and_proves_a_transit_past_a_wall() {
     assert!(share(4) >= 2);
 }
 
 /// Where a smooth path that follows free lines of the joints is not free itself; where forearm or elbow are beside the wall, so that the tool
 /// has to lean away from it.
 #[test]
-fn what_a_wall_leaves_is_found_and_proved() {
+fn washes_and_proves_plates_beside_a_wall() {
     for seed in [6, 12, 20] {
         assert_eq!(judged(&walled(seed).unwrap()).0, Outcome::Proved, "wall {seed}");
     }
@@ -40,7 +40,7 @@ fn what_a_wall_leaves_is_found_and_proved() {
 
 /// How far it leans is reported, where it does.
 #[test]
-fn what_leans_away_from_a_wall_says_so() {
+fn reports_a_tool_that_leans_away_from_a_wall() {
     for (seed, leans) in [(1, false), (20, true)] {
         let job = walled(seed).unwrap().job().unwrap();
         let planned = plan(&job).unwrap();
@@ -53,6 +53,6 @@ fn what_leans_away_from_a_wall_says_so() {
 
 #[test]
 #[ignore = "100 walls"]
-fn ways_past_many_walls_are_found_and_proved() {
+fn finds_and_proves_transits_past_many_walls() {
     assert!(share(100) >= 95);
 }

@@ -99,7 +99,7 @@ fn the_mount_is_found_and_points_are_carried_over() {
 
 /// The table of the page on robot programs is one that can be typed in.
 #[test]
-fn the_example_of_the_documentation_fits() {
+fn the_example_of_the_documentation_aligns() {
     let folder = folder();
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/robot-programs.md")).unwrap();
     let table = text.split("```csv\n").nth(1).unwrap().split("```").next().unwrap();
@@ -135,7 +135,7 @@ fn residuals_beyond_the_tolerance_are_exit_code_4() {
 }
 
 #[test]
-fn points_that_cannot_be_meant_are_refused_with_what_to_do() {
+fn implausible_points_are_refused_with_a_remedy() {
     let folder = folder();
     let dir = folder.path();
     let refused = |text: &str, words: &[&str]| {
@@ -189,7 +189,7 @@ fn touched_as(drawn: &[[f64; 3]], order: &[usize], factor: f64) -> String {
 }
 
 #[test]
-fn a_fit_that_may_be_another_says_so() {
+fn reports_an_ambiguous_fit() {
     let folder = folder();
     let dir = folder.path();
     let notes = |text: &str, code: i32| -> String {
@@ -225,7 +225,7 @@ fn a_fit_that_may_be_another_says_so() {
 }
 
 #[test]
-fn a_table_that_stands_upright_is_told_in_degrees() {
+fn states_the_angle_of_an_upright_table_in_degrees() {
     let folder = folder();
     let dir = folder.path();
     // Drawn in x and y, touched in y and z.
@@ -241,7 +241,7 @@ fn a_table_that_stands_upright_is_told_in_degrees() {
 }
 
 #[test]
-fn tables_of_other_spreadsheets_are_refused_by_what_is_different() {
+fn rejects_foreign_tables_by_their_difference() {
     let folder = folder();
     let dir = folder.path();
     let good = rows(4, 0.0);

@@ -25,7 +25,7 @@ fn a_layout_that_was_only_not_found_is_not_called_infeasible() {
 }
 
 #[test]
-fn an_overloaded_arm_is_called_that_and_not_its_law_blamed() {
+fn reports_an_overloaded_arm_instead_of_its_control_law() {
     let folder = folder();
     let dir = folder.path();
     let file = with(dir, "length_m = 0.15 ", "mass_kg = 5");
@@ -46,7 +46,7 @@ fn an_overloaded_arm_is_called_that_and_not_its_law_blamed() {
 }
 
 #[test]
-fn limits_that_are_shown_are_inside_when_typed_in() {
+fn shown_limits_are_accepted_when_typed_in() {
     let folder = folder();
     let dir = folder.path();
     let text = platewash(dir, &["robot"]).done().stdout;
@@ -118,7 +118,7 @@ fn a_simulation_asks_for_no_more_coverage_than_the_certificate() {
 }
 
 #[test]
-fn what_cannot_be_answers_in_json_too() {
+fn infeasible_jobs_answer_in_json() {
     let folder = folder();
     let dir = folder.path();
     let file = kitchen(dir, &[("count = 4", "count = 20")]);
@@ -136,7 +136,7 @@ fn what_cannot_be_answers_in_json_too() {
 }
 
 #[test]
-fn validate_lists_what_layout_finds_about_drawn_plates() {
+fn validate_lists_findings_about_sampled_plates() {
     let folder = folder();
     let ask = |verb: &str| {
         let line = [verb, "--scenario", "paper-text", "--json"];

@@ -56,7 +56,7 @@ fn descriptions_too_large_to_check_are_refused_soon() {
 /// Paths need not be text.
 #[cfg(target_os = "linux")]
 #[test]
-fn any_path_of_the_system_will_do() {
+fn accepts_any_path_of_the_system() {
     use std::os::unix::ffi::OsStrExt;
     let folder = folder();
     let path = OsStr::from_bytes(b"arm\xff.urdf");

@@ -24,7 +24,7 @@ fn with_box(dir: &Path, name: &str, at_m: &str, more: &str) {
 
 /// What `validate` lets pass is not refused before planning, and the other way round.
 #[test]
-fn obstacles_are_refused_by_file_and_key_whatever_is_asked() {
+fn every_verb_rejects_invalid_obstacles_by_file_and_key() {
     let folder = folder();
     let dir = folder.path();
     let far = "[1, 1, 1]";
@@ -63,7 +63,7 @@ fn obstacles_are_refused_by_file_and_key_whatever_is_asked() {
 
 /// No home is looked for where something stands in the base, nor for a program that needs none.
 #[test]
-fn what_leaves_no_home_is_named() {
+fn names_the_bodies_that_leave_no_home() {
     let folder = folder();
     let dir = folder.path();
     with_box(dir, "x", "[-0.1, 0, 0.05]", "");

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn every_shipped_scenario_is_listed_and_printed_as_it_is() {
+fn lists_and_prints_every_shipped_scenario() {
     let folder = folder();
     let dir = folder.path();
     let listed = platewash(dir, &["scenario"]).done().stdout;

@@ -16,7 +16,7 @@ fn edited(dir: &Path, from: &str, to: &str) {
 }
 
 #[test]
-fn a_proved_plan_gets_one_beside_it() {
+fn writes_a_dry_run_beside_a_proved_plan() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
@@ -85,7 +85,7 @@ fn a_proved_plan_gets_one_beside_it() {
 }
 
 #[test]
-fn it_is_compared_with_the_plan_that_it_is_one_of() {
+fn verify_compares_a_dry_run_with_its_parent() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
@@ -166,7 +166,7 @@ fn numbers_that_cannot_be_meant_are_refused_before_any_file() {
 }
 
 #[test]
-fn only_a_proved_washing_has_one() {
+fn refuses_a_dry_run_of_an_unproved_plan() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
@@ -199,7 +199,7 @@ fn only_a_proved_washing_has_one() {
 }
 
 #[test]
-fn a_height_that_does_not_work_is_told_with_one_that_does() {
+fn an_impossible_height_is_refused_with_one_that_works() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
@@ -230,7 +230,7 @@ fn a_height_that_does_not_work_is_told_with_one_that_does() {
 }
 
 #[test]
-fn another_arm_is_asked_for() {
+fn asks_for_the_arm_of_the_plan() {
     let folder = folder();
     let dir = folder.path();
     let urdf = platewash::kinematics::irb120::IRB120_URDF.replacen("<robot name=\"", "<robot name=\"my_", 1);
@@ -251,7 +251,7 @@ fn another_arm_is_asked_for() {
 }
 
 #[test]
-fn its_program_says_so_first_and_has_a_name_of_its_own() {
+fn the_program_of_a_dry_run_says_so_first_and_has_its_own_name() {
     let folder = folder();
     let dir = folder.path();
     let named = |name: &str| kitchen(dir, &[("name = \"kitchen\"", &format!("name = \"{name}\""))]);

@@ -8,7 +8,7 @@ use std::net::TcpListener;
 use std::{fs::Permissions, os::unix::fs::PermissionsExt};
 
 #[test]
-fn what_cannot_be_edited_or_saved_is_refused_before_any_work() {
+fn edit_refuses_unusable_files_before_any_work() {
     let folder = folder();
     let dir = folder.path();
     let refused = |arguments: &[&str], fragments: &[&str]| {

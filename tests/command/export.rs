@@ -31,10 +31,14 @@ fn module(dir: &Path) -> PathBuf {
         .unwrap()
 }
 
-fn refused(ran: &CommandOutput, code: &str, exit: i32) -> Value {
-    assert_eq!(ran.code, exit, "{} {}", ran.stdout, ran.stderr);
-    assert!(ran.stderr.contains(&format!("refused ({code}): ")), "{}", ran.stderr);
-    let answer = ran.json();
+fn refused(output: &CommandOutput, code: &str, exit: i32) -> Value {
+    assert_eq!(output.code, exit, "{} {}", output.stdout, output.stderr);
+    assert!(
+        output.stderr.contains(&format!("refused ({code}): ")),
+        "{}",
+        output.stderr
+    );
+    let answer = output.json();
     assert_eq!(answer["refused"], code);
     answer
 }
@@ -107,7 +111,7 @@ fn a_program_is_written_and_found_unchanged_and_an_edited_line_is_named() {
 
 /// `play.py` sends the JSON, whichever file was verified.
 #[test]
-fn a_file_beside_it_that_can_be_sent_is_read_too() {
+fn verify_also_reads_a_file_beside_the_program() {
     let folder = planned();
     let dir = folder.path();
     platewash(
@@ -247,7 +251,7 @@ fn the_papers_program_is_not_handed_over() {
 }
 
 #[test]
-fn what_the_job_waives_is_accepted_by_name_and_not_otherwise() {
+fn accepts_waived_requirements_by_name_only() {
     let folder = folder();
     let dir = folder.path();
     fs::write(dir.join("case.toml"), OVERLAPPING).unwrap();
@@ -336,7 +340,7 @@ fn programs_of_two_plans_do_not_stand_side_by_side() {
 }
 
 #[test]
-fn bad_usage_says_what_was_expected() {
+fn bad_usage_states_the_expected_values() {
     let folder = planned();
     let dir = folder.path();
     let ran = platewash(dir, &["export", "out/plan.json", "--to", "karel"]);

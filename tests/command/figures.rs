@@ -53,7 +53,7 @@ fn the_figures_do_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_and_nothing_is_written() {
+fn refuses_impossible_figures_and_writes_nothing() {
     let folder = planned();
     let refused = |arguments: &[&str], fragments: &[&str]| {
         let line = [&["figures", "plan.json"], arguments].concat();

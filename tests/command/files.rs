@@ -167,7 +167,7 @@ fn the_csv_has_its_columns_and_its_time_step() {
 }
 
 #[test]
-fn places_that_cannot_be_written_leave_nothing_behind() {
+fn unwritable_outputs_leave_nothing_behind() {
     let folder = folder();
     let dir = folder.path();
     std::fs::write(dir.join("taken"), "a file").unwrap();
@@ -205,7 +205,7 @@ fn no_output_takes_the_place_of_another() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn standard_output_that_is_full_is_a_place_that_cannot_be_written() {
+fn reports_a_full_standard_output() {
     let full = || std::fs::File::create("/dev/full").unwrap();
     for arguments in [&["robot"][..], &["--help"]] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
@@ -217,7 +217,7 @@ fn standard_output_that_is_full_is_a_place_that_cannot_be_written() {
 
 #[cfg(unix)]
 #[test]
-fn files_are_for_whom_the_mask_allows() {
+fn files_respect_the_umask() {
     use std::os::unix::fs::PermissionsExt;
     let folder = folder();
     for (mask, mode) in [("077", 0o600), ("022", 0o644), ("002", 0o664)] {

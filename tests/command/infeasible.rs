@@ -101,7 +101,7 @@ fn a_suggested_place_holds_when_typed_in() {
 }
 
 #[test]
-fn that_no_place_was_found_is_said_plainly() {
+fn says_plainly_that_no_position_was_found() {
     let folder = folder();
     let dir = folder.path();
     let large = [
@@ -137,7 +137,7 @@ fn that_no_place_was_found_is_said_plainly() {
 
 /// Keys that are told are typed in.
 #[test]
-fn a_key_that_would_mend_it_is_told_and_holds_when_typed_in() {
+fn suggested_keys_give_a_plan_when_typed_in() {
     let folder = folder();
     let dir = folder.path();
     // The handle ends 9 mm over a small plate: 1.5 mm and the tool's tilt too near.
@@ -172,7 +172,7 @@ fn a_key_that_would_mend_it_is_told_and_holds_when_typed_in() {
 }
 
 #[test]
-fn all_plates_that_cannot_be_washed_are_told_in_one_run() {
+fn reports_all_unwashable_plates_in_one_run() {
     let folder = folder();
     let dir = folder.path();
     let at = |places: &str| format!("positions_m = [{places}]");
@@ -200,7 +200,7 @@ fn all_plates_that_cannot_be_washed_are_told_in_one_run() {
 }
 
 #[test]
-fn nothing_of_an_earlier_call_stays_beside_a_new_result() {
+fn removes_files_of_an_earlier_call() {
     let folder = folder();
     let dir = folder.path();
     let out = dir.join("out");
@@ -230,7 +230,7 @@ fn nothing_of_an_earlier_call_stays_beside_a_new_result() {
 }
 
 #[test]
-fn what_is_too_near_at_home_and_over_a_plate_is_named() {
+fn names_bodies_that_are_too_near_at_home_and_over_a_plate() {
     let folder = folder();
     let dir = folder.path();
     let start = "start_deg = [0, 0, 0, 0, 90, 0]";
@@ -264,7 +264,7 @@ fn what_is_too_near_at_home_and_over_a_plate_is_named() {
 }
 
 #[test]
-fn validate_finds_what_run_refuses_before_planning() {
+fn validate_reports_the_errors_of_run() {
     let folder = folder();
     let dir = folder.path();
     let start = "start_deg = [0, 0, 0, 0, 90, 0]";

@@ -28,7 +28,7 @@ fn end(mut child: Child) -> (Option<i32>, String) {
 
 /// A hundred thousand layouts take hours on one thread; the header tells that the work has begun.
 #[test]
-fn a_sweep_that_is_interrupted_gives_up_and_writes_nothing() {
+fn an_interrupted_sweep_writes_nothing() {
     let folder = folder();
     let line = ["sweep", "--seeds", "1..100000", "--threads", "1", "--out", "s"];
     let mut child = spawn(&mut command(folder.path(), &line));
@@ -43,7 +43,7 @@ fn a_sweep_that_is_interrupted_gives_up_and_writes_nothing() {
 }
 
 #[test]
-fn a_measurement_that_is_interrupted_leaves_nothing() {
+fn an_interrupted_measurement_writes_nothing() {
     let folder = folder();
     for draws in ["1000000", "500"] {
         let line = [
@@ -66,7 +66,7 @@ fn a_measurement_that_is_interrupted_leaves_nothing() {
 
 /// A run of the paper's program with as many waypoints as are taken on.
 #[test]
-fn a_run_that_is_interrupted_leaves_what_was_there() {
+fn an_interrupted_run_keeps_earlier_files() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["run", "--scenario", "paper-appendix", "--quiet"]).done();

@@ -12,7 +12,7 @@ fn soon(ran: impl FnOnce() -> CommandOutput) -> CommandOutput {
 }
 
 #[test]
-fn work_without_end_is_refused() {
+fn refuses_endless_work() {
     let folder = folder();
     let dir = folder.path();
     let ik = ["ik", "--position", "0.3", "0", "0.3", "--rpy-deg", "0", "0", "0"];
@@ -70,7 +70,7 @@ fn more_configurations_than_a_hundred_thousand_are_refused() {
 /// `/dev/zero` never ends, and opening a pipe waits for its writer.
 #[cfg(target_os = "linux")]
 #[test]
-fn devices_and_pipes_are_no_input() {
+fn rejects_devices_and_pipes_as_input() {
     let folder = folder();
     let dir = folder.path();
     assert!(Command::new("mkfifo").arg(dir.join("pipe")).status().unwrap().success());

@@ -119,7 +119,7 @@ const IN_SCENARIOS: [(&str, &str, &[&str]); 24] = [
 ];
 
 #[test]
-fn what_is_wrong_in_a_scenario_is_told_with_its_line_and_what_to_do() {
+fn errors_of_a_scenario_name_line_and_remedy() {
     let folder = folder();
     let dir = folder.path();
     let kitchen = platewash(dir, &["scenario", "kitchen"]).done().stdout;
@@ -133,7 +133,7 @@ fn what_is_wrong_in_a_scenario_is_told_with_its_line_and_what_to_do() {
 }
 
 #[test]
-fn a_scenario_that_is_not_there_or_none_is_told_what_it_may_be() {
+fn a_missing_or_invalid_scenario_gets_suggestions() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
@@ -151,7 +151,7 @@ fn a_scenario_that_is_not_there_or_none_is_told_what_it_may_be() {
 }
 
 #[test]
-fn arguments_that_are_none_get_a_tip_that_helps() {
+fn invalid_arguments_get_a_helpful_tip() {
     let folder = folder();
     let dir = folder.path();
     for (arguments, tip) in [

@@ -68,7 +68,7 @@ fn leftovers(out: &Path) -> usize {
 }
 
 #[test]
-fn a_run_that_is_killed_leaves_the_results_of_one_run() {
+fn a_killed_run_leaves_the_results_of_one_run() {
     let folder = folder();
     let dir = folder.path();
     let (scenario, out) = (scenario(dir), dir.join("out"));

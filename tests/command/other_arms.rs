@@ -67,7 +67,7 @@ fn the_largest_tilt_is_kept_by_an_arm_that_needs_all_of_it() {
 
 /// The same place, seen from axis 1: it was washed at −150° and denied at 180°.
 #[test]
-fn a_place_is_not_denied_because_it_lies_behind_the_start() {
+fn plates_behind_the_start_are_not_refused() {
     let folder = folder();
     let dir = folder.path();
     for positions in ["[[-0.4408, -0.2545]]", "[[-0.509, 0.0]]"] {
@@ -78,7 +78,7 @@ fn a_place_is_not_denied_because_it_lies_behind_the_start() {
 }
 
 #[test]
-fn what_was_only_not_found_is_not_said_to_be_impossible() {
+fn searches_without_result_are_not_called_impossible() {
     let folder = folder();
     let dir = folder.path();
     let file = cell_of(dir, UR5_START, "[[0.95, 0.0]]", 0.1, 0.06);

@@ -34,7 +34,7 @@ fn a_run_leaves_a_page_or_says_why_not() {
 
 /// A page of an earlier call does not stay beside another plan.
 #[test]
-fn a_page_is_the_commands_own() {
+fn the_command_contains_its_page() {
     let folder = folder();
     let out = folder.path().join("out");
     std::fs::create_dir(&out).unwrap();

@@ -112,7 +112,7 @@ fn verbs_that_write_files_finish_them_and_end_with_their_verdict() {
 }
 
 #[test]
-fn poses_are_told_one_by_one_until_nobody_reads_them() {
+fn fk_prints_poses_until_the_reader_leaves() {
     let folder = folder();
     std::fs::write(folder.path().join("many.txt"), "0 0 0 0 0 0\n".repeat(100_000)).unwrap();
     let mut child = start(folder.path(), &["fk", "--deg", "--file", "many.txt"]);

@@ -29,7 +29,7 @@ fn a_suggested_time_step_suits_the_motion_planned() {
 
 /// Each of these is refused for another reason too, later.
 #[test]
-fn a_place_that_cannot_be_written_is_noticed_before_any_work() {
+fn unwritable_outputs_are_refused_before_any_work() {
     let folder = folder();
     let dir = folder.path();
     std::fs::write(dir.join("taken"), "a file").unwrap();
@@ -85,7 +85,7 @@ fn a_plan_for_another_arm_asks_for_the_option_that_gives_it() {
 }
 
 #[test]
-fn a_joint_and_its_limit_read_differently() {
+fn a_joint_and_its_limit_are_printed_differently() {
     let folder = folder();
     let dir = folder.path();
     let start = "start_deg = [0, 0, 0, 0, 90, 0]";
@@ -106,7 +106,7 @@ fn a_joint_and_its_limit_read_differently() {
 }
 
 #[test]
-fn the_first_line_says_what_was_not_simulated_or_fails_there() {
+fn the_first_line_states_failed_or_missing_simulation() {
     let folder = folder();
     let dir = folder.path();
     for (law, says) in [
@@ -140,7 +140,7 @@ fn longest_number(text: &str) -> (usize, String) {
 }
 
 #[test]
-fn no_sentence_holds_a_raw_float() {
+fn messages_contain_no_raw_float() {
     assert_eq!(
         longest_number("42.67915879140517 s at 0.001 Hz, 9f0.8, 10000000000000").0,
         16
@@ -255,7 +255,7 @@ fn a_key_that_is_named_as_a_remedy_gives_a_proof() {
 
 /// Without time to search, the keys that were not tried are named, and no more is said of them.
 #[test]
-fn keys_that_there_is_no_time_to_try_are_named() {
+fn names_keys_that_there_was_no_time_to_try() {
     let folder = folder();
     let dir = folder.path();
     let deep = platewash(dir, &["scenario", "deep"]).done().stdout;

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn a_job_that_does_not_wash_fails_when_asked_to() {
+fn a_job_that_does_not_wash_fails_where_washing_is_required() {
     let folder = folder();
     let file = scenario(folder.path(), "on_failure = \"report\"", "on_failure = \"fail\"");
     let ran = platewash(folder.path(), &["run", "--scenario", file.to_str().unwrap()]);
@@ -148,7 +148,7 @@ fn bad_scenarios_are_refused_with_line_key_expected_and_found() {
 }
 
 #[test]
-fn layouts_that_cannot_be_end_soon_with_a_bound() {
+fn impossible_layouts_end_soon_with_a_bound() {
     let folder = folder();
     let dir = folder.path();
     let case = |from: &str, to: &str, verdict: &str, fragments: &[&str]| {

@@ -80,7 +80,7 @@ fn the_executed_motion_has_the_plans_columns_and_torques() {
 }
 
 #[test]
-fn run_simulates_what_it_proves() {
+fn run_simulates_the_proved_plan() {
     let folder = folder();
     let dir = folder.path();
     let report = platewash(dir, &["run", "--json", "--quiet"]).done().json();
@@ -116,7 +116,7 @@ fn a_plan_of_the_papers_program_is_simulated_under_its_law() {
 }
 
 #[test]
-fn what_cannot_be_simulated_is_refused() {
+fn refuses_plans_that_cannot_be_simulated() {
     let folder = folder();
     let dir = folder.path();
     planned(dir);
@@ -140,7 +140,7 @@ fn what_cannot_be_simulated_is_refused() {
 }
 
 #[test]
-fn tune_shows_what_frequency_and_damping_buy() {
+fn tune_shows_the_effect_of_frequency_and_damping() {
     let folder = folder();
     let dir = folder.path();
     planned(dir);

@@ -19,7 +19,7 @@ fn rows(text: &str) -> Vec<Value> {
 
 /// A journal cut short goes on to the same rows, and what is finished stays as it is.
 #[test]
-fn a_study_goes_on_where_it_ended() {
+fn a_study_resumes_where_it_ended() {
     let folder = folder();
     let dir = folder.path();
     std::fs::write(dir.join("study.toml"), STUDY).unwrap();
@@ -88,7 +88,7 @@ fn a_study_goes_on_where_it_ended() {
 }
 
 #[test]
-fn what_a_study_states_is_refused_by_file_line_and_key() {
+fn errors_of_a_study_name_file_line_and_key() {
     let folder = folder();
     let dir = folder.path();
     let refused = |change: (&str, &str), words: &[&str]| {
@@ -144,7 +144,7 @@ fn what_a_study_states_is_refused_by_file_line_and_key() {
 
 /// What an export may not take the place of, and what it is not made of.
 #[test]
-fn an_export_takes_no_place_that_is_not_its_own() {
+fn an_export_never_overwrites_foreign_files() {
     let folder = folder();
     let dir = folder.path();
     let one = STUDY

@@ -4,7 +4,7 @@ use super::*;
 use serde_json::Value;
 
 #[test]
-fn what_is_suggested_makes_a_cell_that_is_proved() {
+fn suggested_cells_are_proved() {
     let folder = folder();
     let dir = folder.path();
     let ran = platewash(dir, &["robot", "--suggest", "--json", "--out", "found"]);

@@ -6,19 +6,19 @@ const START: &str = "start_deg = [0, 0, 0, 0, 90, 0]";
 const RADIANS: &str = "start_deg = [0, 0, 0, 0, 1.5708, 0]";
 
 #[test]
-fn a_home_in_radians_is_warned_of_wherever_it_counts() {
+fn warns_of_a_home_in_radians() {
     let folder = folder();
     let dir = folder.path();
     let file = kitchen(dir, &[(START, RADIANS)]);
     let file = file.to_str().unwrap();
-    let warned = |ran: &CommandOutput| {
-        assert_eq!(ran.stderr.matches("warning: ").count(), 1, "{}", ran.stderr);
+    let warned = |output: &CommandOutput| {
+        assert_eq!(output.stderr.matches("warning: ").count(), 1, "{}", output.stderr);
         for part in [
             "robot.start_deg",
             "radians were probably meant",
             "[0.0, 0.0, 0.0, 0.0, 90.0, 0.0]",
         ] {
-            assert!(ran.stderr.contains(part), "no {part} in {}", ran.stderr);
+            assert!(output.stderr.contains(part), "no {part} in {}", output.stderr);
         }
     };
     let cases: [&[&str]; 4] = [

@@ -38,7 +38,7 @@ fn fk_prints_both_units_and_the_published_pose() {
 }
 
 #[test]
-fn ik_inverts_fk_and_says_why_when_it_cannot() {
+fn ik_inverts_fk_and_states_the_cause_of_failure() {
     let folder = folder();
     let pose = [
         "ik",

@@ -40,7 +40,7 @@ clearance_m = 0.01
 ";
 
 #[test]
-fn what_is_waived_is_in_the_first_line_and_in_the_data_and_is_no_failure() {
+fn waived_requirements_are_in_the_first_line_and_data_without_failing() {
     let folder = folder();
     let dir = folder.path();
     std::fs::write(dir.join("case.toml"), OVERLAPPING).unwrap();
@@ -68,7 +68,7 @@ fn what_is_waived_is_in_the_first_line_and_in_the_data_and_is_no_failure() {
 
 /// What is added to a plan or left out of it is refused, not passed over.
 #[test]
-fn a_plan_with_other_contents_is_no_plan() {
+fn rejects_a_plan_with_unknown_or_missing_keys() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();
@@ -86,7 +86,7 @@ fn a_plan_with_other_contents_is_no_plan() {
 }
 
 #[test]
-fn what_is_no_plan_is_refused() {
+fn rejects_files_that_are_no_plan() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["verify", "missing.json"]).refused(2, &["missing.json", "cannot be read"]);

@@ -44,7 +44,7 @@ fn is_there_a_page(dir: &Path) -> bool {
 }
 
 #[test]
-fn places_where_nothing_can_be_served_are_refused_before_any_work() {
+fn rejects_unusable_addresses_before_any_work() {
     let folder = folder();
     let dir = folder.path();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
@@ -68,7 +68,7 @@ fn places_where_nothing_can_be_served_are_refused_before_any_work() {
 }
 
 #[test]
-fn options_for_what_is_not_asked_are_refused() {
+fn rejects_options_that_have_no_effect() {
     let folder = folder();
     let dir = folder.path();
     for given in [&["--port", "0"][..], &["--bind", "127.0.0.1"], &["--no-open"]] {
@@ -191,7 +191,7 @@ fn a_recorded_motion_takes_the_place_of_the_simulation() {
 
 /// A page loses its connection half-way, comes again, and has every sample once; the files are those of a run that nobody watches.
 #[test]
-fn a_live_run_is_shown_as_it_goes_and_writes_what_it_always_writes() {
+fn a_live_run_is_streamed_and_writes_the_usual_files() {
     let folder = folder();
     let dir = folder.path();
     plan(dir);

@@ -61,7 +61,7 @@ fn edited_plans_are_refused_by_the_requirement_that_is_broken() {
 
 /// A certificate that sees nothing of an edit is found out wherever there is something to see.
 #[test]
-fn a_blind_certificate_is_found_out() {
+fn the_sampler_finds_errors_of_a_blind_certificate() {
     let blind = good().each_ref().map(|good| prove(&good.plan, good.robot).unwrap());
     let edits = edits::all();
     let mut found_out = 0;

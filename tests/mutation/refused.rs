@@ -19,7 +19,7 @@ fn refused(word: &str, edit: fn(&mut Plan)) {
 }
 
 #[test]
-fn what_is_no_plan_is_refused_with_its_place() {
+fn rejects_files_that_are_no_plan_with_their_place() {
     refused("knot 0: time 0.001", |p| {
         p.knots.t_s.iter_mut().for_each(|t| *t += 1e-3)
     });
@@ -39,7 +39,7 @@ fn what_is_no_plan_is_refused_with_its_place() {
 }
 
 #[test]
-fn a_job_that_is_none_is_refused_with_its_place() {
+fn rejects_an_invalid_job_with_its_place() {
     refused("plate 2", |p| {
         p.job.plates[2] = platewash::Plate::level_disc([0.3, 0.0, 0.03], 0.0, 0.02)
     });
@@ -71,7 +71,7 @@ fn a_job_that_is_none_is_refused_with_its_place() {
 }
 
 #[test]
-fn what_is_no_number_is_refused() {
+fn rejects_values_that_are_no_number() {
     for value in [f64::NAN, f64::INFINITY] {
         let mut plan = good()[1].plan.clone();
         plan.knots.q_rad[100][1] = value;

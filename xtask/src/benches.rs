@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_benchmarks_that_end_well_count() {
+    fn counts_only_successful_benchmarks() {
         let output = "Testing ik/a b\nSuccess\n\nTesting job/c\nTesting job/d\nSuccess\nrunning 0 tests\n";
         assert_eq!(ran(output), ["ik/a b", "job/d"]);
         assert!(ran("running 38 tests\n\ntest result: ok. 0 passed; 0 failed; 38 ignored; 0 measured").is_empty());

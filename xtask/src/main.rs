@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn every_chore_is_understood() {
+    fn parses_every_chore() {
         assert_eq!(parsed("test"), Some(Chore::Test(None, BrowserTests::Run)));
         assert_eq!(
             parsed("test --only python"),
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_refused() {
+    fn rejects_nonsense() {
         for line in [
             "tset",
             "test --only",

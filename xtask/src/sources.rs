@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_account_names_files_of_the_checkout() {
+    fn dependency_files_name_sources_of_the_checkout() {
         let account =
             "/here/a\\ b/target/lib_core.so: /here/a\\ b/src/lib.rs /elsewhere/x.rs /here/a\\ b/urdf/arm.urdf\n";
         let files = compiled_from(account, Path::new("/here/a b")).unwrap();
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_stands_for_all_in_it() {
+    fn a_folder_stands_for_all_its_files() {
         let root = tempfile::tempdir().unwrap();
         for name in ["a/b/c.ts", "a/d.ts", "e.rs"] {
             let place = root.path().join(name);
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn an_account_of_nothing_is_an_error() {
+    fn an_empty_dependency_file_is_an_error() {
         for account in ["", "lib_core.so:", "lib_core.so: /elsewhere/x.rs"] {
             assert!(compiled_from(account, Path::new("/here")).is_err(), "{account}");
         }

@@ -184,7 +184,7 @@ mod tests {
 
     /// Cargo runs no test of a file that its program does not name.
     #[test]
-    fn every_file_of_tests_belongs_to_a_program() {
+    fn every_test_file_belongs_to_a_test_program() {
         let crates = std::fs::read_dir(root().join("crates")).unwrap();
         let folders = crates.map(|entry| entry.unwrap().path().join("tests"));
         let folders: Vec<_> = folders

@@ -67,7 +67,7 @@ mod tests {
     use rand_pcg::Pcg64;
 
     #[test]
-    fn it_is_the_arm_of_the_model() {
+    fn benches_use_the_arm_of_the_model() {
         let robot = RobotModel::irb120().unwrap();
         let tool0 = robot.tool_frame(ToolFrame::Tool0).unwrap();
         let plain = PlainArm::default();

@@ -74,17 +74,17 @@ impl Score {
     }
 }
 
-fn reached(target: &Pose, found: &RigidTransform, tolerance: Tolerance) -> bool {
-    let [position_m, angle_rad] = errors(&RigidTransform::from(target), found);
+fn reached(target: &Pose, pose: &RigidTransform, tolerance: Tolerance) -> bool {
+    let [position_m, angle_rad] = errors(&RigidTransform::from(target), pose);
     position_m <= tolerance.position_m * ROUNDING && angle_rad <= tolerance.orientation_rad * ROUNDING
 }
 
 /// Distance \[m\] and angle \[rad\] between two poses.
 #[must_use]
-pub fn errors(target: &RigidTransform, found: &RigidTransform) -> [f64; 2] {
-    let turn = target.rotation * found.rotation.transpose();
+pub fn errors(target: &RigidTransform, pose: &RigidTransform) -> [f64; 2] {
+    let turn = target.rotation * pose.rotation.transpose();
     [
-        (target.translation - found.translation).norm(),
+        (target.translation - pose.translation).norm(),
         rotation_vector(&turn).norm(),
     ]
 }

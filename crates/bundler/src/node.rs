@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_without_node_is_unfit() {
+    fn rejects_a_place_without_node() {
         let nowhere = Node {
             node: "/nowhere/node".into(),
             npm: ("/nowhere/npm".into(), None),

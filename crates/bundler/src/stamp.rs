@@ -95,7 +95,7 @@ mod tests {
     const PAGE: [(&str, &str); 2] = [("package-lock.json", "{}\n"), ("src/a/main.ts", "let a = 1;\nlet b;\n")];
 
     #[test]
-    fn names_and_contents_count() {
+    fn stamp_depends_on_file_names_and_contents() {
         let stamp = stamp_of(&PAGE);
         assert_eq!(stamp, stamp_of(&[PAGE[1], PAGE[0]]), "not their order");
         for other in [
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn line_ends_hidden_files_packages_and_tests_do_not_count() {
+    fn stamp_ignores_line_ends_hidden_files_packages_and_tests() {
         let more = [
             ("package-lock.json", "{}\r\n"),
             ("src/a/main.ts", "let a = 1;\r\nlet b;\n"),

@@ -27,42 +27,42 @@ const MEANING: &str = "Where a plate of this size could lie, the others as they 
                        configurations were found for all of its wash path. Not planned, not proved.";
 
 /// Answers a question for a cell.
-pub fn answer(subject: &Subject, question: &CellQuestion, told: &mut AnswerWriter<'_>, deadline: &Deadline) {
-    if let Err(end) = told_cell(subject, question, told) {
+pub fn answer(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>, deadline: &Deadline) {
+    if let Err(end) = told_cell(subject, question, answer) {
         let too_long = "this cell takes longer than a minute to plan and prove; `platewash run` takes its time";
-        told.end(&end, deadline, too_long);
+        answer.end(&end, deadline, too_long);
     }
 }
 
-fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut AnswerWriter<'_>) -> Result<(), End> {
-    let changed = changed(subject, &question.text, &question.edits, &told.gone)?;
-    told.step("read");
-    told.line(&CellLine::Scenario {
+fn told_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+    let changed = changed(subject, &question.text, &question.edits, &answer.gone)?;
+    answer.step("read");
+    answer.line(&CellLine::Scenario {
         text: &changed.text,
         stated: &changed.stated,
         values: &changed.values,
-        ms: told.ms(),
+        ms: answer.ms(),
     });
-    let placed = placed(subject, changed.scenario?, &told.gone)?;
-    told.step("place");
-    tell_parts(&placed, question.arm.as_deref(), told);
+    let placed = placed(subject, changed.scenario?, &answer.gone)?;
+    answer.step("place");
+    tell_parts(&placed, question.arm.as_deref(), answer);
     if question.want == LastStage::Preview {
-        return match tell_preview(&placed, told) {
+        return match tell_preview(&placed, answer) {
             // Where no guess can be made, as where the arm is not clear at home, why.
-            Some(error) => tell_unplanned(&placed, error, false, told).map(drop),
+            Some(error) => tell_unplanned(&placed, error, false, answer).map(drop),
             None => Ok(()),
         };
     }
     // The guess while it is planned; where none can be made, planning says why.
-    let (mut planned, gone) = (None, told.gone.clone());
+    let (mut planned, gone) = (None, answer.gone.clone());
     rayon::in_place_scope(|scope| {
         scope.spawn(|_| planned = Some(plan_here(&placed.job, &Watch::silent(&gone))));
-        tell_preview(&placed, told);
+        tell_preview(&placed, answer);
     });
-    told.step("plan");
+    answer.step("plan");
     let (plan, certificate, headline) = match planned {
-        Some(Ok(planned)) => tell_plan(&placed, planned, told)?,
-        Some(Err(error)) => (None, None, tell_unplanned(&placed, error, true, told)?),
+        Some(Ok(planned)) => tell_plan(&placed, planned, answer)?,
+        Some(Err(error)) => (None, None, tell_unplanned(&placed, error, true, answer)?),
         None => return Err(End::Failed("planning did not begin".to_owned())),
     };
     subject.remember(|| LastResult {
@@ -76,7 +76,7 @@ fn told_cell(subject: &Subject, question: &CellQuestion, told: &mut AnswerWriter
 }
 
 /// Sends the parts of the cell; `arm` is the id of the arm that the page has.
-fn tell_parts(placed: &PlacedJob, arm: Option<&str>, told: &mut AnswerWriter<'_>) {
+fn tell_parts(placed: &PlacedJob, arm: Option<&str>, answer: &mut AnswerWriter<'_>) {
     let PlacedJob {
         scenario,
         loaded,
@@ -86,8 +86,8 @@ fn tell_parts(placed: &PlacedJob, arm: Option<&str>, told: &mut AnswerWriter<'_>
     let view = View::of_job(job, &scenario.task_region());
     let id = loaded.id.as_str();
     let plates = &layout.plates;
-    told.step("show cell");
-    told.line(&CellLine::Cell(Box::new(CellParts {
+    answer.step("show cell");
+    answer.line(&CellLine::Cell(Box::new(CellParts {
         heading: &view.heading,
         arm: (arm != Some(id)).then_some(ArmLine { id, arm: &view.arm }),
         arm_id: id,
@@ -100,19 +100,22 @@ fn tell_parts(placed: &PlacedJob, arm: Option<&str>, told: &mut AnswerWriter<'_>
         moves: moves(scenario),
         pose_rad: view.pose_rad,
         findings: layout.findings.iter().map(FindingLine::from).collect(),
-        ms: told.ms(),
+        ms: answer.ms(),
     })));
 }
 
 /// Tells a guess; why none can be made, where that is so.
-fn tell_preview(placed: &PlacedJob, told: &mut AnswerWriter<'_>) -> Option<PlanError> {
-    let found = outlook(&placed.job, &Watch::silent(&told.gone));
-    told.step("preview");
+fn tell_preview(placed: &PlacedJob, answer: &mut AnswerWriter<'_>) -> Option<PlanError> {
+    let found = outlook(&placed.job, &Watch::silent(&answer.gone));
+    answer.step("preview");
     let plates = match found {
         Ok(found) => found.iter().map(PlateChance::from).collect(),
         Err(error) => return Some(error),
     };
-    told.line(&CellLine::Preview { plates, ms: told.ms() });
+    answer.line(&CellLine::Preview {
+        plates,
+        ms: answer.ms(),
+    });
     None
 }
 
@@ -120,13 +123,13 @@ fn tell_preview(placed: &PlacedJob, told: &mut AnswerWriter<'_>) -> Option<PlanE
 type PlanAndProof = (Option<Arc<Plan>>, Option<Arc<Certificate>>, String);
 
 /// Tells a plan, then its proof.
-fn tell_plan(placed: &PlacedJob, planned: PlannedJob, told: &mut AnswerWriter<'_>) -> Result<PlanAndProof, End> {
+fn tell_plan(placed: &PlacedJob, planned: PlannedJob, answer: &mut AnswerWriter<'_>) -> Result<PlanAndProof, End> {
     let arm = &placed.loaded.arm;
     let plan = planned.plan;
     let view = View::of_plan(&plan, arm, &ViewExtras::default()).map_err(|error| End::Failed(error.to_string()))?;
-    told.gone.check()?;
-    told.step("show plan");
-    told.line(&CellLine::Plan(Box::new(PlanParts {
+    answer.gone.check()?;
+    answer.step("show plan");
+    answer.line(&CellLine::Plan(Box::new(PlanParts {
         heading: &view.heading,
         headline: format!("planned, not proved yet: {:.2} s", plan.duration_s()),
         paths: &view.paths,
@@ -134,22 +137,22 @@ fn tell_plan(placed: &PlacedJob, planned: PlannedJob, told: &mut AnswerWriter<'_
         motion: &view.motion,
         clearance: &view.clearance,
         coverage: &view.coverage,
-        ms: told.ms(),
+        ms: answer.ms(),
     })));
-    told.step("tell plan");
-    let certificate = prove_with(&plan, arm, &told.gone).map_err(Failure::from)?;
-    told.step("prove");
+    answer.step("tell plan");
+    let certificate = prove_with(&plan, arm, &answer.gone).map_err(Failure::from)?;
+    answer.step("prove");
     let shown = view::Certificate::new(&certificate);
     let proved = view.coverage.iter().filter_map(|coverage| {
         let at_least = coverage.proved_by(&certificate)?;
         let plate = coverage.plate;
         Some(PlateProof { plate, at_least })
     });
-    told.line(&CellLine::Proof {
+    answer.line(&CellLine::Proof {
         certificate: &shown,
         headline: &shown.headline,
         proved: proved.collect(),
-        ms: told.ms(),
+        ms: answer.ms(),
     });
     let headline = certificate.headline.clone();
     Ok((Some(plan.into()), Some(certificate.into()), headline))
@@ -160,14 +163,14 @@ fn tell_unplanned(
     placed: &PlacedJob,
     error: PlanError,
     is_wanted: bool,
-    told: &mut AnswerWriter<'_>,
+    answer: &mut AnswerWriter<'_>,
 ) -> Result<String, End> {
     let scenario = &placed.scenario;
     let Some(report) = InfeasibleReport::new(&scenario.name, scenario.seed, &error) else {
         return Err(error.into());
     };
     let report = report.explained(reason(error));
-    let gone = told.gone.clone();
+    let gone = answer.gone.clone();
     let planning = Watch::silent(&gone);
     let plates = match is_wanted {
         true => unwashable_plates(&placed.job, &planning),
@@ -178,7 +181,7 @@ fn tell_unplanned(
         Err(PlanError::Cancelled(_)) => return Err(End::GivenUp),
         other => other.unwrap_or_default(),
     };
-    told.step("explain");
+    answer.step("explain");
     let mut shown: Vec<_> = plates.iter().map(UnwashableReport::from).collect();
     for of_report in &report.plates {
         if shown.iter().all(|plate| plate.plate != of_report.plate) {
@@ -186,44 +189,44 @@ fn tell_unplanned(
         }
     }
     shown.sort_by_key(|plate| plate.plate);
-    told.line(&CellLine::Unplanned {
+    answer.line(&CellLine::Unplanned {
         headline: &report.headline,
         reason: &report.reason,
         proved: report.verdict == Verdict::Infeasible,
         plates: &shown,
-        ms: told.ms(),
+        ms: answer.ms(),
     });
     for plate in plates.iter().map(|plate| plate.plate) {
         let nearest_m = nearest_place(&placed.job, plate, &planning)?;
-        told.step("place elsewhere");
-        told.line(&CellLine::Place {
+        answer.step("place elsewhere");
+        answer.line(&CellLine::Place {
             plate,
             nearest_m,
             searched_m: SEARCHED_M,
-            ms: told.ms(),
+            ms: answer.ms(),
         });
     }
     Ok(report.headline)
 }
 
 /// Answers a question for a map: places at which a plate could be washed, sent as they are found.
-pub fn map(subject: &Subject, question: &MapQuestion, told: &mut AnswerWriter<'_>, deadline: &Deadline) {
-    let answered = told_map(subject, question, told);
-    told.step("map");
+pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>, deadline: &Deadline) {
+    let answered = told_map(subject, question, answer);
+    answer.step("map");
     match answered {
-        Ok(()) => told.line(&MapLine::MapDone {
+        Ok(()) => answer.line(&MapLine::MapDone {
             words: MEANING,
-            ms: told.ms(),
+            ms: answer.ms(),
         }),
         Err(end) => {
             let too_long = "the map was not finished within two minutes: what is drawn is what was looked at";
-            told.end(&end, deadline, too_long);
+            answer.end(&end, deadline, too_long);
         }
     }
 }
 
-fn told_map(subject: &Subject, question: &MapQuestion, told: &mut AnswerWriter<'_>) -> Result<(), End> {
-    let gone = told.gone.clone();
+fn told_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+    let gone = answer.gone.clone();
     let scenario = changed(subject, &question.text, &[], &gone)?.scenario?;
     let placed = placed(subject, scenario, &gone)?;
     let (plate, count) = (question.plate, placed.layout.plates.len());
@@ -234,7 +237,7 @@ fn told_map(subject: &Subject, question: &MapQuestion, told: &mut AnswerWriter<'
         .into());
     }
     let mut tell = |patch: MapPatch| {
-        told.line(&MapLine::Map {
+        answer.line(&MapLine::Map {
             step_m: patch.step_m,
             washable_m: &patch.washable_m,
             unwashable_m: &patch.unwashable_m,

@@ -43,7 +43,7 @@ pub enum EditorError {
 #[derive(Debug)]
 pub struct Editor {
     subject: Subject,
-    kept: Option<SavedFile>,
+    saved_file: Option<SavedFile>,
     sessions: Sessions,
 }
 
@@ -65,7 +65,7 @@ impl Editor {
         Scenario::parse(text, name)?;
         Ok(Self {
             subject: Subject::new(name, text, folder),
-            kept: None,
+            saved_file: None,
             sessions: Sessions::default(),
         })
     }
@@ -74,7 +74,7 @@ impl Editor {
     #[must_use]
     pub fn kept_by(self, keeper: Box<dyn Keeper>) -> Self {
         Self {
-            kept: Some(SavedFile::new(keeper)),
+            saved_file: Some(SavedFile::new(keeper)),
             ..self
         }
     }
@@ -127,7 +127,7 @@ impl Editor {
 
     /// A page of the scenario as `text` has it, or as it was opened where that is none.
     fn page(&self, channel: Channel, text: &str, bundle: &Bundle) -> Result<String, EditorError> {
-        let edit = EditDocument::new(channel, text, self.kept.as_ref());
+        let edit = EditDocument::new(channel, text, self.saved_file.as_ref());
         let view = self.view(text)?;
         Ok(page::html_with(&view, &edit, bundle)?)
     }
@@ -165,10 +165,10 @@ impl Editor {
         &self,
         path: &str,
         question: &[u8],
-        told: &mut AnswerWriter<'_>,
+        answer: &mut AnswerWriter<'_>,
         gone: &CancelToken,
     ) -> Result<(), String> {
-        match (path, &self.kept) {
+        match (path, &self.saved_file) {
             ("/cell", _) => {
                 let question: CellQuestion = read(question)?;
                 let lane = match question.want {
@@ -177,24 +177,24 @@ impl Editor {
                 };
                 let _turn = self.turn(&question.session, lane, gone)?;
                 let deadline = Deadline::after(LONGEST, gone);
-                cell::answer(&self.subject, &question, told, &deadline);
+                cell::answer(&self.subject, &question, answer, &deadline);
             }
             ("/map", _) => {
                 let question: MapQuestion = read(question)?;
                 let _turn = self.turn(&question.session, Lane::Map, gone)?;
                 let deadline = Deadline::after(LONGEST_MAP, gone);
-                cell::map(&self.subject, &question, told, &deadline);
+                cell::map(&self.subject, &question, answer, &deadline);
             }
             ("/save", Some(kept)) => {
                 let question: SaveQuestion = read(question)?;
                 named(&question.session)?;
                 let _deadline = Deadline::after(LONGEST, gone);
-                self.save(kept, &question, told, gone)?;
+                self.save(kept, &question, answer, gone)?;
             }
             ("/disk", Some(kept)) => {
                 let question: DiskQuestion = read(question)?;
                 named(&question.session)?;
-                kept.look(&question, told);
+                kept.look(&question, answer);
             }
             _ => return Err(format!("there is no question {path}")),
         }
@@ -204,9 +204,9 @@ impl Editor {
     /// Saves a text, with the result of its scenario where that is small enough to plan while the user waits.
     fn save(
         &self,
-        kept: &SavedFile,
+        saved_file: &SavedFile,
         question: &SaveQuestion,
-        told: &mut AnswerWriter<'_>,
+        answer: &mut AnswerWriter<'_>,
         gone: &CancelToken,
     ) -> Result<(), String> {
         let subject = &self.subject;
@@ -217,7 +217,7 @@ impl Editor {
         }
         let scenario = scenario.and_then(|scenario| accepted(subject, scenario));
         let scenario = scenario.map_err(|refusal| refusal.words);
-        kept.save(question, scenario.as_ref().map_err(String::as_str), told, gone);
+        saved_file.save(question, scenario.as_ref().map_err(String::as_str), answer, gone);
         Ok(())
     }
 
@@ -263,12 +263,12 @@ struct EditDocument<'a> {
 
 impl<'a> EditDocument<'a> {
     /// Document of a scenario, with the file that it is saved in.
-    fn new(channel: Channel, text: &'a str, kept: Option<&SavedFile>) -> Self {
-        let standing = kept.and_then(|kept| kept.standing().ok());
+    fn new(channel: Channel, text: &'a str, saved_file: Option<&SavedFile>) -> Self {
+        let standing = saved_file.and_then(|kept| kept.standing().ok());
         Self {
             format: FORMAT,
             channel,
-            file: kept.map(SavedFile::file),
+            file: saved_file.map(SavedFile::file),
             disk: standing.as_ref().and_then(DiskContents::hash),
             saved: standing.and_then(DiskContents::into_text),
             text,
@@ -309,7 +309,7 @@ pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
 impl EditorSite {
     /// The page of the file on disk; of the scenario as it was opened, where there is no file or it is no scenario.
     fn page(&self) -> Result<String, EditorError> {
-        let on_disk = self.editor.kept.as_ref().and_then(SavedFile::scenario);
+        let on_disk = self.editor.saved_file.as_ref().and_then(SavedFile::scenario);
         let text = on_disk.as_deref().unwrap_or(self.editor.text());
         self.editor.page(Channel::Server, text, &self.bundle)
     }
@@ -333,7 +333,7 @@ impl Service for EditorSite {
         gone: &CancelToken,
     ) {
         let mut tell = |line| tell(line).is_ok();
-        match (path, &self.editor.kept) {
+        match (path, &self.editor.saved_file) {
             ("/hello", Some(kept)) => kept.greet(&mut AnswerWriter::new(&mut tell, gone)),
             _ => self.editor.answer(path, question, &mut tell, gone),
         }

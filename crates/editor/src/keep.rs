@@ -137,12 +137,12 @@ impl SavedFile {
     }
 
     /// Answers if the file on disk has changed.
-    pub fn look(&self, question: &DiskQuestion, told: &mut AnswerWriter<'_>) {
+    pub fn look(&self, question: &DiskQuestion, answer: &mut AnswerWriter<'_>) {
         let standing = match self.settled(question.disk.as_deref()) {
             Ok(standing) => standing,
             Err(words) => {
                 let disk = question.disk.as_deref();
-                return told.line(&DiskLine {
+                return answer.line(&DiskLine {
                     disk,
                     text: None,
                     words: Some(&words),
@@ -153,7 +153,7 @@ impl SavedFile {
         let differs = hash != question.disk;
         let text = standing.text().filter(|_| differs);
         let is_no_text = differs && standing.bytes.is_some() && text.is_none();
-        told.line(&DiskLine {
+        answer.line(&DiskLine {
             disk: hash.as_deref(),
             text,
             words: is_no_text.then_some("the file on disk is no text"),
@@ -165,40 +165,40 @@ impl SavedFile {
         &self,
         question: &SaveQuestion,
         scenario: Result<&Scenario, &str>,
-        told: &mut AnswerWriter<'_>,
+        answer: &mut AnswerWriter<'_>,
         cancel: &CancelToken,
     ) {
         let _one = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
         let standing = match self.standing() {
             Ok(standing) => standing,
-            Err(words) => return told.failed(&words),
+            Err(words) => return answer.failed(&words),
         };
         let hash = standing.hash();
         // A text that is there already needs no check.
         let is_same = standing.text() == Some(&question.text);
         if !question.force && hash != question.disk && !is_same {
-            return told_conflict(&standing, told);
+            return told_conflict(&standing, answer);
         }
         let still = || self.standing().is_ok_and(|now| now.hash() == hash);
         let text = question.text.as_str();
         match self.keeper.write(&Save { text, scenario }, &still, cancel) {
-            Ok(written) => told.line(&SaveLine::Saved {
+            Ok(written) => answer.line(&SaveLine::Saved {
                 disk: &sha256_hex(question.text.as_bytes()),
                 file: &self.file(),
                 files: &written.files,
                 words: &written.words,
             }),
             Err(SaveError::Changed) => match self.standing() {
-                Ok(now) => told_conflict(&now, told),
-                Err(words) => told.failed(&words),
+                Ok(now) => told_conflict(&now, answer),
+                Err(words) => answer.failed(&words),
             },
-            Err(SaveError::Cannot(words)) => told.failed(&words),
+            Err(SaveError::Cannot(words)) => answer.failed(&words),
         }
     }
 
     /// Greets a page that comes from a server that is gone.
-    pub fn greet(&self, told: &mut AnswerWriter<'_>) {
-        told.line(&HelloLine {
+    pub fn greet(&self, answer: &mut AnswerWriter<'_>) {
+        answer.line(&HelloLine {
             format: FORMAT,
             file: Some(&self.file()),
             disk: self.hash().as_deref(),
@@ -207,17 +207,17 @@ impl SavedFile {
 }
 
 /// Tells that something else stands on disk.
-fn told_conflict(standing: &DiskContents, told: &mut AnswerWriter<'_>) {
-    let hash = standing.hash();
+fn told_conflict(contents: &DiskContents, answer: &mut AnswerWriter<'_>) {
+    let hash = contents.hash();
     let words = match hash {
         Some(_) => {
             "the file on disk is not the one that this page has read or written: it was changed by somebody else"
         }
         None => "the file that this page has read or written is gone from the disk",
     };
-    told.line(&SaveLine::Conflict {
+    answer.line(&SaveLine::Conflict {
         disk: hash.as_deref(),
-        text: standing.text(),
+        text: contents.text(),
         words,
     });
 }
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_being_written_is_waited_for() {
+    fn waits_for_a_file_that_is_being_written() {
         let read = |reads: &[&'static str], known| {
             let kept = SavedFile::new(Box::new(HalfWrittenFile(Mutex::new(reads.to_vec()))));
             kept.settled(known).unwrap().into_text().unwrap()

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_moved_names_its_key_and_what_is_not_says_why() {
+    fn movable_bodies_name_their_key_and_fixed_ones_the_reason() {
         let of = |text: &str| moves(&Scenario::parse(text, "case").unwrap());
         assert_eq!(of("layout.positions_m = [[0.3, 0]]").plates, PlateMoves::Positions);
         assert_eq!(of("layout.region = \"text\"").plates, PlateMoves::Positions);
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_names_the_plates_that_it_holds() {
+    fn bodies_name_the_plates_that_they_hold() {
         let held = |name: &str| {
             let bodies = moves(&Scenario::load(name).unwrap()).bodies;
             bodies.into_iter().map(|body| body.holds).collect::<Vec<_>>()

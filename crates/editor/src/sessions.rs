@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_new_question_ends_the_one_before_of_its_page_and_lane_alone() {
+    fn a_new_question_ends_only_the_one_before_of_its_page_and_lane() {
         let sessions = Sessions::default();
         let tokens: Vec<_> = (0..6).map(|_| CancelToken::new()).collect();
         let ended = || tokens.iter().map(CancelToken::is_cancelled).collect::<Vec<_>>();
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_session_has_a_plain_name_that_is_not_guessed() {
+    fn session_names_are_plain_and_random() {
         for name in [
             "",
             "a",

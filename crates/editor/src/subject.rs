@@ -63,7 +63,7 @@ pub struct Subject {
     pub arms: Arms,
     /// Meshes that were cut.
     pub solids: Solids,
-    latest: Mutex<Option<LastResult>>,
+    last: Mutex<Option<LastResult>>,
 }
 
 /// Result of the last question that was answered to its end.
@@ -94,13 +94,13 @@ impl Subject {
 
     /// Returns the latest answer, if it is remembered.
     pub fn latest(&self) -> Option<LastResult> {
-        self.latest.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.last.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Remembers the result of a question, where that is enabled.
     pub fn remember(&self, news: impl FnOnce() -> LastResult) {
         if self.remembers {
-            *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(news());
+            *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(news());
         }
     }
 

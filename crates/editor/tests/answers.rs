@@ -57,7 +57,7 @@ fn with_plate(editor: &Editor, plate: usize, at: Value) -> Vec<Value> {
 }
 
 #[test]
-fn a_scenario_is_told_from_its_text_to_its_proof() {
+fn answers_a_scenario_from_its_text_to_its_proof() {
     let editor = kitchen().remembering();
     let lines = ask(&editor, "/cell", &cell(KITCHEN, &json!([])));
     assert_eq!(kinds(&lines), ["scenario", "cell", "preview", "plan", "proof"]);
@@ -121,7 +121,7 @@ fn a_plate_out_of_reach_is_explained_and_proved_at_the_place_that_is_shown() {
 }
 
 #[test]
-fn what_is_refused_names_its_key_and_says_what_is_expected() {
+fn refusals_name_the_key_and_the_expected_value() {
     let editor = kitchen();
     let cases = [
         (
@@ -172,7 +172,7 @@ fn what_is_refused_names_its_key_and_says_what_is_expected() {
 }
 
 #[test]
-fn a_text_that_is_no_scenario_yet_is_kept_and_shown() {
+fn keeps_and_shows_a_text_that_is_no_scenario_yet() {
     let half = KITCHEN.replace("turns = 3.5", "turns = -1");
     let lines = ask(
         &kitchen(),
@@ -186,7 +186,7 @@ fn a_text_that_is_no_scenario_yet_is_kept_and_shown() {
 }
 
 #[test]
-fn work_is_bounded_before_it_is_begun() {
+fn bounds_work_before_it_begins() {
     for edits in [
         json!([{"key": "layout.count", "value": 1000}, {"key": "layout.min_distance_m", "value": 0}]),
         json!([{"key": "wash.turns", "value": 200}, {"key": "layout.count", "value": 30}]),
@@ -207,7 +207,7 @@ fn work_is_bounded_before_it_is_begun() {
 }
 
 #[test]
-fn what_is_no_question_is_answered_with_what_is_wrong() {
+fn answers_an_invalid_question_with_its_error() {
     let editor = kitchen();
     let deep = format!("{{\"session\":{}", "[".repeat(100_000));
     let big = json!({"session": "sessionofthistest", "text": "", "edits": vec![json!({"key": "seed", "value": 1}); 1001], "want": "proof", "arm": null});
@@ -287,7 +287,7 @@ fn a_new_question_ends_the_one_before() {
 }
 
 #[test]
-fn nobody_works_for_who_has_left() {
+fn ends_work_when_the_client_has_left() {
     let (token, mut told) = (CancelToken::new(), 0);
     let mut tell = |_: String| {
         told += 1;
@@ -305,7 +305,7 @@ fn nobody_works_for_who_has_left() {
 }
 
 #[test]
-fn a_mesh_is_a_file_like_others() {
+fn sends_meshes_like_other_files() {
     for section in ["obstacle", "tool_body"] {
         let mesh = |file: &str| {
             format!(
@@ -326,7 +326,7 @@ fn a_mesh_is_a_file_like_others() {
 }
 
 #[test]
-fn keys_of_sections_are_changed_and_said_to_be_where_things_are() {
+fn changes_keys_of_sections_and_states_their_positions() {
     let text = "# a rack\n[tool]\nlength_m = 0.15\n[job]\nprogram = \"certified\"\n[wash]\nheight_m = 0\n\n[[plate]]  # one\nat_m = [0.4, 0, 0.03] # here\n\n\
                 [[obstacle]]\nname = \"post\"\nshape = \"box\"\nsize_m = [0.02, 0.02, 0.02]\nat_m = [0.8, 0, 0.05]\n";
     let editor = Editor::of_text("cell", text, None).unwrap();
@@ -433,7 +433,7 @@ impl Keeper for FolderFile {
 }
 
 #[test]
-fn nothing_is_written_over_what_somebody_else_wrote() {
+fn never_overwrites_changes_of_others() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("cell.toml");
     let editor = kitchen().kept_by(Box::new(FolderFile(file.clone())));
@@ -489,7 +489,7 @@ fn nothing_is_written_over_what_somebody_else_wrote() {
 }
 
 #[test]
-fn a_map_is_told_coarse_to_fine() {
+fn sends_a_map_from_coarse_to_fine() {
     let lines = ask(
         &kitchen(),
         "/map",

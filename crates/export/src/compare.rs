@@ -38,7 +38,7 @@ pub struct ProgramComparison {
     /// Tolerance of the tip about the plan that the program states, otherwise the default \[m\].
     pub tolerance_m: f64,
     /// Proof of the program as it stands.
-    pub judged: ProgramJudgement,
+    pub judgement: ProgramJudgement,
     /// Refusal where the tool that the program states is not the plan's.
     pub tool: Option<Refusal>,
     /// True where the program refuses to move if the arm does not stand at the start ([`Reading::checks_start`]).
@@ -142,8 +142,8 @@ pub(crate) fn compare_in(
         more_changes,
         tolerance_m: settings.tolerance_m,
         // One that says nothing else was judged just now, when it was made again.
-        judged: match found == expected.reading {
-            true => expected.judged,
+        judgement: match found == expected.reading {
+            true => expected.judgement,
             false => judgement::judge(certified, &found, arm, settings.tolerance_m, cancel)?,
         },
         checks_start: found.checks_start,
@@ -189,7 +189,7 @@ impl ProgramComparison {
     /// Returns true where the motion of the program holds under every assumption, with the tool of the plan.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.tool.is_none() && self.judged.holds()
+        self.tool.is_none() && self.judgement.holds()
     }
 }
 
@@ -489,7 +489,7 @@ mod tests {
     use super::plain;
 
     #[test]
-    fn spaces_and_spellings_of_numbers_do_not_count() {
+    fn comparison_ignores_spaces_and_spellings_of_numbers() {
         for (a, b) in [
             ("MoveAbsJ [[1.0000,-0.50],[9E9]]", "  MoveAbsJ [ [1,-0.5],[9E+09] ]\t"),
             ("\\T:=0.030898/pwShare", "\\T:=3.0898e-2 / pwShare"),

@@ -203,7 +203,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         let reason = format!("expected two rows at least, found {}", points.len());
         return Err(TableError { line, column, reason });
     };
-    let between = match speeds {
+    let interpolation = match speeds {
         Some(_) => Interpolation::Cubics,
         None => {
             last.corner_m = None;
@@ -215,7 +215,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
             .map(|[place]| share(&table, place, &points, &plan_times))
             .transpose()?,
         points,
-        between,
+        interpolation,
         tool: None,
         checks_start: false,
     })

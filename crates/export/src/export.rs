@@ -23,7 +23,7 @@ pub struct ExportedProgram {
     /// Its files.
     pub files: Vec<ProgramFile>,
     /// Proof of the program.
-    pub judged: ProgramJudgement,
+    pub judgement: ProgramJudgement,
     /// Program as read back.
     pub reading: Reading,
 }
@@ -63,7 +63,7 @@ pub fn export(
     check(certified, arm, settings)?;
     dialect.accepts(&plan.job, arm)?;
     let exported = written(certified, arm, dialect, settings, cancel)?;
-    exported.judged.accepted()?;
+    exported.judgement.accepted()?;
     Ok(exported)
 }
 
@@ -137,7 +137,7 @@ fn written(
         dialect: dialect.name(),
         reason,
     };
-    let text = |judged: Option<&ProgramJudgement>| {
+    let text = |judgement: Option<&ProgramJudgement>| {
         let program = Program {
             name: name_of(plan),
             plan,
@@ -145,7 +145,7 @@ fn written(
             points: points.clone(),
             speed_share: settings.speed_share,
             corner_m: settings.corner_m,
-            header: header::lines(certified, &source, dialect, settings, (&points, judged)),
+            header: header::lines(certified, &source, dialect, settings, (&points, judgement)),
         };
         let files = dialect.write(&program);
         let reading = dialect
@@ -159,7 +159,11 @@ fn written(
     let (_, reading) = text(None)?;
     let judged = judgement::judge(certified, &reading, arm, settings.tolerance_m, cancel)?;
     let (files, reading) = text(Some(&judged))?;
-    Ok(ExportedProgram { files, judged, reading })
+    Ok(ExportedProgram {
+        files,
+        judgement: judged,
+        reading,
+    })
 }
 
 /// Returns the first difference between the program written and the one read back.

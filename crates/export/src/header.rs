@@ -190,16 +190,16 @@ fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> V
 }
 
 /// Lines on the proof of the text itself.
-fn verdict(judged: &ProgramJudgement, settings: &ExportSettings) -> Vec<String> {
-    let corners = judged.cases.iter().any(|case| case.corner_scale.is_some());
+fn verdict(judgement: &ProgramJudgement, settings: &ExportSettings) -> Vec<String> {
+    let corners = judgement.cases.iter().any(|case| case.corner_scale.is_some());
     let how = match corners {
         true => ", without corners and with corners of 0.5, 1 and 2 times their size",
         false => "",
     };
-    let held = if judged.holds() { "HOLDS" } else { "DOES NOT HOLD" };
+    let held = if judgement.holds() { "HOLDS" } else { "DOES NOT HOLD" };
     let share = settings.speed_share;
     let mut lines = vec![format!("Judged: the motion of this text, interpreted{how}: {held}")];
-    lines.extend(judged.worst().iter().map(|check| told(check, "limit", 1.0)));
+    lines.extend(judgement.worst().iter().map(|check| told(check, "limit", 1.0)));
     lines.push(format!(
         "That is at a share of {share} of the plan's speed; at a lower one the path, as assumed below, is the same and every speed lower."
     ));
@@ -208,13 +208,13 @@ fn verdict(judged: &ProgramJudgement, settings: &ExportSettings) -> Vec<String> 
          it at that share, beside what the plan keeps:"
             .to_owned(),
     );
-    lines.extend(judged.implied().iter().map(|check| {
+    lines.extend(judgement.implied().iter().map(|check| {
         let is_speed = check
             .measure
             .is_some_and(|measure| measure.unit == Unit::MetrePerSecond);
         told(check, "plan", if is_speed { share } else { 1.0 })
     }));
-    lines.extend(judged.cases.iter().filter_map(|case| asked(case, share)));
+    lines.extend(judgement.cases.iter().filter_map(|case| asked(case, share)));
     lines
 }
 
@@ -267,8 +267,8 @@ fn told(check: &Check, beside: &str, factor: f64) -> String {
 fn asked(case: &Case, speed_share: f64) -> Option<String> {
     let scale = case.corner_scale?;
     let share = |v: Option<f64>| v.map(|v| decimals_up(v * speed_share * speed_share, 2));
-    let step = decimals_up((case.asked.speed_step_rad_s * speed_share).to_degrees(), 1);
-    let both = share(case.asked.acceleration_median).zip(share(case.asked.acceleration_most));
+    let step = decimals_up((case.demands.speed_step_rad_s * speed_share).to_degrees(), 1);
+    let both = share(case.demands.acceleration_median).zip(share(case.demands.acceleration_most));
     Some(match both {
         Some((median, most)) => format!(
             "- corners x {scale}: {median} times the plan's joint acceleration limit in the median, {most} at most; steps of speed up to \

@@ -39,7 +39,7 @@ pub struct Case {
     pub proof: ProgramProof,
     /// Demands on the controller.
     #[serde(flatten)]
-    pub asked: ControllerDemands,
+    pub demands: ControllerDemands,
 }
 
 /// Demands of a motion on the controller, which times it: measured, not judged.
@@ -72,12 +72,11 @@ pub fn judge(
         joint_speed_share: JOINT_SPEED_SHARE,
         speed_share: reading.share(),
     };
-    let case = |interpreted: ProgramMotion| {
-        let motion = &interpreted.motion;
+    let case = |motion: ProgramMotion| {
         Ok(Case {
-            corner_scale: interpreted.corner_scale,
-            proof: prove_program(certified, motion, arm, &limits, cancel)?,
-            asked: ControllerDemands::of(&interpreted, &job.limits.joint_acceleration_rad_s2),
+            corner_scale: motion.corner_scale,
+            proof: prove_program(certified, &motion.motion, arm, &limits, cancel)?,
+            demands: ControllerDemands::of(&motion, &job.limits.joint_acceleration_rad_s2),
         })
     };
     let motions = motions(reading, arm, &tip)?;
@@ -137,8 +136,8 @@ impl Case {
 }
 
 impl ControllerDemands {
-    fn of(interpreted: &ProgramMotion, limits_rad_s2: &[f64; AXES]) -> Self {
-        let pieces = interpreted.motion.pieces();
+    fn of(motion: &ProgramMotion, limits_rad_s2: &[f64; AXES]) -> Self {
+        let pieces = motion.motion.pieces();
         let mut shares: Vec<f64> = Vec::new();
         let mut speed_step_rad_s = 0.0_f64;
         for piece in pieces.iter().filter(|piece| piece.qd_rad_s[0] != piece.qd_rad_s[1]) {
@@ -151,7 +150,7 @@ impl ControllerDemands {
             speed_step_rad_s = speed_step_rad_s.max(step);
         }
         shares.sort_by(f64::total_cmp);
-        let corners = interpreted.corner_scale.is_some();
+        let corners = motion.corner_scale.is_some();
         Self {
             acceleration_median: shares.get(shares.len() / 2).copied().filter(|_| corners),
             acceleration_most: shares.last().copied(),
@@ -235,7 +234,7 @@ pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<P
         corner_m: point.corner_m.unwrap_or(0.0),
     };
     let points: Vec<_> = reading.points.iter().map(in_plan_time).collect();
-    let piece: fn(&TimedPoint, &TimedPoint) -> MotionPiece = match reading.between {
+    let piece: fn(&TimedPoint, &TimedPoint) -> MotionPiece = match reading.interpolation {
         Interpolation::RoundedLines => return rounded_motions(&points, arm, tip),
         Interpolation::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
         Interpolation::Cubics => |a, b| MotionPiece {
@@ -345,7 +344,7 @@ mod tests {
     use crate::dialect::Place;
     use proptest::prelude::*;
 
-    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], between: Interpolation) -> Reading {
+    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], interpolation: Interpolation) -> Reading {
         let mut t_s = 0.0;
         let mut points = vec![(0.0, [0.1; 6], None)];
         for &(step_s, q, corner_m) in steps {
@@ -366,7 +365,7 @@ mod tests {
         Reading {
             speed_share: None,
             points: points.into_iter().map(point).collect(),
-            between,
+            interpolation,
             tool: None,
             checks_start: false,
         }
@@ -439,7 +438,7 @@ mod tests {
         }
 
         #[test]
-        fn without_corners_it_is_a_polyline(steps in steps(), share in 0.0..1.0_f64) {
+        fn a_motion_without_corners_is_a_polyline(steps in steps(), share in 0.0..1.0_f64) {
             let reading = reading(&steps, Interpolation::RoundedLines);
             let (motions, ..) = interpreted(&reading);
             for both in reading.points.windows(2) {
@@ -453,7 +452,7 @@ mod tests {
 
     /// A share of the speed stretches time; the judged motion is in the time of the plan.
     #[test]
-    fn motions_are_in_the_time_of_the_plan() {
+    fn program_motions_are_in_the_time_of_the_plan() {
         let steps = [(0.2, [0.2; 6], Some(0.005)), (0.2, [0.15; 6], None)];
         let whole = reading(&steps, Interpolation::RoundedLines);
         let mut slow = whole.clone();
@@ -467,7 +466,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_are_no_motion_are_refused() {
+    fn rejects_points_that_form_no_motion() {
         let arm = RobotModel::irb120().unwrap();
         let tip = platewash_workcell::fixtures::kitchen_tool().tip_frame(&arm);
         for between in [Interpolation::Lines, Interpolation::RoundedLines, Interpolation::Cubics] {

@@ -15,7 +15,7 @@ pub struct Reading {
     /// Points in the order in which they are reached; the first is where the arm must stand.
     pub points: Vec<ReadPoint>,
     /// Motion that the arm is assumed to make from one point to the next.
-    pub between: Interpolation,
+    pub interpolation: Interpolation,
     /// The tool, where the program states one.
     pub tool: Option<ReadTool>,
     /// True where the program checks, as it was exported, that the arm stands at the start before it moves.

@@ -19,7 +19,7 @@ fn read(text: &str) -> Result<Reading, ReadError> {
 proptest! {
     /// What is written says the same points and speeds at the same times.
     #[test]
-    fn what_is_written_is_read_back((points, share) in points()) {
+    fn reads_back_the_written_program((points, share) in points()) {
         let plan = plan(&ARM);
         let program = program(&plan, &ARM, points, share);
         let files = Csv.write(&program);
@@ -33,7 +33,7 @@ proptest! {
         prop_assert!((reading.share() - share).abs() < 1e-5);
         let last_s = program.points.last().unwrap().t_s;
         prop_assert!((reading.share() - share).abs() * last_s < 1e-8);
-        prop_assert_eq!((reading.between, reading.tool), (Interpolation::Cubics, None));
+        prop_assert_eq!((reading.interpolation, reading.tool), (Interpolation::Cubics, None));
         for (read, point) in reading.points.iter().zip(&program.points) {
             prop_assert!((read.t_s - point.t_s / share).abs() < 1e-6);
             prop_assert!((read.q_rad - point.q_rad).amax() < 1e-7);
@@ -53,18 +53,18 @@ proptest! {
 
     /// Noise is refused.
     #[test]
-    fn noise_is_refused(text in any::<String>()) {
+    fn rejects_random_text(text in any::<String>()) {
         prop_assert!(read(&text).is_err());
     }
 }
 
 #[test]
-fn a_table_by_hand_is_read() {
+fn reads_a_table_written_by_hand() {
     // Spreadsheets begin a file with a mark of its encoding and end lines as they like.
     for text in [BY_HAND.to_owned(), format!("\u{feff}{}", BY_HAND.replace('\n', "\r\n"))] {
         let reading = read(&text).unwrap();
         assert_eq!(
-            (reading.speed_share, reading.between, reading.tool),
+            (reading.speed_share, reading.interpolation, reading.tool),
             (Some(0.25), Interpolation::Cubics, None)
         );
         let [first, second, third] = reading.points.as_slice() else {
@@ -88,7 +88,10 @@ fn a_table_by_hand_is_read() {
 fn a_table_of_times_and_positions_alone_is_straight_between_its_rows() {
     let text = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0,0,0,0,0,0,0\n1,1,0,0,0,0,0\n2,1,2,0,0,0,0\n";
     let reading = read(text).unwrap();
-    assert_eq!((reading.speed_share, reading.between), (None, Interpolation::Lines));
+    assert_eq!(
+        (reading.speed_share, reading.interpolation),
+        (None, Interpolation::Lines)
+    );
     let corners: Vec<Option<f64>> = reading.points.iter().map(|point| point.corner_m).collect();
     assert_eq!(corners, [None, Some(0.0), None]);
     assert!(reading.points.iter().all(|point| point.qd_rad_s.is_none()));
@@ -96,7 +99,7 @@ fn a_table_of_times_and_positions_alone_is_straight_between_its_rows() {
 
 /// A line, what is changed there, the line that is refused, and words of the reason.
 #[test]
-fn faults_are_refused_with_their_line() {
+fn rejects_faults_with_their_line() {
     let faults = [
         (1, "t_s", "time", 1, "column \"time\" is unknown"),
         (1, "q3_rad", "q3_deg", 1, "column \"q3_deg\" is unknown"),
@@ -163,7 +166,7 @@ fn faults_are_refused_with_their_line() {
 }
 
 #[test]
-fn a_table_stands_beside_what_explains_it() {
+fn exports_a_table_with_its_explanation() {
     let plan = plan(&ARM);
     let still = platewash_export::dialect::Point {
         t_s: 0.0,

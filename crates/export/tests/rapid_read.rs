@@ -45,7 +45,7 @@ fn added(what: &str) -> String {
 }
 
 #[test]
-fn what_people_add_is_read() {
+fn reads_usual_additions() {
     let points = |text: &str| read(text).unwrap_or_else(|error| panic!("{error}")).points;
     let expected = points(&WRITTEN);
     let same = [
@@ -139,7 +139,7 @@ const ADDED: [(&str, &str); 32] = [
 ];
 
 #[test]
-fn what_is_added_and_not_read_is_refused_with_its_line() {
+fn rejects_other_additions_with_their_line() {
     // Before the last motion of a routine that passes its targets in zones.
     let at = line_of(&WRITTEN, motion(1).trim());
     for (what, words) in ADDED {
@@ -241,7 +241,7 @@ const CHANGED: [(&str, &str, &str); 34] = [
 ];
 
 #[test]
-fn what_is_changed_and_not_read_is_refused() {
+fn rejects_other_changes() {
     for (from, to, words) in CHANGED {
         let error = read(&edited(from, to)).map(|_| to).unwrap_err();
         assert!(error.reason.contains(words), "{to}: {error}");
@@ -276,7 +276,7 @@ fn what_is_changed_and_not_read_is_refused() {
 
 /// The checks count where they stand before the first motion and compare with where it leads.
 #[test]
-fn the_check_of_the_start_counts_where_it_stands() {
+fn counts_the_start_check_only_before_the_motion() {
     let read = |text: String| -> Result<Reading, ReadError> { read(&text) };
     assert!(read(WRITTEN.clone()).unwrap().checks_start);
     assert!(!read(edited("    pwCheckStart;\n", "")).unwrap().checks_start);
@@ -304,7 +304,7 @@ fn the_check_of_the_start_counts_where_it_stands() {
 }
 
 #[test]
-fn what_is_a_comment_here_is_one_for_everybody() {
+fn rejects_comments_that_other_readers_end_earlier() {
     for end in ["\r", "\u{85}", "\u{2028}", "\u{2029}", "\u{b}", "\u{c}", "\u{1a}"] {
         let text = added(&format!("! a note{end}{}", motion(0).trim()));
         refused(&text, line_of(&WRITTEN, motion(1).trim()), "found the character");
@@ -314,7 +314,7 @@ fn what_is_a_comment_here_is_one_for_everybody() {
 }
 
 #[test]
-fn another_inertia_is_another_tool() {
+fn finds_a_tool_with_another_inertia() {
     let tool = |text: &str| read(text).unwrap().tool;
     assert_ne!(tool(&WRITTEN), tool(&edited("0.0005925,0.0005925", "5,5")));
     let second = edited(
@@ -353,7 +353,7 @@ fn modules_may_be_in_several_files() {
 proptest! {
     /// A damaged program is read or refused, soon and without a panic.
     #[test]
-    fn damaged_programs_end_one_way_or_the_other(
+    fn damaged_programs_are_read_or_refused(
         edits in proptest::collection::vec((any::<prop::sample::Index>(), 0_u8..6, any::<u8>()), 1..6),
     ) {
         let mut bytes = WRITTEN.as_bytes().to_vec();

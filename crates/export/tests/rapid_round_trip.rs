@@ -15,7 +15,7 @@ const TIME_S: f64 = 1e-4;
 
 fn assert_as_meant(points: &[Point], share: f64, reading: &Reading, within_s: f64) {
     assert_eq!(reading.points.len(), points.len());
-    assert_eq!(reading.between, Interpolation::RoundedLines);
+    assert_eq!(reading.interpolation, Interpolation::RoundedLines);
     // It is a single, told by its shortest decimal.
     assert!((reading.share() / share - 1.0).abs() < f64::from(f32::EPSILON));
     for (index, (point, read)) in points.iter().zip(&reading.points).enumerate() {
@@ -32,7 +32,7 @@ fn assert_as_meant(points: &[Point], share: f64, reading: &Reading, within_s: f6
 }
 
 #[test]
-fn the_kitchen_is_read_back_as_it_was_written() {
+fn reads_back_the_kitchen_program() {
     for share in [1.0, 0.1] {
         let program = program(every(3), share);
         let files = rapid().write(&program);
@@ -57,7 +57,7 @@ fn the_kitchen_is_read_back_as_it_was_written() {
 }
 
 #[test]
-fn the_head_says_everything_once_and_narrowly() {
+fn the_header_states_everything_once_in_short_lines() {
     let mut program = program(every(50), 1.0);
     let assumed = rapid().assumptions().iter().map(|sentence| (*sentence).to_owned());
     program.header.extend(assumed);
@@ -109,7 +109,7 @@ fn each_segment_is_a_routine_and_stops_where_the_plan_rests() {
 }
 
 #[test]
-fn one_digit_changed_is_read_at_its_line() {
+fn finds_one_changed_digit_in_its_line() {
     let program = program(every(20), 1.0);
     let files = rapid().write(&program);
     let before = rapid().read(&files, program.arm).unwrap();
@@ -131,7 +131,7 @@ fn one_digit_changed_is_read_at_its_line() {
 }
 
 #[test]
-fn a_digit_of_the_start_is_read_at_its_line() {
+fn finds_a_changed_digit_of_the_start_in_its_line() {
     let program = program(every(20), 1.0);
     let files = rapid().write(&program);
     let index = files[0]
@@ -232,7 +232,7 @@ fn tools() -> impl Strategy<Value = Tool> {
 
 proptest! {
     #[test]
-    fn any_points_are_read_back(points in points(), share in 0.05..1.0_f64, corner_m in 0.0001..0.3_f64) {
+    fn reads_back_any_points(points in points(), share in 0.05..1.0_f64, corner_m in 0.0001..0.3_f64) {
         let mut program = program(points, share);
         program.corner_m = corner_m;
         let files = rapid().write(&program);
@@ -244,7 +244,7 @@ proptest! {
     }
 
     #[test]
-    fn any_tool_is_read_back(tool in tools()) {
+    fn reads_back_any_tool(tool in tools()) {
         let mut plan = kitchen().0.clone();
         plan.job.workcell.tool = tool.clone();
         let mut program = program(every(500), 1.0);

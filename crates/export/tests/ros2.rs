@@ -58,7 +58,7 @@ fn read(files: &[ProgramFile]) -> Reading {
 /// Refuses a reading that is not the program, at this share of the speed, whatever share it states.
 fn assert_says(reading: &Reading, speed_share: f64) {
     let knots = &KITCHEN.1.knots;
-    assert_eq!(reading.between, Interpolation::Cubics);
+    assert_eq!(reading.interpolation, Interpolation::Cubics);
     assert_eq!(reading.points.len(), knots.t_s.len());
     let mut lines = Vec::new();
     for (k, point) in reading.points.iter().enumerate() {
@@ -74,7 +74,7 @@ fn assert_says(reading: &Reading, speed_share: f64) {
 }
 
 #[test]
-fn each_file_says_the_plan_to_the_bit_and_its_times_to_a_nanosecond() {
+fn each_file_states_the_plan_to_the_bit_and_times_to_a_nanosecond() {
     for speed_share in [1.0, 0.5, 0.1] {
         let files = ros2().write(&program(speed_share));
         assert_eq!(files.iter().map(|file| file.name.as_str()).collect::<Vec<_>>(), FILES);
@@ -115,7 +115,7 @@ fn the_first_point_is_after_the_lead_in_and_lines_name_it() {
 }
 
 #[test]
-fn a_head_stays_a_head() {
+fn headers_stay_comments() {
     let files = ros2().write(&program(1.0));
     let first = files[0].text.lines().next().unwrap();
     assert_eq!(first, "# a plan's head: \\u{202e}with\\nanything");
@@ -135,7 +135,7 @@ fn edited(file: &ProgramFile, from: &str, to: &str) -> (ProgramFile, usize) {
 }
 
 #[test]
-fn files_that_say_different_things_are_no_program() {
+fn rejects_files_that_contradict_each_other() {
     let files = ros2().write(&program(1.0));
     let point = files[3].text.lines().nth(200).unwrap().to_owned();
     let digits = point
@@ -160,7 +160,7 @@ fn files_that_say_different_things_are_no_program() {
 }
 
 #[test]
-fn a_digit_that_is_changed_is_seen_in_its_line() {
+fn finds_a_changed_digit_in_its_line() {
     let files = ros2().write(&program(1.0));
     let before = read(&files[..1]);
     let k = 1234;
@@ -252,10 +252,10 @@ fn compared(name: &str, line: usize, from: &str, to: &str) -> ProgramComparison 
 }
 
 #[test]
-fn a_file_that_is_read_back_alone_holds_and_tells_what_was_changed() {
+fn judges_a_single_file_and_reports_its_changes() {
     let name = "joint_trajectory.json";
     let whole = compared(name, 1, "", "");
-    assert!(whole.is_unchanged() && whole.judged.holds(), "{:?}", whole.changes);
+    assert!(whole.is_unchanged() && whole.judgement.holds(), "{:?}", whole.changes);
     let last = KITCHEN.1.knots.t_s.len() + 3;
     // The end a second later: slower, and still on the path.
     for (line, from, to, what) in [

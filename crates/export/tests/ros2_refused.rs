@@ -66,7 +66,7 @@ fn with(line: usize, from: &str, to: &str) -> String {
 }
 
 #[test]
-fn the_goal_that_is_edited_here_is_accepted() {
+fn accepts_the_goal_that_these_tests_edit() {
     let reading = read(GOAL).unwrap();
     assert_eq!(
         reading.points.iter().map(|p| p.place.line).collect::<Vec<_>>(),
@@ -79,7 +79,7 @@ fn the_goal_that_is_edited_here_is_accepted() {
 }
 
 #[test]
-fn every_rule_refuses_what_breaks_it_and_names_itself_and_the_line() {
+fn every_rule_names_itself_and_the_line_that_breaks_it() {
     let first_row = "[0.0, 0.1, 0.2, 0.3, 0.4, 0.5]";
     let breaches = [
         ("joint-count", 3, ", joint_6]", "]", "without joint_6"),
@@ -140,7 +140,7 @@ fn every_rule_refuses_what_breaks_it_and_names_itself_and_the_line() {
 }
 
 #[test]
-fn values_of_other_types_are_refused() {
+fn rejects_values_of_other_types() {
     let cases = [
         (5, "0.1,", "1,", "write 1.0"),
         (5, "0.1,", "1e-05,", "a text in YAML 1.1"),
@@ -178,7 +178,7 @@ fn values_of_other_types_are_refused() {
 }
 
 #[test]
-fn texts_that_are_no_message_are_refused() {
+fn rejects_texts_that_are_no_message() {
     let deep = "[".repeat(100_000);
     let bomb: String = (0..40)
         .map(|k| format!("a{k}: &a{k} [{}]\n", format!("*a{}, ", k - 1_i32).repeat(10)))
@@ -233,7 +233,7 @@ fn long_texts_are_read_in_time() {
 }
 
 #[test]
-fn a_json_file_is_json() {
+fn written_json_files_are_valid_json() {
     let error = read_as("goal.json", GOAL).unwrap_err();
     assert!(error.reason.contains("not JSON") && error.place.line == 1, "{error}");
     let error = read_as("goal.json", "{\"joint_names\": [],\n \"points\": [],\n}").unwrap_err();
@@ -247,7 +247,7 @@ fn a_json_file_is_json() {
 
 /// YAML 1.1 ends a comment at these, YAML 1.2 does not: a point behind one would be sent and not judged.
 #[test]
-fn what_is_hidden_behind_a_line_end_of_yaml_1_1_is_refused() {
+fn rejects_text_behind_a_line_end_of_yaml_1_1() {
     for end in ['\u{85}', '\u{2028}', '\u{2029}'] {
         let hidden = format!("  points: # a note{end}  - positions: [9.0]");
         let error = read(&GOAL.replacen("  points:", &hidden, 1)).unwrap_err();

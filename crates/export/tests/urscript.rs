@@ -22,7 +22,7 @@ fn read(text: &str) -> Result<Reading, ReadError> {
 proptest! {
     /// What is written says the same points at the same times, and the same tool.
     #[test]
-    fn what_is_written_is_read_back((points, share) in points()) {
+    fn reads_back_the_written_program((points, share) in points()) {
         let plan = plan(&ARM);
         let program = program(&plan, &ARM, points, share);
         let files = UrScript.write(&program);
@@ -32,7 +32,7 @@ proptest! {
         let reading = UrScript.read(&files, &ARM).unwrap();
         prop_assert_eq!(reading.points.len(), program.points.len());
         prop_assert_eq!(reading.speed_share, Some(share));
-        prop_assert_eq!(reading.between, Interpolation::Lines);
+        prop_assert_eq!(reading.interpolation, Interpolation::Lines);
         for (read, point) in reading.points.iter().zip(&program.points) {
             prop_assert!((read.t_s - point.t_s / share).abs() < 1e-6);
             prop_assert!((read.q_rad - point.q_rad).amax() < 1e-7);
@@ -48,7 +48,7 @@ proptest! {
 
     /// Any tip survives, turned by as little or as much as it may be.
     #[test]
-    fn a_turned_tip_is_read_back(
+    fn reads_back_a_turned_tip(
         at in proptest::array::uniform3(-0.5..0.5_f64),
         axis in proptest::array::uniform3(-1.0..1.0_f64),
         angle in prop_oneof![Just(0.0), Just(1e-8), Just(std::f64::consts::PI), 0.0..3.1_f64],
@@ -82,17 +82,17 @@ proptest! {
 
     /// Noise is refused.
     #[test]
-    fn noise_is_refused(text in any::<String>()) {
+    fn rejects_random_text(text in any::<String>()) {
         prop_assert!(read(&text).is_err());
     }
 }
 
 /// What the fixture says, worked out by hand.
 #[test]
-fn a_program_by_hand_is_carried_out() {
+fn reads_a_program_written_by_hand() {
     let reading = read(BY_HAND).unwrap();
     assert_eq!(
-        (reading.speed_share, reading.between),
+        (reading.speed_share, reading.interpolation),
         (Some(0.5), Interpolation::Lines)
     );
     assert!(!reading.checks_start, "two joints are checked");
@@ -119,7 +119,7 @@ fn a_program_by_hand_is_carried_out() {
 
 /// A line, what is changed there, the line that is refused, and words of the reason.
 #[test]
-fn faults_are_refused_with_their_line() {
+fn rejects_faults_with_their_line() {
     let faults = [
         (1, "def by_hand():", "def by_hand()", 1, "expected `def NAME():`"),
         (
@@ -336,7 +336,7 @@ fn blocks_end_where_a_controller_ends_them() {
 }
 
 #[test]
-fn calls_and_lines_are_bounded() {
+fn bounds_calls_and_lines() {
     let error = read("def x():\n  def f():\n    f()\n  end\n  f()\nend\n").unwrap_err();
     assert_eq!(error.place.line, 3);
     assert!(error.reason.contains("runs itself"), "{error}");
@@ -354,7 +354,7 @@ fn calls_and_lines_are_bounded() {
 
 /// The check counts where it compares with where the program goes.
 #[test]
-fn a_start_that_the_check_does_not_know_is_noticed() {
+fn notices_a_start_check_of_another_configuration() {
     let plan = plan(&ARM);
     let point = |t_s, q| Point {
         t_s,

@@ -60,7 +60,7 @@ fn points(plan: &Plan, motion: &Trajectory, step_s: f64, share: f64) -> Vec<Poin
 fn between(reading: &Reading, k: usize, part: f64) -> JointVector {
     let [a, b] = [&reading.points[k], &reading.points[k + 1]];
     let line = a.q_rad + (b.q_rad - a.q_rad) * part;
-    match (reading.between, a.qd_rad_s, b.qd_rad_s) {
+    match (reading.interpolation, a.qd_rad_s, b.qd_rad_s) {
         (Interpolation::Cubics, Some(va), Some(vb)) => {
             let (h, s, away) = (b.t_s - a.t_s, part, b.q_rad - a.q_rad);
             line + ((va * h - away) * (1.0 - s) - (vb * h - away) * s) * (s * (1.0 - s))

@@ -127,7 +127,7 @@ mod tests {
     use std::f64::consts::FRAC_1_SQRT_2;
 
     #[test]
-    fn supports_by_hand() {
+    fn support_points_agree_with_hand_calculation() {
         let diagonal = Vector3::new(FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2);
         let cases = [
             (

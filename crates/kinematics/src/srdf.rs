@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_not_an_srdf() {
+    fn rejects_text_that_is_no_srdf() {
         assert!(matches!(DisabledPairs::parse(""), Err(SrdfError::NotARobot { .. })));
         assert!(matches!(
             DisabledPairs::parse("<sdf/>"),

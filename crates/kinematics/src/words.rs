@@ -222,7 +222,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn as_many_digits_as_needed_and_no_more() {
+    fn numbers_have_as_many_digits_as_needed() {
         assert_eq!(told_apart(-90.000_02, -90.0, 2), ["-90.00002", "-90.00000"]);
         assert_eq!(told_apart(12.0, 70.0, 1), ["12.0", "70.0"]);
         assert_eq!(told_apart(1e-300, 0.0, 2), ["1e-300", "0e0"]);

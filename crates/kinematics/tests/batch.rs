@@ -139,7 +139,7 @@ fn poses_and_jacobians_are_those_of_one_at_a_time() {
 
 /// On a machine with AVX2 this compares two sets of instructions, elsewhere one with itself.
 #[test]
-fn the_paths_agree_also_far_beyond_the_limits() {
+fn scalar_and_vector_code_agree_far_beyond_the_limits() {
     println!("AVX2 and FMA: {}", Backend::Detected.is_vectorised());
     let robot = irb120();
     let frame = robot.frame("tool0").unwrap();
@@ -170,7 +170,7 @@ fn the_paths_agree_also_far_beyond_the_limits() {
 }
 
 #[test]
-fn an_answer_does_not_depend_on_its_place_or_company() {
+fn an_answer_does_not_depend_on_its_index_or_neighbours() {
     let robot = irb120();
     let frame = robot.frame("tool0").unwrap();
     let q = configurations(&robot, 1100, 9);
@@ -198,7 +198,7 @@ fn an_answer_does_not_depend_on_its_place_or_company() {
 }
 
 #[test]
-fn what_is_not_finite_spoils_its_own_configuration_only() {
+fn non_finite_values_spoil_only_their_own_configuration() {
     let robot = irb120();
     let frame = robot.frame("tool0").unwrap();
     let good = configurations(&robot, 24, 10);
@@ -236,7 +236,7 @@ fn what_is_not_finite_spoils_its_own_configuration_only() {
 }
 
 #[test]
-fn lengths_must_fit() {
+fn rejects_slices_of_different_lengths() {
     let robot = irb120();
     let frame = robot.frame("tool0").unwrap();
     let q = configurations(&robot, 9, 11);

@@ -117,7 +117,7 @@ fn random_reachable_poses_are_all_solved() {
 
 /// The configuration that made the pose is among the answers, and `nearest` is the nearest of them.
 #[test]
-fn the_family_is_solved_completely() {
+fn finds_all_solutions_of_generated_arms() {
     for arm in family() {
         let mut rng = Pcg64::seed_from_u64(17);
         for _ in 0..POSES / 20 {
@@ -541,7 +541,7 @@ fn published_solutions_are_found() {
 }
 
 #[test]
-fn other_structures_are_refused_by_name() {
+fn rejects_other_structures_by_name() {
     for k in 1..=8 {
         let refused = AnalyticArm::recognise(&fixture(&format!("arm_{k}"))).unwrap_err();
         let oblique = matches!(

@@ -187,7 +187,7 @@ fn the_qp_takes_over_at_an_active_limit() {
 }
 
 #[test]
-fn failures_say_why() {
+fn failures_state_their_cause() {
     let robot = RobotModel::irb120().unwrap();
     let tool0 = robot.frame("tool0").unwrap();
     let solver = IkSolver::new(&robot, tool0, IkSettings::default()).unwrap();

@@ -94,7 +94,7 @@ fn long_ways_between_waypoints_are_followed() {
 }
 
 #[test]
-fn a_path_out_of_reach_breaks_off_where_it_leaves() {
+fn a_path_out_of_reach_fails_at_its_first_unreachable_waypoint() {
     let robot = irb120();
     let targets: Vec<Pose> = (0..60)
         .map(|k| down(Vector3::new(0.3 + 0.01 * f64::from(k), 0.0, 0.1)))
@@ -208,7 +208,7 @@ proptest! {
 }
 
 #[test]
-fn empty_paths_and_bad_waypoints() {
+fn handles_empty_paths_and_rejects_bad_waypoints() {
     let robot = irb120();
     assert!(
         solver(&robot)

@@ -66,7 +66,7 @@ fn all_eight_branches_of_a_pose_in_front_are_found() {
 }
 
 #[test]
-fn what_is_out_of_reach_or_no_number_is_told_apart() {
+fn distinguishes_targets_out_of_reach_from_nan() {
     let robot = arm();
     let solver = solver(&robot);
     let mut target = robot.fk(&JointVector::zeros()).pose(solver.frame());

@@ -138,7 +138,7 @@ fn checksum(values: impl Iterator<Item = f64>) -> u64 {
 
 /// A change of any result changes plans: it must be meant. If it is, copy the new sums.
 #[test]
-fn bits_are_pinned() {
+fn results_have_the_pinned_bits() {
     let sums = [
         checksum(sweep().flat_map(|x| <[f64; 2]>::from(sin_cos(x)))),
         checksum(sweep().zip(sweep().skip(777)).map(|(y, x)| atan2(y, x))),
@@ -184,7 +184,7 @@ fn fused_lanes_differ_in_the_last_bits_only() {
 }
 
 #[test]
-fn lanes_out_of_bounds_are_mended_and_leave_the_others_alone() {
+fn corrects_lanes_out_of_bounds_alone() {
     let angles = [0.5, 1e9, f64::NAN, -FAST_BOUND, f64::INFINITY, -0.0];
     let (s, c) = sin_cos_lanes::<SeparateMulAdd, 6>(&angles);
     for (i, &angle) in angles.iter().enumerate() {

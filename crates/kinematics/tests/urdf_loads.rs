@@ -23,7 +23,7 @@ fn assert_same_kinematics(a: &RobotModel, b: &RobotModel) {
 // ---- the IRB 120 ----
 
 #[test]
-fn irb120_names_and_limits() {
+fn reads_names_and_limits_of_the_irb120() {
     let robot = irb120();
     assert_eq!(robot.name(), "irb120");
     for (i, joint) in robot.joints().iter().enumerate() {
@@ -47,7 +47,7 @@ fn irb120_names_and_limits() {
 }
 
 #[test]
-fn irb120_links_from_the_root_outwards() {
+fn orders_links_of_the_irb120_from_the_root() {
     let names: Vec<_> = irb120().links().iter().map(|l| l.name.clone()).collect();
     assert_eq!(names.len(), 10);
     assert_eq!(names[0], "base_link");
@@ -79,7 +79,7 @@ fn shapes(robot: &RobotModel, link: &str) -> [usize; 4] {
 }
 
 #[test]
-fn irb120_collision_shapes() {
+fn reads_collision_shapes_of_the_irb120() {
     let robot = irb120();
     let expected = [
         ("base_link", [3, 1, 0, 0]),
@@ -120,7 +120,7 @@ fn a_capsule_is_the_hull_of_its_spheres() {
 }
 
 #[test]
-fn a_sphere_that_is_off_the_end_closes_no_capsule() {
+fn a_sphere_off_the_end_does_not_close_a_capsule() {
     for sphere in ["<origin xyz=\"-0.0261 0 0\"/>", "<origin xyz=\"-0.026 0.0001 0\"/>"] {
         let robot = load(&edited(&[("<origin xyz=\"-0.026 0 0\"/>", sphere)])).unwrap();
         assert_eq!(shapes(&robot, "link_5"), [0, 1, 2, 0]);
@@ -128,7 +128,7 @@ fn a_sphere_that_is_off_the_end_closes_no_capsule() {
 }
 
 #[test]
-fn irb120_masses() {
+fn reads_masses_of_the_irb120() {
     let robot = irb120();
     let mass = |name: &str| {
         let link = robot.links().iter().find(|l| l.name == name).unwrap();
@@ -142,7 +142,7 @@ fn irb120_masses() {
 }
 
 #[test]
-fn irb120_tool_frames() {
+fn reads_tool_frames_of_the_irb120() {
     let robot = irb120();
     let out_of_the_flange = |which, axis: Vector3<f64>| {
         let pose = robot.pose(&JointVector::zeros(), &robot.tool_frame(which).unwrap());
@@ -156,7 +156,7 @@ fn irb120_tool_frames() {
 }
 
 #[test]
-fn irb120_checks_eight_pairs() {
+fn checks_eight_pairs_of_the_irb120() {
     let robot = irb120();
     let disabled = robot.disabled_pairs().unwrap();
     let names: Vec<_> = robot
@@ -241,7 +241,7 @@ fn a_stated_effort_is_a_limit() {
 
 /// URDF's defaults: the axis is x, the origin the identity. An axis of any length is a direction.
 #[test]
-fn joints_without_axis_or_origin() {
+fn joints_without_axis_or_origin_have_defaults() {
     for text in [
         with_joint("joint_4", "<axis xyz=\"1 0 0\"/>", ""),
         with_joint("joint_1", "<origin xyz=\"0 0 0\"/>", ""),
@@ -290,7 +290,7 @@ fn order_and_unknown_elements_do_not_matter() {
 }
 
 #[test]
-fn a_byte_order_mark_is_no_stray_text() {
+fn accepts_a_byte_order_mark() {
     assert!(load(&format!("\u{feff}{}", edited(&[]))).is_ok());
 }
 

@@ -104,7 +104,7 @@ fn assert_same_in_single(found: &[Point3<f64>], expected: &[[f32; 3]]) {
 
 /// Binary STL files from some programs begin with `solid`, and some ASCII files have no name after it.
 #[test]
-fn stl_in_both_forms_whatever_its_first_word() {
+fn reads_ascii_and_binary_stl_by_contents() {
     let triangles = tetrahedron();
     let files = [
         binary_stl("made by hand", &triangles),
@@ -125,13 +125,13 @@ fn stl_in_both_forms_whatever_its_first_word() {
 }
 
 #[test]
-fn obj_without_its_materials() {
+fn reads_obj_without_its_materials() {
     assert_points(&read("part.obj", &obj(), "").unwrap(), &CORNERS, [1.0; 3]);
 }
 
 /// The material file is never opened: a broken one does no harm.
 #[test]
-fn obj_with_a_broken_material_file() {
+fn reads_obj_with_a_broken_material_file() {
     let folder = TempDir::new().unwrap();
     std::fs::write(folder.path().join("part.obj"), obj()).unwrap();
     std::fs::write(folder.path().join("broken.mtl"), "newmtl paint\nKd 0.5\n").unwrap();
@@ -157,7 +157,7 @@ fn scale_is_applied_axis_by_axis() {
 
 /// A description as ROS-Industrial publishes them: a package folder with a mesh for every link.
 #[test]
-fn a_ros_industrial_package() {
+fn reads_meshes_of_a_ros_industrial_package() {
     let root = TempDir::new().unwrap();
     let package = root.path().join("abb_irb120_support");
     let meshes = package.join("meshes/collision");
@@ -196,7 +196,7 @@ fn a_ros_industrial_package() {
 }
 
 #[test]
-fn relative_and_absolute_files() {
+fn reads_meshes_by_relative_and_absolute_paths() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("meshes/part.stl");
     std::fs::create_dir(folder.path().join("meshes")).unwrap();
@@ -216,7 +216,7 @@ fn relative_and_absolute_files() {
 // ---- what is refused ----
 
 #[test]
-fn a_mesh_that_is_missing() {
+fn names_a_missing_mesh() {
     let text = with_mesh("filename=\"package://support/part.stl\"");
     let folder = TempDir::new().unwrap();
     std::fs::create_dir_all(folder.path().join("support/part.stl")).unwrap();
@@ -247,7 +247,7 @@ fn a_mesh_that_is_missing() {
 }
 
 #[test]
-fn a_mesh_that_is_broken() {
+fn names_a_broken_mesh() {
     let triangles = tetrahedron();
     let binary = binary_stl("part", &triangles);
     let ascii = ascii_stl(" part", &triangles);
@@ -294,7 +294,7 @@ fn a_mesh_that_is_broken() {
 }
 
 #[test]
-fn mesh_sizes_that_are_no_lengths() {
+fn rejects_invalid_mesh_scales() {
     let nan = [[[f32::NAN, 0.0, 0.0], CORNERS[1], CORNERS[2]], tetrahedron()[3]];
     let error = read("part.stl", &binary_stl("", &nan), "").unwrap_err();
     assert!(matches!(error, UrdfError::NotFinite { .. }) && error.to_string().contains("link 'link_6': mesh vertex"));

@@ -25,14 +25,14 @@ fn with_limit_2(limit: &str) -> String {
 // ---- limits ----
 
 #[test]
-fn missing_limit() {
+fn rejects_a_missing_limit() {
     assert_refused!(with_limit_2(""), UrdfError::MissingLimit { .. }, "joint_2", "velocity");
     let zeros = r#"<limit lower="0" upper="0" velocity="0" effort="0"/>"#;
     assert_refused!(with_limit_2(zeros), UrdfError::MissingLimit { .. }, "joint_2");
 }
 
 #[test]
-fn missing_limit_of_a_continuous_joint() {
+fn rejects_a_continuous_joint_without_speed_limit() {
     let text = edited(&[
         (LIMIT_2, ""),
         (
@@ -54,7 +54,7 @@ fn missing_limit_of_a_continuous_joint() {
 }
 
 #[test]
-fn missing_velocity() {
+fn rejects_a_missing_velocity() {
     let limit = r#"<limit lower="-1.91986" upper="1.91986" effort="0"/>"#;
     assert_refused!(
         with_limit_2(limit),
@@ -66,7 +66,7 @@ fn missing_velocity() {
 }
 
 #[test]
-fn reversed_limits() {
+fn rejects_reversed_limits() {
     let limit = r#"<limit lower="1.5" upper="-1.25" velocity="4" effort="0"/>"#;
     assert_refused!(
         with_limit_2(limit),
@@ -78,7 +78,7 @@ fn reversed_limits() {
 }
 
 #[test]
-fn empty_limits() {
+fn rejects_empty_limits() {
     let limit = r#"<limit lower="0.5" upper="0.5" velocity="4" effort="0"/>"#;
     assert_refused!(with_limit_2(limit), UrdfError::LimitOrder { .. }, "joint_2", "0.5");
     let without_positions = r#"<limit velocity="4" effort="0"/>"#;
@@ -86,7 +86,7 @@ fn empty_limits() {
 }
 
 #[test]
-fn degrees_instead_of_radians() {
+fn rejects_degrees_instead_of_radians() {
     let limit = r#"<limit lower="-110" upper="110" velocity="250" effort="0"/>"#;
     assert_refused!(
         with_limit_2(limit),
@@ -98,7 +98,7 @@ fn degrees_instead_of_radians() {
 }
 
 #[test]
-fn position_limits_that_are_not_finite() {
+fn rejects_position_limits_that_are_not_finite() {
     for (lower, upper) in [("NaN", "1"), ("-1", "nan"), ("-inf", "1"), ("-1", "Infinity")] {
         let limit = format!(r#"<limit lower="{lower}" upper="{upper}" velocity="4" effort="0"/>"#);
         assert_refused!(
@@ -112,7 +112,7 @@ fn position_limits_that_are_not_finite() {
 }
 
 #[test]
-fn speed_limits_that_are_no_speeds() {
+fn rejects_invalid_speed_limits() {
     for velocity in ["NaN", "inf", "-inf", "0", "-4"] {
         let limit = format!(r#"<limit lower="-1" upper="1" velocity="{velocity}" effort="1"/>"#);
         assert_refused!(
@@ -125,7 +125,7 @@ fn speed_limits_that_are_no_speeds() {
 }
 
 #[test]
-fn effort_that_is_negative_or_nan() {
+fn rejects_negative_or_nan_effort() {
     for effort in ["-5", "NaN", "-inf"] {
         let limit = format!(r#"<limit lower="-1" upper="1" velocity="4" effort="{effort}"/>"#);
         assert_refused!(with_limit_2(&limit), UrdfError::Effort { .. }, "joint_2", &effort[..1]);
@@ -133,7 +133,7 @@ fn effort_that_is_negative_or_nan() {
 }
 
 #[test]
-fn numbers_that_are_words() {
+fn rejects_words_in_place_of_numbers() {
     let limit = r#"<limit lower="minus one" upper="1" velocity="4" effort="0"/>"#;
     assert_refused!(
         with_limit_2(limit),
@@ -152,7 +152,7 @@ fn numbers_that_are_words() {
 // ---- vectors and lengths ----
 
 #[test]
-fn origins_that_are_not_finite() {
+fn rejects_origins_that_are_not_finite() {
     for name in ["joint_2", "flange-tool0"] {
         for origin in [
             r#"xyz="0 0 NaN""#,
@@ -170,7 +170,7 @@ fn origins_that_are_not_finite() {
 }
 
 #[test]
-fn axes_that_have_no_direction() {
+fn rejects_axes_without_direction() {
     for axis in ["0 0 0", "1e-12 0 0", "0 NaN 1", "0 1 inf", "1e300 1e300 0"] {
         let text = with_joint("joint_2", "0 1 0", axis);
         assert_refused!(text, UrdfError::Axis { .. }, "joint_2", "axis");
@@ -178,7 +178,7 @@ fn axes_that_have_no_direction() {
 }
 
 #[test]
-fn millimetres_instead_of_metres() {
+fn rejects_millimetres_instead_of_metres() {
     let text = with_joint("joint_2", "0 0 0.29", "0 0 290");
     assert_refused!(text, UrdfError::TooLong { .. }, "joint_2", "290", "metres");
     let text = edited(&[("size=\"0.1825 0.181 0.017\"", "size=\"182.5 181 17\"")]);
@@ -186,7 +186,7 @@ fn millimetres_instead_of_metres() {
 }
 
 #[test]
-fn collision_shapes_without_size() {
+fn rejects_collision_shapes_without_size() {
     let cases = [
         (
             "<sphere radius=\"0.0255\"/>",
@@ -220,7 +220,7 @@ fn collision_shapes_without_size() {
 }
 
 #[test]
-fn collision_shapes_that_are_not_finite() {
+fn rejects_collision_shapes_that_are_not_finite() {
     let cases = [
         (
             "<sphere radius=\"0.0255\"/>",
@@ -247,7 +247,7 @@ fn collision_shapes_that_are_not_finite() {
 }
 
 #[test]
-fn masses_that_are_none() {
+fn rejects_invalid_masses() {
     let with_mass = |mass: &str| edited(&[("<mass value=\"0.137\"/>", &format!("<mass value=\"{mass}\"/>"))]);
     assert_refused!(with_mass("-0.137"), UrdfError::Mass { .. }, "link_6", "-0.137");
     assert_refused!(with_mass("NaN"), UrdfError::NotFinite { .. }, "link_6", "mass");
@@ -258,7 +258,7 @@ fn masses_that_are_none() {
 // ---- structure ----
 
 #[test]
-fn unknown_parent_and_child() {
+fn rejects_unknown_parent_and_child() {
     let text = with_joint("joint_4", "<parent link=\"link_3\"/>", "<parent link=\"elbow\"/>");
     assert_refused!(text, UrdfError::UnknownLink { .. }, "joint_4", "parent", "elbow");
     let text = with_joint("joint_4", "<child link=\"link_4\"/>", "<child link=\"forearm\"/>");
@@ -266,7 +266,7 @@ fn unknown_parent_and_child() {
 }
 
 #[test]
-fn duplicate_links_and_joints() {
+fn rejects_duplicate_links_and_joints() {
     let text = edited(&[("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"link_3\"/>")]);
     assert_refused!(text, UrdfError::Duplicate { kind: "link", .. }, "links", "link_3");
     let text = with_joint("joint_5", "name=\"joint_5\"", "name=\"joint_4\"");
@@ -274,7 +274,7 @@ fn duplicate_links_and_joints() {
 }
 
 #[test]
-fn a_link_with_two_parents() {
+fn rejects_a_link_with_two_parents() {
     let second =
         r#"<joint name="short_cut" type="fixed"><parent link="link_1"/><child link="link_4"/></joint></robot>"#;
     let text = edited(&[("</robot>", second)]);
@@ -282,7 +282,7 @@ fn a_link_with_two_parents() {
 }
 
 #[test]
-fn a_ring_of_all_links() {
+fn rejects_a_ring_of_all_links() {
     let back = r#"<joint name="back" type="fixed"><parent link="tool0"/><child link="base_link"/></joint></robot>"#;
     assert_refused!(
         edited(&[("</robot>", back)]),
@@ -293,7 +293,7 @@ fn a_ring_of_all_links() {
 }
 
 #[test]
-fn a_ring_apart_from_the_arm() {
+fn rejects_a_ring_apart_from_the_arm() {
     let text = with_joint("link_6-flange", "<parent link=\"link_6\"/>", "<parent link=\"tool0\"/>");
     let error = load(&text).unwrap_err();
     assert!(
@@ -313,14 +313,14 @@ fn a_ring_apart_from_the_arm() {
 }
 
 #[test]
-fn two_roots_and_none() {
+fn rejects_two_roots_and_no_root() {
     let text = edited(&[(joint("flange-tool0"), "")]);
     assert_refused!(text, UrdfError::Roots { .. }, "one root", "base_link, tool0");
     assert_refused!("<robot name=\"void\"/>", UrdfError::Roots { .. }, "one root", "none");
 }
 
 #[test]
-fn five_and_seven_axes() {
+fn rejects_five_and_seven_axes() {
     let five = with_joint("joint_6", "type=\"revolute\"", "type=\"fixed\"");
     assert_refused!(five, UrdfError::AxisCount { .. }, "found 5", "joint_1", "joint_5");
     let seven = with_joint(
@@ -338,13 +338,13 @@ fn five_and_seven_axes() {
 }
 
 #[test]
-fn axes_that_are_not_in_series() {
+fn rejects_axes_that_are_not_in_series() {
     let text = with_joint("joint_6", "<parent link=\"link_5\"/>", "<parent link=\"link_3\"/>");
     assert_refused!(text, UrdfError::Branch { .. }, "joint_6", "joint_4");
 }
 
 #[test]
-fn other_kinds_of_joint() {
+fn rejects_other_kinds_of_joint() {
     for kind in ["prismatic", "floating", "planar", "spherical"] {
         let text = with_joint("joint_3", "type=\"revolute\"", &format!("type=\"{kind}\""));
         assert_refused!(text, UrdfError::JointKind { .. }, "joint_3", kind);
@@ -354,13 +354,13 @@ fn other_kinds_of_joint() {
 }
 
 #[test]
-fn mimic() {
+fn rejects_mimic_joints() {
     let text = with_joint("joint_3", "<axis", "<mimic joint=\"joint_2\" multiplier=\"-1\"/><axis");
     assert_refused!(text, UrdfError::Mimic { .. }, "'joint_3'", "'joint_2'");
 }
 
 #[test]
-fn elements_without_their_parts() {
+fn rejects_elements_without_required_parts() {
     let cases = [
         (
             with_joint("joint_5", "<parent link=\"link_4\"/>", ""),
@@ -397,7 +397,7 @@ fn elements_without_their_parts() {
 // ---- the file itself ----
 
 #[test]
-fn xacro() {
+fn rejects_xacro() {
     let text = edited(&[(
         "<link name=\"base\"/>",
         "<xacro:property name=\"pi\" value=\"3.14\"/><link name=\"base\"/>",
@@ -406,7 +406,7 @@ fn xacro() {
 }
 
 #[test]
-fn another_root_element() {
+fn rejects_another_root_element() {
     assert_refused!(
         "<sdf version=\"1.9\"></sdf>",
         UrdfError::NotARobot { .. },
@@ -424,7 +424,7 @@ fn another_root_element() {
 }
 
 #[test]
-fn text_and_elements_outside_the_root() {
+fn rejects_text_and_elements_outside_the_root() {
     for (after, what) in [
         ("garbage", "outside the root"),
         ("<robot name=\"second\"/>", "<robot> stands after"),
@@ -442,7 +442,7 @@ fn text_and_elements_outside_the_root() {
 }
 
 #[test]
-fn markup_that_is_broken() {
+fn rejects_broken_markup() {
     let cases = [
         ("</link>", "</lnk>"),
         ("<link name=\"link_1\">", "<link name=\"link_1\" name=\"again\">"),
@@ -461,7 +461,7 @@ fn markup_that_is_broken() {
 
 /// The head of the file never loads (but for the white space at its end), the tail never does either.
 #[test]
-fn cut_anywhere() {
+fn rejects_a_description_cut_anywhere() {
     let (root, end) = (IRB120_URDF.find("<robot").unwrap(), IRB120_URDF.trim_end().len());
     let last = (end - 250)..=IRB120_URDF.len();
     for at in (0..end).step_by(41).chain(last) {
@@ -479,14 +479,14 @@ fn cut_anywhere() {
 }
 
 #[test]
-fn cut_names_the_open_element() {
+fn names_the_open_element_of_a_cut_description() {
     let head = &IRB120_URDF[..IRB120_URDF.find("<mass").unwrap()];
     assert_refused!(head, UrdfError::Truncated { .. }, "<inertial>", "line 35", "cut off");
 }
 
 /// On the test's own thread, whose stack is small: a recursive parser would overflow it.
 #[test]
-fn nested_twenty_thousand_deep() {
+fn rejects_elements_nested_twenty_thousand_deep() {
     let deep = format!(
         "<robot name=\"deep\">{}{}</robot>",
         "<link>\n".repeat(20_000),
@@ -498,7 +498,7 @@ fn nested_twenty_thousand_deep() {
 }
 
 #[test]
-fn longer_than_sixteen_mebibytes() {
+fn rejects_descriptions_over_sixteen_mebibytes() {
     let filler = |bytes: usize| " ".repeat(bytes - IRB120_URDF.len());
     let most = 16 << 20;
     assert_refused!(
@@ -521,14 +521,14 @@ fn two_hundred_thousand_links_are_refused_soon() {
 }
 
 #[test]
-fn many_roots_are_not_all_listed() {
+fn lists_only_some_of_many_roots() {
     let links: String = (0..200).map(|k| format!("<link name=\"stray_{k}\"/>\n")).collect();
     let text = format!("<robot name=\"many\">{links}</robot>");
     assert_refused!(text, UrdfError::Roots { .. }, "stray_0", "and 180 more");
 }
 
 #[test]
-fn more_collision_elements_than_can_be_checked() {
+fn rejects_too_many_collision_elements() {
     let ball = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>";
     let text = edited(&[(
         "</robot>",

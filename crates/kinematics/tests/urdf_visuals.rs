@@ -51,7 +51,7 @@ fn finding(robot: &RobotModel) -> String {
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 #[test]
-fn the_built_in_arm_has_its_looks() {
+fn reads_the_visuals_of_the_built_in_arm() {
     let robot = RobotModel::irb120().unwrap();
     assert!(robot.visual_findings().is_empty());
     let all: Vec<_> = robot.links().iter().flat_map(|link| &link.visuals).collect();
@@ -86,7 +86,7 @@ fn solids_have_their_pose_name_and_colour() {
 
 /// Polygons become fans; indices count from 1 or backwards; what follows a slash is not read.
 #[test]
-fn faces_of_obj() {
+fn reads_faces_of_obj() {
     let file = format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1 4//1\nf -4 -3 -1\n");
     let (robot, _folder) = with_file("part.obj", file.as_bytes(), "scale=\"0.5 2 1\"");
     assert!(robot.visual_findings().is_empty(), "{:?}", robot.visual_findings());
@@ -100,7 +100,7 @@ fn faces_of_obj() {
 }
 
 #[test]
-fn triangles_of_stl_and_a_mirror_that_keeps_the_outside() {
+fn mirrored_stl_triangles_keep_their_outside() {
     let text = "solid part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid part\n";
     let (robot, _folder) = with_file("part.stl", text.as_bytes(), "scale=\"-1 1 1\"");
     let corners = [[0.0, 0.0], [0.0, 1.0], [-1.0, 0.0]].map(|[x, y]: [f32; 2]| Point3::new(x, y, 0.0));
@@ -109,7 +109,7 @@ fn triangles_of_stl_and_a_mirror_that_keeps_the_outside() {
 
 /// A visual decides nothing: the arm has the same hash, the same shapes and the same limits with it or without.
 #[test]
-fn what_cannot_be_read_is_named_and_harmless() {
+fn names_unreadable_visuals_without_failing() {
     let dae = "<COLLADA version=\"1.4.1\"><asset><unit meter=\"0.001\"/><up_axis>Z_UP</up_axis></asset>\
         <library_visual_scenes><visual_scene id=\"s\"><node><translate>1 2 3</translate></node></visual_scene>\
         </library_visual_scenes></COLLADA>";
@@ -158,14 +158,14 @@ fn what_cannot_be_read_is_named_and_harmless() {
 }
 
 #[test]
-fn the_hash_of_an_arm_does_not_depend_on_its_looks() {
+fn the_hash_of_an_arm_does_not_depend_on_its_visuals() {
     let good = format!("{SQUARE}f 1 2 3\n");
     let hash = |file: &str| with_file("part.obj", file.as_bytes(), "").0.sha256().to_owned();
     assert_eq!(hash(&good), hash("nonsense"));
 }
 
 #[test]
-fn a_missing_mesh_and_a_size_that_is_none_are_named() {
+fn names_a_missing_mesh_and_an_invalid_scale() {
     let folder = TempDir::new().unwrap();
     let of = |geometry: &str| {
         let text = with(&format!(
@@ -184,7 +184,7 @@ fn a_missing_mesh_and_a_size_that_is_none_are_named() {
 
 /// More than anybody could look at: what comes first is shown, the rest is named.
 #[test]
-fn there_is_an_end_to_visuals_and_triangles() {
+fn bounds_visuals_and_triangles() {
     let folder = TempDir::new().unwrap();
     let many = "<visual><geometry><sphere radius=\"0.01\"/></geometry></visual>".repeat(MAX_VISUALS);
     let robot = load(&with(&many), folder.path());
@@ -213,7 +213,7 @@ fn there_is_an_end_to_visuals_and_triangles() {
 proptest! {
     /// Whatever stands in a mesh, it is shown or named.
     #[test]
-    fn a_damaged_mesh_is_no_trouble(text in "[vf0-9 /.\\-\n]{0,120}", binary in prop::collection::vec(any::<u8>(), 0..300)) {
+    fn damaged_meshes_never_panic(text in "[vf0-9 /.\\-\n]{0,120}", binary in prop::collection::vec(any::<u8>(), 0..300)) {
         let obj = format!("{SQUARE}f 1 2 3 4\n{text}");
         for (name, bytes) in [("part.obj", obj.as_bytes()), ("part.stl", binary.as_slice()), ("part.stl", text.as_bytes())] {
             let (robot, _folder) = with_file(name, bytes, "");

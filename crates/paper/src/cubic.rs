@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn degenerate_input_is_no_trap() {
+    fn accepts_degenerate_input() {
         assert!(sample(&[], Interpolation::C2Spline, 5).is_empty());
         assert_eq!(sample(&[Vector3::x()], Interpolation::ZeroVelocity, 5), [Vector3::x()]);
     }

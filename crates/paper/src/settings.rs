@@ -182,7 +182,7 @@ mod tests {
     type Change = fn(&mut PaperSettings);
 
     #[test]
-    fn settings_with_which_nothing_can_be_computed_are_refused_by_name() {
+    fn rejects_unusable_settings_by_name() {
         assert_eq!(PaperSettings::appendix().validate(), Ok(()));
         let cases: [(&str, Change); 9] = [
             ("spiral.points", |s| s.spiral.points = 1),
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_are_read_as_they_are_written_and_unknown_ones_refused() {
+    fn reads_settings_and_rejects_unknown_keys() {
         let mut value = serde_json::to_value(PaperSettings::appendix()).unwrap();
         assert_eq!(
             serde_json::from_value::<PaperSettings>(value.clone()).unwrap(),

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn too_much_work_is_refused_before_it_is_begun() {
+    fn refuses_too_much_work_before_it_begins() {
         assert_eq!(of_points(55).waypoints_at_most(4), 4 * (55 + 50));
         assert_eq!(of_points(49_950).check_waypoints(4), Ok(()));
         let message = of_points(49_951).check_waypoints(4).unwrap_err().to_string();

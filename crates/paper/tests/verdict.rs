@@ -102,7 +102,7 @@ fn a_hovering_flange_washes_nothing() {
 }
 
 #[test]
-fn limits_that_are_broken_are_named_with_their_time() {
+fn names_broken_limits_with_their_time() {
     let report = judged(|s| s.simulation.control.dt_s = 0.1);
     assert_eq!(report.verdict, Verdict::NotVerified);
     assert_eq!(
@@ -163,7 +163,7 @@ fn a_control_law_that_diverges_is_an_error() {
 }
 
 #[test]
-fn jobs_with_which_nothing_can_be_computed_are_refused() {
+fn rejects_unusable_jobs() {
     type Change = fn(&mut PaperJob);
     type Refusal = fn(&PaperError) -> bool;
     let cases: [(Change, Refusal); 7] = [

@@ -383,7 +383,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_the_path_its_ends_are_given_and_nan_is_passed_on() {
+    fn returns_the_ends_outside_the_path_and_passes_nan_on() {
         let path = JointPath::through(
             vec![0.0, 1.0],
             vec![JointVector::zeros(), JointVector::repeat(1.0)],
@@ -396,7 +396,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_are_no_path_are_refused() {
+    fn rejects_samples_that_form_no_path() {
         let q = JointVector::zeros();
         let through = |u: &[f64], q: &[JointVector]| JointPath::through(u.to_vec(), q.to_vec(), Ends::NotAKnot);
         assert_eq!(through(&[], &[]), Err(JointPathError::TooFew { samples: 0 }));

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_visit_takes_no_time() {
+    fn an_empty_tour_takes_no_time() {
         let none = TravelTimes {
             out: vec![],
             between: vec![],

@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn the_area_of_any_reach_is_one() {
+    fn a_map_area_exists_for_any_reach() {
         for reach_m in [f64::NAN, 0.0, 0.01, 0.82, 1.0, 3.5, 900.0, 1e9, f64::INFINITY] {
             let area = MapArea::about([0.0, 0.0], reach_m);
             assert_eq!(area.check(), Ok(()), "{reach_m}: {area:?}");

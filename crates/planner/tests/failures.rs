@@ -37,7 +37,7 @@ fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
 }
 
 #[test]
-fn no_other_place_is_looked_for_where_nobody_asks() {
+fn searches_other_positions_only_on_request() {
     let error = plan(&on(&[[0.40, 0.0], [0.1, 0.56]], false)).unwrap_err();
     let PlanError::Unwashable(plate) = &error else {
         panic!("{error}");
@@ -51,7 +51,7 @@ fn no_other_place_is_looked_for_where_nobody_asks() {
 
 /// Whoever waits is told what is tried: washings, what is in the way, other places and jobs there.
 #[test]
-fn an_infeasible_job_says_what_it_is_trying() {
+fn an_infeasible_job_reports_its_attempts() {
     let heard = Mutex::new(Vec::new());
     let listener = |activity: &Activity| heard.lock().unwrap().push(*activity);
     let cancel = CancelToken::new();
@@ -75,7 +75,7 @@ fn an_infeasible_job_says_what_it_is_trying() {
 
 /// A line that is not clear is that of the configurations taken; out of reach is out of reach.
 #[test]
-fn what_is_known_to_be_impossible_is_told_from_what_was_not_found() {
+fn distinguishes_proved_impossible_from_not_found() {
     let low = job(|terms, settings| {
         terms.plates = vec![kitchen_plate([0.40, 0.0])];
         settings.lift_m = 0.005;
@@ -89,7 +89,7 @@ fn what_is_known_to_be_impossible_is_told_from_what_was_not_found() {
 }
 
 #[test]
-fn what_cannot_be_planned_is_refused_before_anything_is_searched_for() {
+fn rejects_impossible_jobs_before_any_search() {
     assert_eq!(check(kitchen().arm(), kitchen().terms()), Ok(()));
     let without = job(|terms, _| terms.workcell.tool = Tool::from(StraightTool::default()));
     assert_eq!(check(without.arm(), without.terms()), Err(PlanError::NoTool));
@@ -127,7 +127,7 @@ fn what_cannot_be_planned_is_refused_before_anything_is_searched_for() {
 }
 
 #[test]
-fn draws_that_fail_and_layouts_that_never_do_are_told_apart() {
+fn distinguishes_failed_draws_from_impossible_layouts() {
     let (job, cancel) = (kitchen(), CancelToken::new());
     let watch = Watch::silent(&cancel);
     let invalid = LayoutError::InvalidPosition { plate: 0 };
@@ -148,7 +148,7 @@ fn draws_that_fail_and_layouts_that_never_do_are_told_apart() {
 
 /// Planning ends within a fraction of a second of being told to, whatever it is busy with.
 #[test]
-fn planning_is_given_up_wherever_it_is() {
+fn planning_can_be_cancelled_at_any_stage() {
     let job = on(&[[0.40, 0.0], [0.1, 0.56]], true);
     let kinds: [fn(&Activity) -> bool; 4] = [
         |a| matches!(a, Activity::Wash { .. }),

@@ -98,7 +98,7 @@ fn the_shipped_jobs_move_as_committed() {
 
 /// Whoever listens changes nothing.
 #[test]
-fn the_kitchen_moves_as_it_always_did() {
+fn the_kitchen_plan_has_the_committed_knots() {
     let job = kitchen();
     let planned = plan(&job).unwrap();
     assert_eq!(hash(&planned.plan.knots), "c65caafc423eac2d");

@@ -39,7 +39,7 @@ fn silently<T>(act: impl FnOnce(&Watch<'_>) -> T) -> T {
 }
 
 #[test]
-fn what_is_planned_here_is_the_plan_to_the_byte() {
+fn the_outlook_plans_the_same_bytes() {
     for relocate in [false, true] {
         let single = on(&[[0.40, 0.0]], relocate);
         let four = job(|_, settings| settings.relocate = relocate);
@@ -55,7 +55,7 @@ fn what_is_planned_here_is_the_plan_to_the_byte() {
 
 /// All but the place: that is looked for neither way where the job does not ask, and later where it does.
 #[test]
-fn what_is_not_planned_here_is_refused_in_the_same_words() {
+fn the_outlook_fails_with_the_error_of_planning() {
     let asks_not = on(&MIXED, false);
     let error = silently(|watch| plan_here(&asks_not, watch)).unwrap_err();
     assert_eq!(error, plan(&asks_not).unwrap_err());
@@ -92,7 +92,7 @@ fn what_is_not_planned_here_is_refused_in_the_same_words() {
 
 /// Typed in together, the places that are told leave nothing that cannot be washed.
 #[test]
-fn the_places_of_several_plates_suit_each_other() {
+fn suggested_positions_of_several_plates_are_compatible() {
     let places = [[0.40, 0.0], [0.0, 0.72], [0.05, 0.75]];
     let job = on(&places, true);
     let first = refused(plan(&job)).unwrap();
@@ -109,7 +109,7 @@ fn the_places_of_several_plates_suit_each_other() {
 }
 
 #[test]
-fn every_plate_that_fails_is_named_and_the_one_that_planning_names_among_them() {
+fn names_every_failed_plate_including_that_of_planning() {
     let all = silently(|watch| unwashable_plates(&on(&MIXED, true), watch)).unwrap();
     assert_eq!(all.iter().map(|plate| plate.plate).collect::<Vec<_>>(), [1, 2, 3]);
     let (mut some, mut none) = (0, 0);
@@ -151,7 +151,7 @@ fn every_plate_that_fails_is_named_and_the_one_that_planning_names_among_them() 
 }
 
 #[test]
-fn a_plate_told_to_be_unwashable_is_one_that_planning_fails_for() {
+fn planning_fails_for_plates_reported_unwashable() {
     let mut told = [0; 3];
     for seed in 0..14 {
         let job = scattered(seed, false);
@@ -178,7 +178,7 @@ fn a_plate_told_to_be_unwashable_is_one_that_planning_fails_for() {
 }
 
 #[test]
-fn plates_that_overlap_are_looked_at_and_planned_where_the_job_allows_it() {
+fn plans_overlapping_plates_where_the_job_allows_it() {
     let job = on(&[[0.40, 0.0], [0.40, 0.1]], false);
     let outlooks = silently(|watch| outlook(&job, watch)).unwrap();
     assert!(outlooks.iter().all(|outlook| outlook.chance == Chance::Washable));
@@ -311,7 +311,7 @@ fn answers_do_not_depend_on_the_number_of_threads() {
 
 /// Every square once, coarse to fine, counted, those of a size along the border of the coarser ones.
 #[test]
-fn a_map_is_told_square_by_square() {
+fn streams_a_map_square_by_square() {
     let job = kitchen();
     let area = MapArea {
         step_m: 0.03,
@@ -378,7 +378,7 @@ fn nothing_is_washable_beyond_reach() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused() {
+fn rejects_invalid_numbers() {
     let job = kitchen();
     let missing = PlanError::Plate { plate: 4, count: 4 };
     let area = MapArea::within_reach(&job, 0).unwrap();
@@ -421,7 +421,7 @@ fn job_of_the_paper() -> WashJob {
 
 /// Bent forward, the tool is in the floor: nothing is washable then, as nothing is planned.
 #[test]
-fn a_home_that_is_not_clear_is_no_outlook() {
+fn refuses_an_outlook_from_a_home_in_collision() {
     let low = job(|terms, _| terms.home_rad[1] = [0.0, 90.0, 0.0, 0.0, 0.0, 0.0].map(f64::to_radians).into());
     let error = plan(&low).unwrap_err();
     assert!(matches!(error, PlanError::HomeNotClear { .. }), "{error}");
@@ -436,7 +436,7 @@ fn a_home_that_is_not_clear_is_no_outlook() {
 }
 
 #[test]
-fn whatever_is_given_up_ends_at_once() {
+fn cancelled_work_ends_at_once() {
     let job = on(&MIXED, true);
     let cancel = CancelToken::new();
     cancel.cancel();
@@ -454,7 +454,7 @@ fn whatever_is_given_up_ends_at_once() {
 
 /// Told in the midst of it: no later patch comes, and the end is near.
 #[test]
-fn a_map_and_a_search_are_given_up_in_the_midst() {
+fn a_map_and_a_search_can_be_cancelled_halfway() {
     let job = on(&MIXED, true);
     let area = MapArea::within_reach(&job, 1).unwrap();
     let cancel = CancelToken::new();

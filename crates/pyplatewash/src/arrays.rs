@@ -77,14 +77,14 @@ impl<'py> Numbers<'py> {
     ///
     /// # Errors
     /// `ShapeError`, `InputTypeError` for what holds no real numbers, or whatever a foreign object raises itself.
-    pub fn read(name: &str, value: &Bound<'py, PyAny>, wanted: ExpectedShape) -> PyResult<Self> {
+    pub fn read(name: &str, value: &Bound<'py, PyAny>, expected: ExpectedShape) -> PyResult<Self> {
         let plain = value.get_type().is(PyUntypedArray::type_object(value.py()));
         let array = match value.cast::<PyArrayDyn<f64>>() {
             Ok(array) if plain && array.is_c_contiguous() && array.is_aligned() => array.clone(),
             _ => convert(name, value)?,
         };
-        let Some(stacked) = wanted.items(array.shape()) else {
-            return Err(errors::shape(value.py(), name, array.shape(), &wanted.words()));
+        let Some(stacked) = expected.items(array.shape()) else {
+            return Err(errors::shape(value.py(), name, array.shape(), &expected.words()));
         };
         let array = array
             .try_readonly()

@@ -28,7 +28,7 @@ pub struct ClearanceObject {
     inner: ClearanceModel,
     /// `T_world_base`, where the base is not the world.
     mount: Option<Pose>,
-    made_of: ModelSource,
+    source: ModelSource,
 }
 
 /// Source of a clearance model.
@@ -119,7 +119,7 @@ impl ClearanceObject {
         Ok(Self {
             inner,
             mount: None,
-            made_of: ModelSource::Arguments(robot.clone().unbind(), tool.map(Bound::unbind), plates),
+            source: ModelSource::Arguments(robot.clone().unbind(), tool.map(Bound::unbind), plates),
         })
     }
 
@@ -141,7 +141,7 @@ impl ClearanceObject {
         Ok(Self {
             inner,
             mount,
-            made_of: ModelSource::Job(job.unbind()),
+            source: ModelSource::Job(job.unbind()),
         })
     }
 
@@ -257,12 +257,12 @@ impl ClearanceObject {
 
 impl ClearanceObject {
     fn is_of_job(&self) -> bool {
-        matches!(self.made_of, ModelSource::Job(_))
+        matches!(self.source, ModelSource::Job(_))
     }
 
     /// Arguments that make the same model again.
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        match &self.made_of {
+        match &self.source {
             ModelSource::Arguments(robot, tool, plates) => (robot, tool, plates).into_pyobject(py),
             ModelSource::Job(job) => (job,).into_pyobject(py),
         }

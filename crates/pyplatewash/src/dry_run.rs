@@ -22,10 +22,10 @@ pub struct DryRunSettings {
 ///
 /// # Errors
 /// `PlanError`; `InputError` for a height or a speed that is none; `ProveError`.
-pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: DryRunSettings) -> PyResult<Plan> {
+pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, settings: DryRunSettings) -> PyResult<Plan> {
     let (parent, arm) = (parent.clone(), arm.clone());
     let work = move |cancel: &CancelToken| {
-        let job = dry_run_job(&parent, &arm, asked.height_m, asked.speed_m_s).map_err(DryRunFailure::DryRun)?;
+        let job = dry_run_job(&parent, &arm, settings.height_m, settings.speed_m_s).map_err(DryRunFailure::DryRun)?;
         let (parent, _) = certify_with(parent, &arm, cancel)
             .map_err(DryRunFailure::Parent)?
             .into_parts();
@@ -34,7 +34,7 @@ pub fn planned(py: Python<'_>, parent: &Plan, arm: &Arc<RobotModel>, asked: DryR
         check_paths(&parent, &planned.plan).map_err(DryRunFailure::DryRun)?;
         Ok(planned.plan)
     };
-    patiently(py, work)?.map_err(|refused: DryRunFailure| refused.raised(py))
+    patiently(py, work)?.map_err(|failure: DryRunFailure| failure.raised(py))
 }
 
 /// Failure of a dry run: of its job, of its parent's certificate or of its plan.

@@ -114,10 +114,10 @@ fn view(
 }
 
 /// The executed motion with its report, for a page.
-fn executed(done: &FinishedSimulation) -> Result<ExecutedMotion, SimulationError> {
-    let Question { plan, arm, settings } = &done.question;
-    let report = SimulationReport::new(plan, arm, settings, &done.execution)?;
-    Ok(ExecutedMotion::simulated(&done.execution, &report))
+fn executed(finished: &FinishedSimulation) -> Result<ExecutedMotion, SimulationError> {
+    let Question { plan, arm, settings } = &finished.question;
+    let report = SimulationReport::new(plan, arm, settings, &finished.execution)?;
+    Ok(ExecutedMotion::simulated(&finished.execution, &report))
 }
 
 /// The page of a plan.

@@ -125,7 +125,7 @@ mod tests {
     use std::os::unix::ffi::OsStrExt;
 
     #[test]
-    fn any_path_of_the_system_is_valid() {
+    fn accepts_any_path_of_the_system() {
         let mut scenario = Scenario::load("paper-text").unwrap();
         let path = OsStr::from_bytes(b"arm\xff.urdf");
         scenario.robot.urdf = Some(path.into());

@@ -91,7 +91,7 @@ mod tests {
     use platewash_workcell::cancel::CancelToken;
 
     #[test]
-    fn a_certified_job_without_a_home_has_the_one_suggested_and_says_so() {
+    fn a_job_without_a_home_uses_and_reports_the_suggested_one() {
         let mut scenario = Scenario::load("kitchen").unwrap();
         scenario.robot.start_deg = None;
         assert_eq!(scenario.validate(), Ok(()));
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_suggested_suits() {
+    fn suggested_homes_are_accepted() {
         let (scenario, cancel) = (Scenario::load("angled-tool").unwrap(), CancelToken::new());
         let arm = scenario.arm().unwrap();
         let suggestion = scenario.suggest(&arm, &Watch::silent(&cancel)).unwrap();

@@ -84,7 +84,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn changes_case_by_case() {
+fn changes_of_a_draft_give_the_expected_texts() {
     for (text, key, value, expected) in CASES {
         let value = serde_json::from_str(value).unwrap();
         let found = std::panic::catch_unwind(|| changed(text, key, value)).unwrap_or_else(|_| "PANIC".to_owned());
@@ -95,7 +95,7 @@ fn changes_case_by_case() {
 }
 
 #[test]
-fn what_cannot_be_kept_is_left_to_its_author() {
+fn refuses_edits_that_cannot_keep_the_text() {
     for text in [
         "wash = {\n  turns = 3, # t\n}\n",
         "wash.turns = 3\nseed = 1\nwash.lift_m = 0.03\n",
@@ -110,7 +110,7 @@ fn what_cannot_be_kept_is_left_to_its_author() {
 }
 
 #[test]
-fn values_are_refused_in_the_words_of_files() {
+fn rejects_values_with_the_messages_of_files() {
     let of_file = |line: &str| {
         let message = Scenario::parse(line, "case").unwrap_err().to_string();
         message.strip_prefix("scenario case, line 1: ").unwrap().to_owned()
@@ -158,7 +158,7 @@ fn values_are_refused_in_the_words_of_files() {
 }
 
 #[test]
-fn what_is_in_the_way_is_named_with_its_line() {
+fn names_the_conflicting_line_of_an_edit() {
     for (text, key, line) in [
         ("# a\nwash = 3\n", "wash.turns", 2),
         ("seed = 1\n[[wash]]\nturns = 1\n", "wash.turns", 2),
@@ -186,7 +186,7 @@ fn texts_that_are_too_long_are_refused() {
 }
 
 #[test]
-fn errors_say_which_key_they_are_about() {
+fn errors_name_their_key() {
     let key = |text: &str| Scenario::parse(text, "case").unwrap_err().key().map(str::to_owned);
     assert_eq!(key("wash.turns = -1").as_deref(), Some("wash.turns"));
     assert_eq!(key("wash.tunrs = 1").as_deref(), Some("wash.tunrs"));
@@ -198,7 +198,7 @@ fn errors_say_which_key_they_are_about() {
 }
 
 #[test]
-fn a_draft_states_what_the_scenario_has() {
+fn a_draft_states_the_values_of_its_scenario() {
     for shipped in SHIPPED {
         let draft = Draft::new(shipped.text).unwrap();
         let scenario = draft.scenario(shipped.name, None).unwrap();

@@ -133,7 +133,7 @@ fn rest_stays(before: &str, after: &str, key: &Key) -> Result<(), TestCaseError>
 }
 
 #[test]
-fn a_text_that_is_not_changed_is_the_same() {
+fn an_unchanged_draft_keeps_its_text() {
     for (name, text) in texts() {
         let mut draft = Draft::new(text).unwrap();
         assert_eq!(draft.text(), text, "{name}");
@@ -190,7 +190,7 @@ proptest! {
     }
 
     #[test]
-    fn out_and_in_again_states_the_same(text in text(), (key, value) in change()) {
+    fn removing_and_adding_a_key_states_the_same(text in text(), (key, value) in change()) {
         let mut draft = Draft::new(text).unwrap();
         let before = draft.stated();
         if is_in_long_braces(text, key.path) {
@@ -214,7 +214,7 @@ proptest! {
 
     /// Nothing panics, nothing that is refused changes anything, and what is taken is what files may have.
     #[test]
-    fn nonsense_is_refused_or_taken_as_files_have_it(text in text(), (key, _) in change(), value in nonsense()) {
+    fn treats_nonsense_as_files_do(text in text(), (key, _) in change(), value in nonsense()) {
         let mut draft = Draft::new(text).unwrap();
         match draft.set(key.path, Some(&value)) {
             Ok(()) => {
@@ -238,7 +238,7 @@ proptest! {
 
     /// Texts that are damaged at random are refused, or can be changed, or say which line is in the way.
     #[test]
-    fn damaged_texts_do_no_harm(
+    fn damaged_texts_never_panic(
         text in text(),
         cuts in prop::collection::vec((any::<prop::sample::Index>(), "[\\[\\]{}=.,#\"'\n\ra-z0-9 ]{0,3}"), 1..5),
         (key, value) in change(),

@@ -75,7 +75,7 @@ fn every_shape_becomes_an_obstacle() {
 }
 
 #[test]
-fn floors_and_tables_are_obstacles_of_their_own() {
+fn floors_and_tables_become_obstacles() {
     let found = obstacles(
         "[floor]\nheight_m = -0.7\nmargin_m = 0.1\n[table]\nsize_m = [1.2, 1.4]\nat_m = [0.3, 0]\nthickness_m = 0.04\n",
     );
@@ -86,7 +86,7 @@ fn floors_and_tables_are_obstacles_of_their_own() {
 
 /// A scenario without any is written as before, and one with all of it is read back the same.
 #[test]
-fn obstacles_stand_in_what_is_written_and_read_back() {
+fn obstacles_survive_writing_and_reading() {
     let all = named(
         "a",
         "shape = \"box\"\nsize_m = [0.2, 0.4, 0.6]\nat_m = [0.9, 0, 0.3]\nholds_plates = [0]",
@@ -106,7 +106,7 @@ fn obstacles_stand_in_what_is_written_and_read_back() {
 }
 
 #[test]
-fn what_is_wrong_is_named_with_its_key_and_line() {
+fn errors_name_key_and_line() {
     let cases = [
         (
             "[[obstacle]]\nname = \"a\"\nshape = \"cube\"\n",
@@ -203,7 +203,7 @@ fn what_is_wrong_is_named_with_its_key_and_line() {
 }
 
 #[test]
-fn names_belong_to_one_body() {
+fn rejects_a_name_of_two_bodies() {
     let far = "shape = \"sphere\"\nradius_m = 0.1\nat_m = [-1, 0, 0]";
     let twice = format!("{}{}", named("a", far), named("a", far));
     assert!(refused(&twice).contains("obstacle[1].name: 'a' is the name of obstacle[0] already"));
@@ -232,7 +232,7 @@ fn names_belong_to_one_body() {
 }
 
 #[test]
-fn what_stands_in_a_plate_or_in_the_base_is_refused_by_both_names() {
+fn rejects_an_obstacle_in_a_plate_or_the_base_by_both_names() {
     let rack = "shape = \"box\"\nsize_m = [0.1, 0.1, 0.1]\nat_m = [0.35, 0.2, 0.05]";
     let said = refused(&named("rack", rack));
     assert!(
@@ -342,7 +342,7 @@ fn meshes_are_hulls_or_parts_and_a_job_has_their_points() {
 }
 
 #[test]
-fn meshes_that_are_none_are_refused_by_obstacle_and_file() {
+fn rejects_invalid_meshes_by_obstacle_and_file() {
     let folder = tempfile::tempdir().unwrap();
     let million = {
         let mut stl = vec![0_u8; 84 + 50 * 1_000_000];

@@ -23,7 +23,7 @@ fn of(folder: &Path, body: &str) -> Result<Tool, Failure> {
 }
 
 #[test]
-fn a_box_out_of_a_file_is_the_box() {
+fn a_box_from_a_mesh_file_equals_the_box() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("box.obj"), BOX).unwrap();
     let plain = of(
@@ -46,7 +46,7 @@ fn a_box_out_of_a_file_is_the_box() {
 }
 
 #[test]
-fn a_job_has_the_points_and_no_file() {
+fn a_job_holds_the_points_of_a_mesh_and_no_file() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("box.obj"), BOX).unwrap();
     let body = format!("shape = \"mesh\"\nmesh = \"box.obj\"\nmesh_scale = [0.001, 0.001, 0.001]\n{PLACE}");

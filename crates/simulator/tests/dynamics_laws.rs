@@ -61,7 +61,7 @@ proptest! {
     }
 
     #[test]
-    fn not_finite_in_not_finite_out(joint in 0..6usize, bad in prop::sample::select(vec![f64::NAN, f64::INFINITY])) {
+    fn non_finite_input_gives_non_finite_output(joint in 0..6usize, bad in prop::sample::select(vec![f64::NAN, f64::INFINITY])) {
         let (_, _, model) = fixture("irb120");
         let fine = JointVector::repeat(0.3);
         let mut broken = fine;

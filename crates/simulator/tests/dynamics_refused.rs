@@ -86,7 +86,7 @@ fn a_point_on_the_last_axis_resists_nothing() {
 }
 
 #[test]
-fn tools_are_checked_and_weigh_what_they_state() {
+fn tools_have_their_stated_mass() {
     let robot = RobotModel::irb120().unwrap();
     let bare = DynamicsModel::new(&robot, None).unwrap();
     let tool = StraightTool {

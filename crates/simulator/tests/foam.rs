@@ -79,16 +79,16 @@ impl Cell {
 
 /// By hand: 20 kPa, 5 mm of 25 mm, a radius of 25 mm: 4 kPa, 7.85 N.
 #[test]
-fn an_upright_sponge_is_pushed_with_what_a_hand_works_out() {
+fn the_force_on_an_upright_sponge_agrees_with_hand_calculation() {
     let cell = cell(Surface::Disc { radius_m: 0.145 }, foam(2e4));
     let q = cell.reach([0.05, 0.02, 0.0], [0.0; 2]).unwrap();
     let push = cell.sponge.push(&cell.model, &PlantState::at_rest(q));
     let force = 4000.0 * std::f64::consts::PI * 0.025 * 0.025;
     assert!(
-        (force - 7.854).abs() < 1e-3 && (push.felt.force_n - force).abs() < 1e-6,
+        (force - 7.854).abs() < 1e-3 && (push.load.force_n - force).abs() < 1e-6,
         "{push:?}"
     );
-    assert!((push.felt.deepest_m - 0.005).abs() < 1e-9 && (push.energy_j - 0.5 * force * 0.005).abs() < 1e-8);
+    assert!((push.load.deepest_m - 0.005).abs() < 1e-9 && (push.energy_j - 0.5 * force * 0.005).abs() < 1e-8);
     let tip = tool().tip_frame(&cell.robot);
     let by_hand = cell.model.torque_of_force(&q, &tip, &Vector3::new(0.0, 0.0, force));
     assert!((push.torque - by_hand).amax() < 1e-6, "{} {by_hand}", push.torque);
@@ -100,7 +100,7 @@ fn an_upright_sponge_is_pushed_with_what_a_hand_works_out() {
 }
 
 #[test]
-fn what_is_far_from_every_plate_feels_nothing() {
+fn a_sponge_far_from_every_plate_feels_no_force() {
     let cell = cell(Surface::Disc { radius_m: 0.145 }, foam(2e4));
     for tip in [[0.05, 0.02, 0.0051], [0.0, 0.0, 0.3], [0.0, 0.175, 0.0]] {
         let Some(q) = cell.reach(tip, [0.0; 2]) else {
@@ -108,7 +108,7 @@ fn what_is_far_from_every_plate_feels_nothing() {
         };
         let push = cell.sponge.push(&cell.model, &PlantState::at_rest(q));
         assert_eq!(
-            (push.felt.force_n, push.energy_j, push.torque),
+            (push.load.force_n, push.energy_j, push.torque),
             (0.0, 0.0, JointVector::zeros())
         );
     }
@@ -185,7 +185,7 @@ proptest! {
 
     /// Damping takes energy and the foam never pulls: the power of damped less undamped torques is not positive.
     #[test]
-    fn damping_only_takes(
+    fn damping_only_removes_energy(
         surface in surfaces(),
         deep in 0.0..0.012_f64,
         speeds in prop::array::uniform6(-0.5..0.5_f64),
@@ -197,7 +197,7 @@ proptest! {
         let state = PlantState { q, qd: JointVector::from(speeds) };
         let [with, without] = [&damped, &free].map(|cell| cell.sponge.push(&cell.model, &state));
         prop_assert!((with.torque - without.torque).dot(&state.qd) <= 1e-12);
-        prop_assert!(with.felt.force_n >= 0.0);
+        prop_assert!(with.load.force_n >= 0.0);
     }
 }
 
@@ -235,7 +235,7 @@ fn dropped(surface: Surface, contact: Option<FoamContact>, integrator: Integrato
         lowest = lowest.min(energy.potential_j);
         if contact.is_some() {
             let push = cell.sponge.push(&cell.model, &state);
-            deepest_m = deepest_m.max(push.felt.deepest_m);
+            deepest_m = deepest_m.max(push.load.deepest_m);
             all.push(energy.total_j() + push.energy_j);
             let next = plant.step_on(&cell.sponge, &state, &JointVector::zeros(), h).0;
             // The work on the way, by the mean torque of its two ends.
@@ -300,7 +300,7 @@ fn an_arm_that_is_dropped_on_damped_foam_loses_energy_all_the_way() {
 /// half of what it has in 10 s at 1 kHz. Foam adds nothing to that: its work is paid for by its energy for all of 10 s; and as long as the
 /// arm is slow enough for the steps, all is kept on it, too.
 #[test]
-fn with_eulers_steps_it_is_the_arm_that_gains_and_not_the_foam() {
+fn euler_steps_add_energy_through_the_arm_and_not_the_foam() {
     let euler = Integrator::SemiImplicitEuler;
     let most = |energies: &[f64]| energies.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     for surface in plates_to_drop_on() {
@@ -329,7 +329,7 @@ fn the_slope_is_that_of_the_torques() {
     let q = cell.reach([0.05, 0.02, -0.003], [0.1, 0.05]).unwrap();
     let [slope, dense] = cell.sponge.slopes(&cell.model, &q, 0);
     let upright = cell.sponge.push(&cell.model, &PlantState::at_rest(q));
-    assert!(upright.felt.deepest_m < DENSE_STRAIN * 0.025);
+    assert!(upright.load.deepest_m < DENSE_STRAIN * 0.025);
     // Where the force is small its lever does not matter: the energy of no force is ½ δqᵀ S δq.
     let stiffest = slope.stiffness.symmetric_eigenvalues().max();
     let differences = nalgebra::Matrix6::from_fn(|i, j| {

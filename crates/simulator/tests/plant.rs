@@ -63,7 +63,7 @@ proptest! {
 proptest! {
     /// Halving the step divides Runge–Kutta's error by 2⁴, Euler's by 2.
     #[test]
-    fn steps_have_their_order(q in vector(1.0), qd in vector(1.0)) {
+    fn integrators_have_their_order(q in vector(1.0), qd in vector(1.0)) {
         let model = irb120().1;
         let torque = model.gravity_torque(&q);
         let end = |integrator: Integrator, steps: u32| {
@@ -108,7 +108,7 @@ proptest! {
 }
 
 #[test]
-fn limits_cut_and_are_shared() {
+fn torque_limits_cut_torques_and_give_their_shares() {
     let (robot, model) = irb120();
     let free = Plant::new(model.clone(), robot.limits(), &PlantSettings::default());
     let torque = JointVector::repeat(-1e9);

@@ -62,7 +62,7 @@ fn a_stiff_arm_presses_as_planned_and_a_soft_one_less() {
             execution
                 .samples
                 .iter()
-                .all(|sample| sample.felt.is_some_and(|felt| felt.force_n.is_finite()))
+                .all(|sample| sample.load.is_some_and(|felt| felt.force_n.is_finite()))
         );
         let means: Vec<_> = pressings(&report)
             .iter()
@@ -139,7 +139,7 @@ fn every_law_is_stable_at_a_kilohertz_over_the_whole_range() {
                 let forces: Vec<_> = execution
                     .samples
                     .iter()
-                    .map(|sample| sample.felt.unwrap().force_n)
+                    .map(|sample| sample.load.unwrap().force_n)
                     .collect();
                 let most = forces.iter().copied().fold(0.0, f64::max);
                 let jump = forces
@@ -158,7 +158,7 @@ fn every_law_is_stable_at_a_kilohertz_over_the_whole_range() {
 }
 
 #[test]
-fn foam_that_is_too_stiff_is_refused_with_what_would_do() {
+fn too_stiff_foam_is_refused_with_a_remedy() {
     let (robot, plan) = planned();
     let mut settings = under(ControlLawName::ComputedTorque, 30.0, foam(5e8));
     let refused = simulate(plan, robot, &settings).unwrap_err();
@@ -185,7 +185,7 @@ fn foam_that_is_too_stiff_is_refused_with_what_would_do() {
 }
 
 #[test]
-fn what_is_no_contact_is_refused_by_name() {
+fn rejects_invalid_contact_by_name() {
     let (robot, plan) = planned();
     let refused = |edit: &dyn Fn(&mut SimulationSettings)| {
         let mut settings = under(ControlLawName::ComputedTorque, 30.0, foam(2e4));
@@ -238,7 +238,7 @@ fn what_is_no_contact_is_refused_by_name() {
 #[test]
 fn laws_without_a_plant_have_no_force() {
     let (execution, report) = judged(&under(ControlLawName::Exact, 30.0, foam(2e4)));
-    assert!(execution.samples.iter().all(|sample| sample.felt.is_none()));
+    assert!(execution.samples.iter().all(|sample| sample.load.is_none()));
     assert!(report.plates.iter().all(|plate| plate.pressing.is_none()));
     assert!(format!("{report:#}").contains("force on plates: not simulated"));
 }

@@ -92,7 +92,7 @@ fn an_arm_that_lifts_loses_contact() {
 }
 
 #[test]
-fn finer_integration_and_runge_kutta_tell_the_same() {
+fn finer_integration_and_runge_kutta_agree() {
     let mut settings = under(ControlLawName::PdGravity, 30.0);
     let (euler, _) = judged(&settings);
     settings.plant.substeps = 10;
@@ -206,7 +206,7 @@ fn the_papers_law_follows_waypoints_as_its_program_does() {
 }
 
 #[test]
-fn exact_is_exact() {
+fn the_exact_law_has_no_error() {
     let mut settings = under(ControlLawName::Exact, 30.0);
     settings.control.dt_s = 0.002;
     let (execution, report) = judged(&settings);
@@ -215,7 +215,7 @@ fn exact_is_exact() {
 }
 
 #[test]
-fn simulating_is_given_up_when_told_so() {
+fn a_simulation_can_be_cancelled() {
     let (robot, plan) = planned();
     let settings = under(ControlLawName::Pd, 15.0);
     let token = CancelToken::new();
@@ -232,7 +232,7 @@ fn simulating_is_given_up_when_told_so() {
 }
 
 #[test]
-fn whoever_watches_sees_every_sample_once_and_changes_none() {
+fn the_observer_sees_every_sample_once_and_changes_none() {
     let (robot, plan) = planned();
     for law in [ControlLawName::ComputedTorque, ControlLawName::Exact] {
         let settings = under(law, 30.0);
@@ -246,7 +246,7 @@ fn whoever_watches_sees_every_sample_once_and_changes_none() {
 
 /// The token is looked at between two samples, whoever used it.
 #[test]
-fn whoever_watches_can_end_the_run() {
+fn the_observer_can_end_the_run() {
     let (robot, plan) = planned();
     let settings = under(ControlLawName::ComputedTorque, 30.0);
     let token = CancelToken::new();

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn the_kind_is_what_all_values_have_in_common() {
+    fn the_kind_of_an_axis_fits_all_values() {
         let of = |text: &str| AxisKind::of_all(&serde_json::from_str::<Vec<Value>>(text).unwrap());
         let (number, json) = (AxisKind::Number, AxisKind::Json);
         for (values, kind) in [
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn one_number_has_one_text() {
+    fn equal_numbers_have_equal_texts() {
         let of = |text: &str| canonical(&serde_json::from_str(text).unwrap());
         assert_eq!(of("[1, -0.0]"), of("[1.0, 0]"));
         assert_ne!(of("1"), of("\"1\""));

@@ -117,8 +117,8 @@ impl Journal {
     ///
     /// # Errors
     /// [`StudyError::Disk`]; the rows before stay whole.
-    pub fn append(&mut self, made: &RowWithPlan, took: impl Into<Option<Duration>>) -> Result<(), StudyError> {
-        let index = made.row.index;
+    pub fn append(&mut self, row: &RowWithPlan, took: impl Into<Option<Duration>>) -> Result<(), StudyError> {
+        let index = row.row.index;
         let Some(([rows, timings], has)) = self.files.as_mut().zip(self.has.get_mut(index as usize)) else {
             return Ok(());
         };
@@ -126,12 +126,12 @@ impl Journal {
             return Ok(());
         }
         // Before its row: where that is, the plan is.
-        if let Some(plan) = &made.plan {
+        if let Some(plan) = &row.plan {
             let plans = self.folder.join(PLANS);
             fs::create_dir_all(&plans).map_err(StudyError::disk(&plans, "cannot be made"))?;
             lines::write_whole(&plans.join(format!("{index}.json")), plan)?;
         }
-        rows.append(&made.row.line())?;
+        rows.append(&row.row.line())?;
         *has = true;
         self.done += 1;
         match took.into() {

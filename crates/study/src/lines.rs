@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_torn_line_does_not_count() {
+    fn ignores_a_torn_line() {
         let mut told = Vec::new();
         let whole = read(Path::new("rows"), &b"one\ntwo\nthr"[..], |at, line| {
             told.push((at, line.to_vec()));

@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_that_is_given_up_is_none() {
+    fn a_cancelled_row_is_not_recorded() {
         fn given_up(_: &Scenario, _: &Arc<RobotModel>, _: &CancelToken) -> Result<(PlannedJob, Certificate), Failure> {
             Err(Failure::Prove(platewash_certificate::ProveError::Cancelled(Cancelled)))
         }

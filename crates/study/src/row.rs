@@ -284,7 +284,7 @@ mod tests {
     use platewash_kinematics::ik::PathBreak;
 
     #[test]
-    fn a_line_that_breaks_off_is_told_by_plate_and_waypoint() {
+    fn reports_plate_and_waypoint_where_a_line_breaks_off() {
         let error = IkPathError::Broken {
             waypoint: 7,
             reason: PathBreak::Limit { joint: 4 },

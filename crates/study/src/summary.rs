@@ -123,7 +123,7 @@ mod tests {
     use super::AxisValue;
 
     #[test]
-    fn values_of_an_axis_are_in_order_of_size() {
+    fn the_values_of_an_axis_are_sorted() {
         let mut values = ["\"rings\"", "10", "2", "-1.5", "1e3", "\"auto\""].map(|text| AxisValue(text.to_owned()));
         values.sort();
         assert_eq!(

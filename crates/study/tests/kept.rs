@@ -12,7 +12,7 @@ fn empty(study: &Study, index: u64) -> Row {
 }
 
 #[test]
-fn what_is_finished_is_not_written_any_more_and_a_change_is_refused() {
+fn a_finished_study_is_not_rewritten_and_changes_are_refused() {
     let study = four();
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
@@ -83,7 +83,7 @@ fn four() -> Study {
 
 /// An editor that saves, or a copy that comes back.
 #[test]
-fn rows_that_somebody_takes_away_meanwhile_are_missed_and_made_again() {
+fn rows_removed_meanwhile_are_computed_again() {
     let (study, folder) = (four(), tempfile::tempdir().unwrap());
     let out = folder.path();
     let mut journal = Journal::open(out, &study).unwrap();
@@ -112,7 +112,7 @@ fn rows_that_somebody_takes_away_meanwhile_are_missed_and_made_again() {
 }
 
 #[test]
-fn files_of_another_origin_are_not_written_over() {
+fn never_overwrites_files_of_other_origin() {
     let study = four();
     for name in ["study.toml", "study.json", "rows.jsonl", "timings.jsonl"] {
         let folder = tempfile::tempdir().unwrap();
@@ -133,7 +133,7 @@ fn files_of_another_origin_are_not_written_over() {
 }
 
 #[test]
-fn rows_under_way_that_are_not_as_they_were_written_are_refused_by_whoever_reads() {
+fn readers_refuse_altered_rows_of_an_unfinished_study() {
     let (study, folder) = (four(), tempfile::tempdir().unwrap());
     let out = folder.path();
     let mut journal = Journal::open(out, &study).unwrap();
@@ -183,7 +183,7 @@ fn rows_under_way_that_are_not_as_they_were_written_are_refused_by_whoever_reads
 }
 
 #[test]
-fn a_study_that_is_torn_in_its_folder_is_stated_anew_until_it_is_finished() {
+fn an_unfinished_study_restores_its_damaged_manifest() {
     let (study, folder) = (four(), tempfile::tempdir().unwrap());
     let out = folder.path();
     drop(Journal::open(out, &study).unwrap());
@@ -229,7 +229,7 @@ fn a_manifest_of_other_axes_is_refused() {
 
 /// Nobody knows how long a row took that killed its worker.
 #[test]
-fn a_row_that_is_ended_has_no_time() {
+fn an_ended_row_has_no_duration() {
     let (study, folder) = (four(), tempfile::tempdir().unwrap());
     let out = folder.path();
     let mut journal = Journal::open(out, &study).unwrap();
@@ -242,7 +242,7 @@ fn a_row_that_is_ended_has_no_time() {
 }
 
 #[test]
-fn ten_thousand_values_are_looked_at_and_the_last_is_told() {
+fn checks_ten_thousand_values_and_reports_the_last_error() {
     let values: Vec<_> = (0..10_000)
         .map(|k| format!("{}", 0.001 + 1e-7 * f64::from(k)))
         .collect();
@@ -266,7 +266,7 @@ fn ten_thousand_values_are_looked_at_and_the_last_is_told() {
 }
 
 #[test]
-fn combinations_of_files_are_bounded_and_words_are_no_files() {
+fn bounds_combinations_of_files_and_rejects_words_as_files() {
     let head = "format = \"platewash-study/1\"\nname = \"v\"\nscenario = \"kitchen\"\n";
     let names: Vec<_> = (0..1001).map(|k| format!("\"{k}.urdf\"")).collect();
     let axis = |key: &str, values: &str| format!("[[axis]]\nkey = \"{key}\"\nvalues = [{values}]\n");
@@ -291,7 +291,7 @@ fn combinations_of_files_are_bounded_and_words_are_no_files() {
 
 /// The same study by a path from here, and by its whole path.
 #[test]
-fn files_are_named_from_the_folder_of_the_study() {
+fn file_paths_are_relative_to_the_folder_of_the_study() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path();
     fs::write(dir.join("arm.urdf"), platewash_kinematics::irb120::IRB120_URDF).unwrap();

@@ -75,7 +75,7 @@ fn child() {
 }
 
 #[test]
-fn a_study_that_is_killed_goes_on_and_has_every_row_once() {
+fn a_killed_study_resumes_with_every_row_once() {
     let whole = tempfile::tempdir().unwrap();
     work(whole.path(), &study(400), Duration::ZERO);
     let folder = tempfile::tempdir().unwrap();
@@ -106,7 +106,7 @@ fn slow_child() {
 }
 
 #[test]
-fn a_study_that_is_killed_at_any_moment_has_every_row_once() {
+fn a_study_killed_at_any_moment_has_every_row_once() {
     let [whole, folder] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     work(whole.path(), &study(2000), Duration::ZERO);
     kill_at_random(folder.path(), "slow_child", 20, [1, 60]);
@@ -121,7 +121,7 @@ fn a_study_that_is_killed_at_any_moment_has_every_row_once() {
 /// A shell lets no file grow beyond some kilobytes, as a full disk would.
 #[cfg(unix)]
 #[test]
-fn a_full_disk_ends_the_study_with_its_rows_whole_and_it_goes_on_later() {
+fn a_full_disk_ends_the_study_with_whole_rows_and_it_resumes() {
     let [whole, folder] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     work(whole.path(), &study(400), Duration::ZERO);
     let full = Command::new("sh")
@@ -192,11 +192,11 @@ fn real_rows() {
     println!("killed 21 times, {done} of 120 rows by then: the same bytes");
 }
 
-/// By hand: `cargo test --release -p platewash-study --test study -- --ignored --exact --nocapture kill::many`.
+/// By hand: `cargo test --release -p platewash-study --test study -- --ignored --exact --nocapture kill::measures_time_and_memory_of_100000_rows`.
 #[test]
 #[ignore = "by hand: it measures"]
 #[allow(clippy::print_stdout)]
-fn many() {
+fn measures_time_and_memory_of_100000_rows() {
     let folder = tempfile::tempdir().unwrap();
     let began = std::time::Instant::now();
     work(folder.path(), &study(100_000), Duration::ZERO);

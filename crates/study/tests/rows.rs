@@ -94,7 +94,7 @@ fn study_text_has(study: &Study, index: u64, part: &str) -> bool {
 }
 
 #[test]
-fn what_is_wrong_in_a_study_is_told_with_its_line_and_key() {
+fn errors_of_a_study_name_line_and_key() {
     let axis = "seeds = \"1..5\"";
     let cases = [
         ("seeds = \"5..1\"", "line 9", "FIRST..LAST"),
@@ -140,7 +140,7 @@ fn what_is_wrong_in_a_study_is_told_with_its_line_and_key() {
 }
 
 #[test]
-fn rows_one_by_one() {
+fn reads_rows_one_by_one() {
     let head = "format = \"platewash-study/1\"\nname = \"rows\"\nscenario = \"kitchen\"\n";
     let rows = "[[rows]]\nseed = 7\nwash.clearance_m = 0.002\n[[rows]]\nseed = 9\n\"wash.clearance_m\" = 0.003\n";
     let listed = study(&format!("{head}{rows}")).unwrap();
@@ -186,7 +186,7 @@ fn a_folder_keeps_one_study_and_one_process_at_a_time() {
 }
 
 #[test]
-fn rows_that_were_kept_stay_where_it_is_told_to_give_up() {
+fn cancelled_studies_keep_their_finished_rows() {
     let (folder, study, cancel) = (tempfile::tempdir().unwrap(), study(GRID).unwrap(), CancelToken::new());
     let mut journal = Journal::open(folder.path(), &study).unwrap();
     let make = |index, _: &CancelToken| {
@@ -237,7 +237,7 @@ fn a_scenario_may_be_a_text() {
 }
 
 #[test]
-fn a_row_is_what_its_scenario_says_alone() {
+fn a_row_depends_on_its_scenario_alone() {
     let text = "format = \"platewash-study/1\"\nname = \"tools\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"tool.length_m\"\nvalues = [0.1, 0]\n[[axis]]\nkey = \"seed\"\nvalues = [1, 2]\n";
     let study = Arc::new(study(text).unwrap());
     let of = |index| {

@@ -43,7 +43,7 @@ fn rows(study: Study) -> Vec<RowWithPlan> {
 }
 
 #[test]
-fn rows_need_no_file_any_more() {
+fn a_loaded_study_needs_no_files() {
     let folder = tempfile::tempdir().unwrap();
     let study = laid(folder.path());
     assert_eq!(study.files.len(), 4, "{:?}", study.files.keys());
@@ -66,7 +66,7 @@ fn rows_need_no_file_any_more() {
 }
 
 #[test]
-fn a_file_that_was_changed_is_another_study() {
+fn refuses_to_resume_after_a_changed_file() {
     let folder = tempfile::tempdir().unwrap();
     let study = laid(folder.path());
     let out = folder.path().join("out");
@@ -81,7 +81,7 @@ fn a_file_that_was_changed_is_another_study() {
 }
 
 #[test]
-fn a_file_that_cannot_be_read_is_named_before_anything_is_planned() {
+fn names_an_unreadable_file_before_planning() {
     let folder = tempfile::tempdir().unwrap();
     laid(folder.path());
     fs::remove_file(folder.path().join("arm2.urdf")).unwrap();

@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn every_part_stands_in_its_place() {
+    fn every_part_of_the_page_stands_in_its_place() {
         let page = html(&named("kitchen"), &bundle()).unwrap();
         let start =
             "<title>kitchen · platewash</title><style>a > b {}</style><body>A &amp; B &lt;c@d.example&gt;<script type=";
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hostile_name_is_text() {
+    fn escapes_a_hostile_name() {
         let names = [
             "</script><script>alert(1)</script>",
             "</ScRiPt ><img src=x onerror=alert(1)>",
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_document_stands_beside_the_first_and_is_text_too() {
+    fn a_second_document_follows_the_first_and_is_escaped() {
         let texts = [
             "seed = 1\n",
             "# </script><script>alert(1)</script>",
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bundle_that_is_none_is_refused() {
+    fn rejects_an_invalid_bundle() {
         let refused = |change: fn(&mut Bundle)| {
             let mut bundle = bundle();
             change(&mut bundle);
@@ -278,7 +278,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_name_is_read_back(name in "\\PC*|[<>/!a-z\\-\"'&\u{2028}]{0,60}") {
+        fn reads_back_any_name(name in "\\PC*|[<>/!a-z\\-\"'&\u{2028}]{0,60}") {
             let page = html(&named(&name), &bundle()).unwrap();
             prop_assert_eq!(&read_back(&page)["heading"]["scenario"], &name);
             prop_assert_eq!(page.to_lowercase().matches("<script").count(), 2);

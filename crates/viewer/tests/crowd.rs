@@ -80,7 +80,7 @@ fn grown_kib(meanwhile: impl FnOnce()) -> usize {
 }
 
 #[test]
-fn a_crowd_locks_nobody_out_and_takes_little_memory() {
+fn many_clients_lock_nobody_out_and_need_little_memory() {
     let _alone = ALONE.lock();
     let mut served = serve();
     let staying = Mutex::new(Vec::new());
@@ -114,7 +114,7 @@ fn a_crowd_locks_nobody_out_and_takes_little_memory() {
 }
 
 #[test]
-fn the_server_ends_while_they_come() {
+fn the_server_ends_while_clients_connect() {
     let _alone = ALONE.lock();
     let mut served = serve();
     let server = served.server.take();

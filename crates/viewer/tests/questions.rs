@@ -38,7 +38,7 @@ fn a_question_is_answered_in_lines() {
 }
 
 #[test]
-fn each_line_comes_when_it_is_told_and_the_end_with_the_last() {
+fn sends_each_line_at_once_and_the_end_with_the_last() {
     let served = serve();
     let mut stream = served.begin("/work");
     is(&read_until(&mut stream, "\r\n\r\n"), "200");
@@ -50,7 +50,7 @@ fn each_line_comes_when_it_is_told_and_the_end_with_the_last() {
 }
 
 #[test]
-fn while_there_is_nothing_to_tell_an_empty_line_is_a_sign_of_life() {
+fn sends_empty_lines_as_keep_alive() {
     let served = serve();
     let mut stream = served.begin("/work");
     read_until(&mut stream, "\"begun\"\n");
@@ -62,7 +62,7 @@ fn while_there_is_nothing_to_tell_an_empty_line_is_a_sign_of_life() {
 }
 
 #[test]
-fn what_is_no_question_of_the_page_is_refused() {
+fn rejects_questions_from_other_pages() {
     let served = serve();
     let port = served.address.port();
     let foreign = [
@@ -110,7 +110,7 @@ fn what_is_no_question_of_the_page_is_refused() {
 }
 
 #[test]
-fn a_page_without_the_token_is_told_where_it_is() {
+fn tells_a_page_without_token_its_address() {
     let served = serve();
     let mut headers = served.headers(2);
     headers.retain(|header| header.0 != "X-Platewash-Token");
@@ -122,7 +122,7 @@ fn a_page_without_the_token_is_told_where_it_is() {
 }
 
 #[test]
-fn questions_are_posted_and_nothing_else_is() {
+fn accepts_post_for_questions_only() {
     let served = serve();
     for method in ["GET", "HEAD", "PUT", "DELETE", "OPTIONS", "PATCH", "post"] {
         let answer = served.send(request(&format!("{method} /echo HTTP/1.1"), &served.headers(2)) + "{}");
@@ -192,7 +192,7 @@ fn a_huge_question_is_refused_without_being_read() {
 }
 
 #[test]
-fn who_leaves_is_noticed_at_once() {
+fn notices_a_client_that_leaves() {
     let served = serve();
     let toy = &served.toy;
     for n in 1..=5 {
@@ -211,7 +211,7 @@ fn who_leaves_is_noticed_at_once() {
 }
 
 #[test]
-fn who_sends_on_and_on_is_left() {
+fn drops_a_client_that_sends_without_end() {
     let served = serve();
     let mut stream = served.begin("/work");
     read_until(&mut stream, "\"begun\"\n");
@@ -220,7 +220,7 @@ fn who_sends_on_and_on_is_left() {
 }
 
 #[test]
-fn who_takes_its_lines_too_slowly_is_left() {
+fn drops_a_client_that_reads_too_slowly() {
     let served = serve();
     let mut stream = served.begin("/flood");
     read_until(&mut stream, "\r\n\r\n1");
@@ -233,7 +233,7 @@ fn who_takes_its_lines_too_slowly_is_left() {
 }
 
 #[test]
-fn so_much_is_worked_on_at_a_time_and_the_others_wait() {
+fn bounds_simultaneous_work_and_lets_others_wait() {
     const WAITING: usize = 10;
     let served = serve();
     let toy = &served.toy;
@@ -255,7 +255,7 @@ fn so_much_is_worked_on_at_a_time_and_the_others_wait() {
 }
 
 #[test]
-fn who_waits_too_long_for_its_turn_is_told_to_ask_again() {
+fn tells_a_client_that_waited_too_long_to_ask_again() {
     let served = serve();
     let _at_work: Vec<_> = (0..WORK).map(|_| served.begin("/work")).collect();
     until("as much is worked on as can be", || {
@@ -267,7 +267,7 @@ fn who_waits_too_long_for_its_turn_is_told_to_ask_again() {
 }
 
 #[test]
-fn a_fault_in_the_service_costs_its_answer_alone() {
+fn a_panic_of_the_service_loses_only_its_answer() {
     let served = serve();
     for _ in 0..2 * WORK {
         let answer = served.ask("/panic", "{}");
@@ -279,7 +279,7 @@ fn a_fault_in_the_service_costs_its_answer_alone() {
 }
 
 #[test]
-fn where_all_are_being_answered_the_next_one_is_told_so() {
+fn refuses_a_client_when_all_places_are_taken() {
     let served = serve();
     let toy = &served.toy;
     let held: Vec<_> = (0..CONNECTIONS).map(|_| served.begin("/hold")).collect();
@@ -319,7 +319,7 @@ fn the_end_of_the_server_is_the_end_of_all_work() {
 }
 
 #[test]
-fn a_page_can_be_made_anew_each_time() {
+fn a_page_can_be_rendered_for_each_request() {
     let loads = AtomicUsize::new(0);
     let served = serve_page(Page::Made(Box::new(move || match loads.fetch_add(1, SeqCst) {
         2 => Err("the disk is <b>full</b>".into()),

@@ -72,7 +72,7 @@ fn body(answer: &str) -> &str {
 }
 
 #[test]
-fn the_page_comes_with_headers_that_shut_it_in() {
+fn serves_the_page_with_restrictive_headers() {
     let served = serve(None);
     for path in ["/", "/?t=3"] {
         let answer = served.get(path);
@@ -96,7 +96,7 @@ fn the_page_comes_with_headers_that_shut_it_in() {
 }
 
 #[test]
-fn a_head_is_the_page_without_the_page() {
+fn head_requests_get_headers_alone() {
     let served = serve(None);
     let (whole, head) = (served.get("/"), served.ask("HEAD / HTTP/1.1", ""));
     assert_eq!(head, whole.strip_suffix(PAGE).unwrap());
@@ -116,7 +116,7 @@ fn the_old_protocol_and_kept_connections_are_answered_and_closed() {
 }
 
 #[test]
-fn nothing_else_is_served() {
+fn serves_no_other_paths() {
     let served = serve(None);
     is(&served.get("/favicon.ico"), "204");
     for path in [
@@ -187,7 +187,7 @@ fn foreign_hosts_and_origins_are_refused() {
 }
 
 #[test]
-fn garbage_gets_a_refusal_and_the_next_one_its_page() {
+fn refuses_garbage_and_serves_the_next_request() {
     let served = serve(None);
     let binary: Vec<u8> = (0..=255).cycle().take(5000).collect();
     let mut cases: Vec<(Vec<u8>, &str)> = vec![
@@ -234,7 +234,7 @@ fn idle_clients_lock_nobody_out() {
 
 /// A client that takes its page slowly, or not at all, holds up neither others nor the end.
 #[test]
-fn a_client_that_is_stuck_holds_up_nobody() {
+fn a_stuck_client_delays_nobody() {
     let page = "a".repeat(32 << 20);
     let mut served = serve_page(&page, None);
     let request = format!("GET / HTTP/1.1\r\nHost: {}\r\n\r\n", served.address);
@@ -290,7 +290,7 @@ fn events(text: &str) -> Vec<(String, Option<usize>, serde_json::Value)> {
 }
 
 #[test]
-fn a_run_is_told_as_it_goes_and_who_comes_late_is_told_all() {
+fn streams_a_run_and_sends_all_of_it_to_late_clients() {
     let live = LiveRun::new("a1");
     let served = serve(Some(live.clone()));
     let mut early = served.connect();
@@ -327,7 +327,7 @@ fn a_run_is_told_as_it_goes_and_who_comes_late_is_told_all() {
 }
 
 #[test]
-fn who_lost_the_connection_is_told_what_it_missed() {
+fn sends_missed_events_after_a_reconnection() {
     let live = LiveRun::new("a1");
     let served = serve(Some(live.clone()));
     live.begin();
@@ -347,7 +347,7 @@ fn who_lost_the_connection_is_told_what_it_missed() {
 }
 
 #[test]
-fn who_comes_late_or_again_is_told_the_rest_in_parts() {
+fn sends_the_rest_in_parts_to_late_clients() {
     const ROWS: usize = 1003;
     let live = LiveRun::new("a1");
     let served = serve(Some(live.clone()));
@@ -382,7 +382,7 @@ fn who_comes_late_or_again_is_told_the_rest_in_parts() {
 }
 
 #[test]
-fn a_page_of_another_run_is_told_to_ask_no_more() {
+fn tells_a_page_of_another_run_to_stop_asking() {
     let live = LiveRun::new("a1");
     let served = serve(Some(live));
     is(&served.get("/events?run=b2"), "204");

@@ -145,7 +145,7 @@ fn the_clearance_over_time_is_that_of_the_certificate() {
 }
 
 #[test]
-fn what_is_swept_is_what_is_proved_and_simulated() {
+fn the_swept_share_agrees_with_proof_and_simulation() {
     let document = KITCHEN.document();
     let planned = shares(&document["coverage"]);
     let executed = shares(&document["execution"]["coverage"]);
@@ -162,7 +162,7 @@ fn what_is_swept_is_what_is_proved_and_simulated() {
 
 /// Of a job that says what counts as contact the maps show that, and the certificate's words are its own.
 #[test]
-fn what_is_pressed_is_what_is_proved() {
+fn the_pressed_share_agrees_with_the_proof() {
     let job = contact_kitchen();
     let job = job.on_plates(job.terms().plates[..1].to_vec()).unwrap();
     let plan = platewash_planner::plan(&job).unwrap().plan;
@@ -217,7 +217,7 @@ fn what_is_pressed_is_what_is_proved() {
 
 /// The foot of a plate is told, and a profile without a promise counts where it is touched.
 #[test]
-fn plates_of_a_profile_are_told_with_their_foot() {
+fn plates_with_a_profile_include_their_foot() {
     let mut plan = KITCHEN.plan.clone();
     let plate = &mut plan.job.plates[0];
     plate.surface = Surface::shipped("coupe275").unwrap();
@@ -250,7 +250,7 @@ fn plates_of_a_profile_are_told_with_their_foot() {
 
 /// A path without its ring leaves part of the rim: as much as the simulation measures.
 #[test]
-fn a_path_that_leaves_something_shows_it() {
+fn the_document_shows_unswept_area() {
     let job = kitchen();
     let mut terms = job.terms().clone();
     let platewash_workcell::job::Planner::Wash(settings) = &mut terms.planner else {
@@ -401,13 +401,13 @@ fn a_document_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn a_document_is_no_larger_than_a_page_can_hold() {
+fn documents_have_a_bounded_size() {
     let length = KITCHEN.document().to_string().len();
     assert!(length < 1_000_000, "{length}");
 }
 
 #[test]
-fn a_plan_that_fails_is_shown_with_what_it_breaks() {
+fn shows_a_failed_plan_with_its_broken_requirements() {
     let kitchen = &*KITCHEN;
     let mut plan = kitchen.plan.clone();
     plan.job.requirements.clearance_m = 0.06;
@@ -436,7 +436,7 @@ fn a_plan_that_fails_is_shown_with_what_it_breaks() {
 }
 
 #[test]
-fn plans_that_are_none_are_refused_and_odd_ones_shown() {
+fn rejects_invalid_plans_and_shows_unusual_ones() {
     let kitchen = &*KITCHEN;
     let shown = |change: fn(&mut Plan)| {
         let mut plan = kitchen.plan.clone();
@@ -521,7 +521,7 @@ fn the_document_has_the_fields_that_its_readers_expect() {
 
 /// Whatever the plan is called: what it states of itself is told.
 #[test]
-fn a_dry_run_says_so_in_its_document() {
+fn the_document_of_a_dry_run_says_so() {
     assert_eq!(KITCHEN.document()["heading"]["dry_run"], Value::Null);
     let mut plan = KITCHEN.plan.clone();
     let dry_run = DryRun {
@@ -534,7 +534,7 @@ fn a_dry_run_says_so_in_its_document() {
 }
 
 #[test]
-fn a_configuration_has_an_arm_and_no_motion() {
+fn a_document_of_a_configuration_has_no_motion() {
     let robot = RobotModel::irb120().unwrap();
     let q = JointVector::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.6);
     let view = View::of_configuration(&robot, Some(&kitchen_tool()), &q);

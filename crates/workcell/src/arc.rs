@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn the_seam_of_atan2_is_no_detour() {
+    fn arcs_take_no_detour_at_the_seam_of_atan2() {
         let path = waypoints(Vector3::new(-0.3, 0.01, 0.08), Vector3::new(-0.3, -0.01, 0.08), &ARC);
         assert!(path[1..6].iter().all(|p| p.x < -0.34), "{path:?}");
     }

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn leftovers_go_and_files_that_are_being_written_stay() {
+    fn removes_leftovers_and_keeps_files_being_written() {
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path().join("a.txt");
         std::fs::write(folder.path().join(".platewash-left"), "x").unwrap();
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_is_changed_by_one_at_a_time() {
+    fn only_one_process_changes_a_folder_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
         let held = FolderLock::new(folder.path()).unwrap();
         let place = folder.path().join("a.txt");

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deadline_cancels_once_it_passes_and_not_if_it_is_met() {
+    fn a_deadline_cancels_only_when_it_passes() {
         let (late, met) = (CancelToken::new(), CancelToken::new());
         let missed = Deadline::after(Duration::from_millis(1), &late);
         drop(Deadline::after(Duration::from_millis(100), &met));

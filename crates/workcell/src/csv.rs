@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_step_that_is_none_is_refused_as_such() {
+    fn rejects_an_invalid_time_step() {
         for dt_s in [0.0, -1.0, f64::NAN] {
             assert!(check_step(1.0, dt_s).unwrap_err().to_string().contains("positive"));
         }
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_come_back_where_they_belong() {
+    fn reads_columns_back_in_their_places() {
         for torque in [false, true] {
             let text = table(&[row("0", torque), row("0.5", torque)], torque);
             let joints = |first: usize| JointVector::from_fn(|joint, _| (first + joint) as f64);
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said_with_its_line_and_column() {
+    fn errors_name_line_and_column() {
         let good = || row("0", true);
         let cases = [
             (String::new(), "empty"),
@@ -392,7 +392,7 @@ mod tests {
     proptest! {
         /// Any damaged table is read or refused, without a panic.
         #[test]
-        fn a_damaged_table_is_no_trouble(at in 0..600usize, with in "\\PC{0,3}|[,\n]", cut in 0..40usize) {
+        fn damaged_tables_never_panic(at in 0..600usize, with in "\\PC{0,3}|[,\n]", cut in 0..40usize) {
             let text = table(&[row("0", true), row("0.25", true)], true);
             let start = at.min(text.len());
             let end = (start + cut).min(text.len());

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pair_more_and_another_order_are_a_difference_each() {
+    fn reports_an_additional_pair_and_another_order() {
         let more = found(|t| {
             let mut first = t.workcell.exclusions[0].clone();
             first.pair = ["handle".to_owned(), "floor".to_owned()];
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plate_more_and_a_planner_of_another_kind_are_differences_too() {
+    fn reports_an_additional_plate_and_another_planner() {
         let more = found(|t| t.plates.push(kitchen_plate([0.5, 0.5])));
         assert_eq!(
             (more.len(), &more[0][0][..], &more[0][2][..]),

@@ -117,12 +117,12 @@ mod tests {
     const GOOD: &str = r#"{"seed": 1, "part": {"on": true, "name": "a"}, "list": [[0.5, 1]]}"#;
 
     #[test]
-    fn a_byte_order_mark_is_passed_over() {
+    fn skips_a_byte_order_mark() {
         assert_eq!(read::<Document>(&format!("\u{feff}{GOOD}")).unwrap().seed, 1);
     }
 
     #[test]
-    fn what_is_wrong_is_told_by_its_key_in_words() {
+    fn errors_name_the_key_in_plain_words() {
         for (from, to, told) in [
             ("1,", "\"one\",", "'seed' must be a whole number; found \"one\""),
             ("1,", "-1,", "'seed' must be a whole number; found -1"),

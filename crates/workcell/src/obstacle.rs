@@ -129,7 +129,7 @@ mod tests {
     type Change = fn(&mut Obstacle);
 
     #[test]
-    fn obstacles_that_are_none_say_why() {
+    fn invalid_obstacles_state_the_reason() {
         let cases: [(&str, Change); 10] = [
             ("pose", |o| o.pose.translation.x = f64::NAN),
             ("pose", |o| o.pose.translation.z = f64::INFINITY),
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn files_state_what_says_something_alone_and_read_it_back() {
+    fn files_state_only_non_default_fields_and_read_back() {
         let plain = serde_json::to_string(&Obstacle::floor()).unwrap();
         assert!(
             !plain.contains("margin_m") && !plain.contains("holds_plates"),

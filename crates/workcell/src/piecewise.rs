@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_and_no_numbers_are_refused() {
+    fn rejects_gaps_and_nan() {
         let rest = |t_s| MotionPiece::line(t_s, [JointVector::zeros(); 2]);
         let refused = |pieces| PiecewiseMotion::new(pieces).unwrap_err();
         assert_eq!(

@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn knots_that_are_no_motion_are_refused() {
+    fn rejects_knots_that_form_no_motion() {
         let (still, nan) = (JointVector::zeros(), JointVector::repeat(f64::NAN));
         let knots = |t: &[f64], q: &[JointVector]| Trajectory::from_knots(t.to_vec(), q.to_vec(), vec![still; t.len()]);
         assert!(knots(&[], &[]).is_ok());
@@ -370,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn short_motions_and_times_outside_are_no_trap() {
+    fn accepts_short_motions_and_times_outside() {
         assert_eq!(Trajectory::default().at(0.0), None);
         let single = Trajectory::through(vec![JointVector::repeat(0.5)], 0.01);
         assert_eq!(single.at(3.0).map(|s| s.q), Some(JointVector::repeat(0.5)));

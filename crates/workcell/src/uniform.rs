@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_volume_is_none() {
+    fn rejects_bodies_without_volume() {
         let flat = (0..9)
             .map(|k| Point3::new(f64::from(k % 3), f64::from(k / 3), 0.0))
             .collect();

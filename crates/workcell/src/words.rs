@@ -81,12 +81,12 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_said_in_millimetres() {
+    fn lengths_are_printed_in_millimetres() {
         assert_eq!(millimetres(-0.09), "-90.0 mm");
     }
 
     #[test]
-    fn what_is_not_seen_is_written_out() {
+    fn invisible_characters_are_written_out() {
         let edges = [
             0x0a, 0x1b, 0x7f, 0x9b, 0xad, 0x61c, 0x200b, 0x200f, 0x2028, 0x2029, 0x202a, 0x202e, 0x2060, 0x2064,
             0x2066, 0x206f, 0xfeff, 0xe0041,

@@ -87,7 +87,7 @@ proptest! {
 
     /// Whatever stands in a text, it is read or refused.
     #[test]
-    fn no_text_panics(text in "(x_m|y_m|z_m|touched_x_mm|name|,|\n|#|-?[0-9]{1,3}(\\.[0-9]{1,3})?|nan|1e999|\u{feff}|é){0,40}") {
+    fn any_text_is_printed_without_panic(text in "(x_m|y_m|z_m|touched_x_mm|name|,|\n|#|-?[0-9]{1,3}(\\.[0-9]{1,3})?|nan|1e999|\u{feff}|é){0,40}") {
         let _ = touched_points(&text);
         let _ = drawn_points(&text);
     }
@@ -98,7 +98,7 @@ fn level() -> Vec<Touch> {
 }
 
 #[test]
-fn the_tilt_of_the_table_is_told() {
+fn states_the_tilt_of_the_table() {
     let tilted = mount([0.0, 1.0, 0.0], 0.02, [0.0; 3], 0.0);
     let found = align(&touched(&tilted, &TABLE[..3])).unwrap();
     assert!((found.tilt_rad() - 0.02).abs() < 1e-9, "{}", found.tilt_rad());
@@ -108,7 +108,7 @@ fn the_tilt_of_the_table_is_told() {
 }
 
 #[test]
-fn points_that_fix_nothing_are_refused() {
+fn rejects_points_that_do_not_fix_a_pose() {
     let mut touches = level();
     for count in 0..3 {
         let error = align(&touches[..count]).unwrap_err();
@@ -143,7 +143,7 @@ fn points_that_fix_nothing_are_refused() {
 }
 
 #[test]
-fn a_slip_of_units_is_named() {
+fn names_a_mistake_of_units() {
     let mut touches = level();
     touches.iter_mut().for_each(|t| t.drawn_m = t.drawn_m.map(|c| 1e3 * c));
     let error = align(&touches).unwrap_err();
@@ -200,7 +200,7 @@ fn a_mirrored_drawing_is_refused() {
 }
 
 #[test]
-fn points_touched_in_another_order_are_found_out() {
+fn finds_points_touched_in_another_order() {
     let mut touches = level();
     let exact = touches.clone();
     assert_eq!(fitting_order(&touches, 1e-3), None, "they fit as they are");
@@ -236,7 +236,7 @@ fn a_table_is_read_in_any_order_of_its_columns() {
 }
 
 #[test]
-fn a_table_that_is_none_is_refused_with_its_line() {
+fn rejects_an_invalid_table_with_its_line() {
     let header = "x_m,y_m,z_m,touched_x_mm,touched_y_mm,touched_z_mm\n";
     let says = |text: &str, words: &[&str]| {
         let said = touched_points(text).unwrap_err().to_string();

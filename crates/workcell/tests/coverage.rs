@@ -50,7 +50,7 @@ fn paper_spiral() -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn nothing_sweeps_nothing() {
+fn an_empty_path_sweeps_nothing() {
     let nothing = swept(&[], PLATE, 0.025);
     assert!(nothing.fraction.abs() < 1e-12 && nothing.lower == 0.0 && nothing.upper < 1e-10);
     let far_away = swept(&[[3.0, 0.0], [3.0, 1.0]], PLATE, 0.025);
@@ -121,7 +121,7 @@ fn a_stamp_on_the_rim_covers_a_lens() {
 }
 
 #[test]
-fn the_papers_spiral_covers_what_was_measured() {
+fn the_papers_spiral_sweeps_the_measured_share() {
     let measured = [
         (10, 41.0),
         (15, 60.0),
@@ -161,7 +161,7 @@ fn a_closing_ring_covers_nearly_all() {
 }
 
 #[test]
-fn the_frame_does_not_matter() {
+fn the_swept_share_does_not_depend_on_the_frame() {
     let centre = [0.31, -0.27];
     let moved: Vec<_> = paper_spiral()
         .iter()
@@ -275,7 +275,7 @@ proptest! {
 }
 
 #[test]
-fn a_share_reaches_what_is_required_but_for_rounding() {
+fn a_share_meets_the_requirement_up_to_rounding() {
     assert!(reaches(0.995, 0.995) && reaches(0.995 - 9e-10, 0.995) && !reaches(0.995 - 1.1e-9, 0.995));
     assert!(reaches(-9e-13, 0.0) && !reaches(-1.1e-12, 0.0));
     assert!(!reaches(f64::NAN, 0.5) && !reaches(0.5, f64::NAN));

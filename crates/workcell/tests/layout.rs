@@ -407,7 +407,7 @@ fn each_broken_rule_is_its_own_finding() {
 }
 
 #[test]
-fn overlap_with_the_base_is_the_way_out() {
+fn an_overlap_with_the_base_states_the_way_out() {
     let overlap_m = |centre| match explicit(&[centre], None).findings.last() {
         Some(Finding::OverlapsBase { overlap_m, .. }) => *overlap_m,
         _ => 0.0,

@@ -38,7 +38,7 @@ fn plan() -> Plan {
 }
 
 #[test]
-fn what_is_written_is_what_is_read() {
+fn reads_back_what_was_written() {
     let plan = plan();
     let text = plan.to_json().unwrap();
     let read = Plan::from_json(&text).unwrap();
@@ -50,7 +50,7 @@ fn what_is_written_is_what_is_read() {
 }
 
 #[test]
-fn a_change_breaks_the_seal_until_it_is_sealed_again() {
+fn a_change_breaks_the_seal_until_the_plan_is_resealed() {
     let mut changed = plan();
     changed.job.requirements.clearance_m = 0.005;
     assert!(!changed.is_sealed());
@@ -59,7 +59,7 @@ fn a_change_breaks_the_seal_until_it_is_sealed_again() {
 }
 
 #[test]
-fn what_json_cannot_say_is_not_written() {
+fn refuses_to_write_values_that_json_cannot_hold() {
     let mut infinite = plan();
     infinite.knots.q_rad[1][2] = f64::INFINITY;
     assert!(matches!(infinite.seal(), Err(PlanFileError::Unwritable { .. })));
@@ -101,7 +101,7 @@ fn a_process_that_the_job_contradicts_is_refused() {
 }
 
 #[test]
-fn a_quaternion_that_is_none_is_refused() {
+fn rejects_an_invalid_quaternion() {
     let text = plan().to_json().unwrap();
     let unit = r#""quaternion_wxyz":[1,0,0,0]"#;
     assert!(text.contains(unit));

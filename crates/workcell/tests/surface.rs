@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 #[test]
-fn a_disc_is_flat_and_as_large_as_it_is() {
+fn a_disc_is_flat_with_its_exact_area() {
     let disc = Surface::Disc { radius_m: 0.2 };
     let rim = disc.point(disc.rim_m(), 0.5 * PI);
     assert!((rim - Point3::new(0.0, 0.2, 0.0)).norm() < 1e-15);
@@ -15,7 +15,7 @@ fn a_disc_is_flat_and_as_large_as_it_is() {
 
 /// Depth, arc and area of the profiles that come along, as they are stated \[mm, mm, cm²\], and their least radii \[mm\].
 #[test]
-fn the_profiles_that_come_along_are_as_they_are_stated() {
+fn shipped_profiles_are_as_documented() {
     for (name, depth, arc, area, [hollow, dome]) in [
         ("coupe275", 20.5, 140.6, 616.0, [74.0, 19.0]),
         ("rim270", 14.2, 137.5, 588.0, [18.0, 21.0]),
@@ -77,7 +77,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_written_is_what_is_read(knots in knots()) {
+    fn reads_back_what_was_written(knots in knots()) {
         let surface = Surface::profile(&knots).unwrap();
         let text = serde_json::to_string(&surface).unwrap();
         prop_assert_eq!(serde_json::from_str::<Surface>(&text).unwrap(), surface, "{}", text);
@@ -94,7 +94,7 @@ fn a_level_profile_is_a_disc() {
 }
 
 #[test]
-fn lists_that_are_no_meridian_are_refused_by_their_knot() {
+fn rejects_invalid_meridians_by_their_knot() {
     let knot = |radius_m, slope_rad| Knot { radius_m, slope_rad };
     for (knots, said) in [
         (vec![], "from 1 to 16 knots; found 0"),

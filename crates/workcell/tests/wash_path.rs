@@ -148,7 +148,7 @@ proptest! {
 
 /// By hand: without the blend, R = a Θ; with it a is larger by half a blend's share.
 #[test]
-fn the_pitch_of_the_kitchen() {
+fn the_kitchen_has_the_expected_pitch() {
     let curve = WashCurve {
         radius_m: 0.124,
         turns: 3.5,

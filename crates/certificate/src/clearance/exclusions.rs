@@ -151,7 +151,7 @@ mod tests {
     use platewash_workcell::workcell::ExclusionReason;
 
     #[test]
-    fn only_what_follows_from_the_arm_is_left_out_without_being_waived() {
+    fn only_pairs_that_follow_from_the_arm_are_excluded_without_a_waiver() {
         let job = kitchen();
         let mut terms = job.terms().clone();
         let waived = |terms: &JobTerms| {

@@ -238,11 +238,11 @@ impl<'a> Search<'a> {
     }
 
     /// Records a distance at a moment.
-    fn see(&mut self, measured: &PartDistance, time_s: f64) {
-        if measured.distance_m < self.found.seen_m {
-            self.found.seen_m = measured.distance_m;
+    fn see(&mut self, distance: &PartDistance, time_s: f64) {
+        if distance.distance_m < self.found.seen_m {
+            self.found.seen_m = distance.distance_m;
             self.found.time_s = time_s;
-            self.found.place_m = measured.place_m;
+            self.found.place_m = distance.place_m;
         }
     }
 

@@ -322,7 +322,7 @@ mod tests {
         }
 
         #[test]
-        fn it_is_the_motion_that_the_plan_states(q in [vector(), vector()], v in [vector(), vector()], share in 0.0..0.999f64) {
+        fn pieces_give_the_motion_that_the_plan_states(q in [vector(), vector()], v in [vector(), vector()], share in 0.0..0.999f64) {
             let knots = Knots { t_s: vec![0.0, 0.25], q_rad: q.to_vec(), qd_rad_s: v.to_vec() };
             let piece = &pieces(&knots).unwrap()[0];
             let motion = Trajectory::from_knots(knots.t_s, knots.q_rad, knots.qd_rad_s).unwrap();

@@ -141,13 +141,13 @@ pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceErro
             .any(|o| o.name == name && o.shape == ObstacleShape::HalfSpace)
     };
     let mut reaching = subject.job.standing_overlaps(subject.robot)?;
-    reaching.retain(|found| match &found.standing {
+    reaching.retain(|found| match &found.body {
         FixedBody::Obstacle(name) => !(is_floor(name) && found.other.starts_with("plate ")),
         FixedBody::Parts(_) | FixedBody::Plate(_) => true,
     });
     let reaches = !reaching.is_empty();
     wrong.extend(reaching.into_iter().map(|found| {
-        let what = format!("how far {} reaches into {:?}", found.standing, found.other);
+        let what = format!("how far {} reaches into {:?}", found.body, found.other);
         Discrepancy::new(
             what,
             millimetres(found.by_m),

@@ -26,7 +26,7 @@ fn fails(change: impl FnOnce(&mut Plan)) {
 }
 
 #[test]
-fn knots_that_are_no_motion_are_refused() {
+fn rejects_knots_that_form_no_motion() {
     let cut = |p: &mut Plan, n: usize| {
         p.knots.t_s.truncate(n);
         p.knots.q_rad.truncate(n);
@@ -44,7 +44,7 @@ fn knots_that_are_no_motion_are_refused() {
 }
 
 #[test]
-fn huge_numbers_end_in_a_clear_word() {
+fn huge_numbers_end_in_a_clear_error() {
     for size in [1e5, 1e150, 1e300, f64::MAX] {
         let found = changed(|p| p.knots.q_rad[77][2] = size);
         assert!(matches!(found, Err(ProveError::TurnsTooFar { joint: 2, .. })), "{size}");
@@ -104,7 +104,7 @@ fn wrong_counts_and_indices_fail() {
 }
 
 #[test]
-fn bodies_that_are_none_are_refused_by_name() {
+fn rejects_invalid_bodies_by_name() {
     let points = |all: &[[f64; 3]]| Shape::Hull {
         points: all.iter().map(|p| Point3::from(*p)).collect(),
     };
@@ -173,7 +173,7 @@ fn a_run_of_the_papers_program_has_no_certificate() {
 }
 
 #[test]
-fn work_that_is_given_up_proves_nothing() {
+fn cancelled_work_proves_nothing() {
     let token = CancelToken::new();
     token.cancel();
     assert!(matches!(

@@ -25,7 +25,7 @@ fn plates_that_reach_below_the_floor_are_named() {
 }
 
 #[test]
-fn an_order_that_is_asked_for_is_kept() {
+fn keeps_the_requested_order() {
     let mut recipe = Recipe::arc(&[-35.0, 30.0]);
     recipe.order = vec![1, 0];
     assert_eq!(broken(&judged(recipe.plan())), []);
@@ -39,7 +39,7 @@ fn an_order_that_is_asked_for_is_kept() {
 /// A job that requires less than was wanted is done all the same: the certificate holds, and the comparison with the wanted job names the
 /// lowered requirements.
 #[test]
-fn a_requirement_that_was_lowered_is_found_by_comparison_alone() {
+fn only_the_comparison_finds_a_lowered_requirement() {
     type Change = fn(&mut JobTerms);
     let lowered: [(&str, Change); 8] = [
         ("requirements.clearance_m", |t| t.requirements.clearance_m = 0.0),

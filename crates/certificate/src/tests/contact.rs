@@ -134,12 +134,12 @@ fn compare(name: &str, recipe: &Recipe) {
 }
 
 #[test]
-fn discs_are_pressed_as_the_model_says() {
+fn bounds_of_pressed_discs_agree_with_the_model() {
     compare("disc, 5 mm, upright", &disc(0.005, 0.0, rings()));
 }
 
 #[test]
-fn discs_under_a_tilted_sponge_are_pressed_as_the_model_says() {
+fn bounds_of_discs_under_a_tilted_sponge_agree_with_the_model() {
     for (compression_m, lean_deg) in [(0.006, 6.0), (0.005, 9.0)] {
         let name = format!("disc, {compression_m} m, {lean_deg}°");
         compare(&name, &disc(compression_m, lean_deg, rings()));
@@ -147,13 +147,13 @@ fn discs_under_a_tilted_sponge_are_pressed_as_the_model_says() {
 }
 
 #[test]
-fn profiles_are_pressed_as_the_model_says() {
+fn bounds_of_pressed_profiles_agree_with_the_model() {
     for name in ["coupe275", "rim270", "dessert190"] {
         compare(name, &profile(name));
     }
 }
 
 #[test]
-fn a_deep_plate_is_pressed_as_the_model_says() {
+fn bounds_of_a_deep_plate_agree_with_the_model() {
     compare("deep230", &profile("deep230"));
 }

@@ -51,7 +51,7 @@ fn recipes() -> [(&'static str, Recipe); 2] {
 }
 
 #[test]
-fn what_is_deepest_from_approach_to_retreat_counts() {
+fn strain_counts_the_deepest_point_from_approach_to_retreat() {
     for (name, recipe) in recipes() {
         let (_, plain) = judged(&recipe, [0.0; 2]);
         assert_eq!(plain.broken().count(), 0, "{name}: {plain}");

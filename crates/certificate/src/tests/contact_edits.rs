@@ -86,7 +86,7 @@ fn judged(plan: &Plan) -> Certificate {
 }
 
 #[test]
-fn what_is_beyond_the_spare_is_refused_and_what_is_within_is_proved() {
+fn proves_errors_within_the_spare_and_refuses_larger_ones() {
     let edits: usize = plans().into_par_iter().map(edited).sum();
     assert!(edits >= 90, "{edits}");
 }

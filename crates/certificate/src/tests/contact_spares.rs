@@ -321,7 +321,7 @@ fn complaint(plan: &Plan, kind: &Kind, about: f64) -> Option<String> {
 }
 
 #[test]
-fn a_world_within_what_a_plan_bears_is_proved_and_one_beyond_refused() {
+fn proves_deviations_that_a_plan_tolerates_and_refuses_larger_ones() {
     let plans = plans();
     let proved = plans.each_ref().map(|(name, plan)| {
         let certificate = judged(plan);

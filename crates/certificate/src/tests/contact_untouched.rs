@@ -21,7 +21,7 @@ fn recipes() -> [(&'static str, Recipe); 2] {
 }
 
 #[test]
-fn what_is_not_touched_is_not_in_contact_whatever_compression_counts() {
+fn untouched_cells_are_not_in_contact_for_any_least_compression() {
     for (name, recipe) in recipes() {
         for (compression_m, error_m) in [(0.0, 0.0), (0.0, 1e-3), (1e-3, 1e-3)] {
             let mut plan = recipe.plan();
@@ -45,7 +45,7 @@ fn what_is_not_touched_is_not_in_contact_whatever_compression_counts() {
 }
 
 #[test]
-fn what_is_not_touched_is_not_covered_where_nothing_is_asked_about_contact() {
+fn untouched_cells_are_not_swept_where_no_contact_is_required() {
     for (name, recipe) in recipes() {
         let mut plan = recipe.plan();
         plan.job.requirements.coverage = 0.995;

@@ -66,7 +66,7 @@ fn from_path(p: &Vector3<f64>, centre: Vector3<f64>, curve: &WashCurve) -> f64 {
 }
 
 #[test]
-fn nothing_worse_than_a_bound_is_ever_found() {
+fn no_sample_is_worse_than_a_proved_bound() {
     let mut leaning = Recipe::arc(&[10.0]);
     (leaning.lean, leaning.pace, leaning.curve.start_angle_rad) = (0.12, 0.8, -2.0);
     for plan in [good(), leaning.plan()] {

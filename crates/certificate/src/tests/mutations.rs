@@ -81,7 +81,7 @@ fn harmless_edits_pass() {
 }
 
 #[test]
-fn tampering_without_the_seal_is_a_finding_of_its_own() {
+fn reports_an_edit_that_breaks_the_seal() {
     let mut plan = good();
     plan.provenance.scenario = "another".into();
     let certificate = prove(&plan, &irb120()).unwrap();
@@ -102,7 +102,7 @@ fn tampering_without_the_seal_is_a_finding_of_its_own() {
 }
 
 #[test]
-fn statements_that_are_not_so_are_named() {
+fn names_false_statements_of_a_plan() {
     breaks(&[Arm], |p| p.job.workcell.arm.urdf_sha256 = "0".repeat(64));
     breaks(&[Arm], |p| p.job.workcell.arm.name = "other".into());
     let told = breaks(&[Arm], |p| p.job.workcell.arm.srdf_sha256 = None);
@@ -130,7 +130,7 @@ fn statements_that_are_not_so_are_named() {
 
 /// Pairs that the arm and its SRDF exclude are not judged; the job must state them, and nothing else.
 #[test]
-fn pairs_that_are_left_out_follow_from_the_arm() {
+fn excluded_pairs_follow_from_the_arm() {
     let told = breaks(&[Exclusions], |p| _ = p.job.workcell.exclusions.remove(0));
     let words = "exclusion of \"base_link\" and \"link_1\": not stated; expected stated, as it follows from the arm: the pair is not judged";
     assert!(told.to_string().contains(words), "{told}");
@@ -164,7 +164,7 @@ fn leaves_out(pair: [&str; 2]) -> Exclusion {
 
 /// A pair that the job alone leaves out is judged all the same.
 #[test]
-fn a_pair_that_is_waived_is_named_where_it_does_not_keep_clear() {
+fn names_a_waived_pair_that_is_too_near() {
     let pair = ["handle", "link_4"];
     let mut plan = good();
     plan.job.workcell.exclusions.push(leaves_out(pair));
@@ -226,7 +226,7 @@ fn waiving_one_pair_waives_no_other() {
 
 /// An obstacle in the way of the handle, and one that is far.
 #[test]
-fn obstacles_keep_clear_too() {
+fn refuses_an_obstacle_that_is_too_near() {
     let mut plan = good();
     let mut far = crate::tests::maker::post("far");
     far.pose.translation.x = -0.9;
@@ -270,7 +270,7 @@ fn a_path_that_runs_over_another_plate_is_named() {
 }
 
 #[test]
-fn how_far_the_sponge_reaches_beyond_each_rim_is_shown_and_held() {
+fn reports_and_limits_the_reach_of_the_sponge_beyond_each_rim() {
     let certificate = prove(&good(), &irb120()).unwrap();
     for swept in &certificate.swept {
         // 123 mm of path and 25 mm of sponge, which is upright, less 145 mm of plate, and 0.2 mm.
@@ -308,7 +308,7 @@ fn a_tilted_sponge_reaches_farther_than_its_radius() {
 
 /// Plates from which a neighbour is out of reach are no excuse to come near that one.
 #[test]
-fn the_sponge_may_touch_only_what_is_within_reach() {
+fn only_plates_within_reach_are_touching_pairs() {
     let certificate = prove(&good(), &irb120()).unwrap();
     let touching = certificate
         .clearance
@@ -352,14 +352,14 @@ fn the_sponge_keeps_clear_of_a_higher_neighbour() {
 }
 
 #[test]
-fn another_tool_leaves_the_path() {
+fn refuses_a_tool_whose_tip_leaves_the_path() {
     breaks_at_least(&[PathDeviation, LineDeviation, ContactHeight], |p| {
         p.job.workcell.tool = tool(|t| t.length_m = 0.16);
     });
 }
 
 #[test]
-fn plates_elsewhere_are_not_washed() {
+fn moved_plates_are_not_washed() {
     // By half the tolerance: the tip is still where it should be, and the job is another one.
     let by = |p: &mut Plan, way_m: f64| p.job.plates[0].pose.translation.x += way_m;
     let mut plan = good();
@@ -389,7 +389,7 @@ fn the_wash_path_stated_must_be_followed() {
 }
 
 #[test]
-fn paths_that_are_none_are_named_and_not_followed() {
+fn names_invalid_wash_paths() {
     type Change = fn(&mut WashPath);
     let changes: [(&str, Change); 9] = [
         ("curve.radius_m: 0; expected from 0.0001 to 10", |w| {
@@ -431,7 +431,7 @@ fn paths_that_are_none_are_named_and_not_followed() {
 }
 
 #[test]
-fn a_smaller_path_leaves_the_rim() {
+fn a_smaller_wash_path_leaves_the_rim_unswept() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.curve.radius_m = 0.112;
     let certificate = prove(&recipe.plan(), &irb120()).unwrap();
@@ -445,7 +445,7 @@ fn a_smaller_path_leaves_the_rim() {
 }
 
 #[test]
-fn a_knot_moved_is_seen_by_joints_and_by_the_path() {
+fn a_moved_knot_breaks_joint_limits_and_the_wash_path() {
     breaks_at_least(&[PathDeviation], |p| {
         let k = within(p, SegmentKind::Wash).start + 200;
         p.knots.q_rad[k][1] += 0.002;
@@ -463,7 +463,7 @@ fn a_knot_moved_is_seen_by_joints_and_by_the_path() {
 }
 
 #[test]
-fn a_stretch_run_backwards_is_no_wash() {
+fn refuses_a_wash_that_runs_backwards() {
     let told = breaks_at_least(&[PathDeviation], |p| {
         let washing = within(p, SegmentKind::Wash);
         let (from, to) = (washing.start + 300, washing.start + 340);
@@ -475,7 +475,7 @@ fn a_stretch_run_backwards_is_no_wash() {
 }
 
 #[test]
-fn time_squeezed_is_too_fast() {
+fn refuses_a_motion_in_less_time() {
     let squeeze = |p: &mut Plan, factor: f64| {
         p.knots.t_s.iter_mut().for_each(|t| *t *= factor);
         p.knots.qd_rad_s.iter_mut().for_each(|v| *v /= factor);
@@ -513,7 +513,7 @@ fn segments_are_complete_and_in_order() {
 }
 
 #[test]
-fn the_tilt_is_judged_against_what_is_required() {
+fn judges_the_tilt_against_the_requirement() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.lean = 0.1;
     let plan = recipe.plan();
@@ -531,7 +531,7 @@ fn the_tilt_is_judged_against_what_is_required() {
 /// 6.04 mm high and 25 mm in radius: h/s is the sine of 13.98° and the tangent of 13.58°. At 13.78° the rim at the handle is 0.09 mm
 /// inside the plate.
 #[test]
-fn a_sponge_is_tilted_no_further_than_its_upper_rim_allows() {
+fn refuses_a_tilt_beyond_the_upper_rim_of_the_sponge() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.lean = 0.2405;
     let tilt = |recipe: &Recipe| prove(&recipe.plan(), &irb120()).unwrap().check(Tilt).unwrap().clone();
@@ -567,7 +567,7 @@ fn touching_speed(plan: &Plan, lean: f64) -> f64 {
 }
 
 #[test]
-fn a_tilted_rim_touches_in_motion_and_how_fast_is_said() {
+fn reports_the_touching_speed_of_a_tilted_rim() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.lean = 0.2;
     let plan = recipe.plan();
@@ -597,7 +597,7 @@ fn a_tilted_rim_touches_in_motion_and_how_fast_is_said() {
 }
 
 #[test]
-fn a_sponge_that_lifts_off_faster_than_it_may_wash_is_refused() {
+fn refuses_a_sponge_that_lifts_off_too_fast() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.lean = 0.2;
     let mut plan = recipe.plan();
@@ -630,7 +630,7 @@ fn plates_that_overlap_fail_or_are_reported() {
 }
 
 #[test]
-fn another_home_is_another_motion() {
+fn refuses_a_motion_between_other_homes() {
     breaks(&[HomeToHome], |p| p.job.home_rad[0][5] += 0.01);
     breaks(&[HomeToHome], |p| p.job.home_rad[1][3] += 0.1);
     breaks_at_least(&[HomeToHome], |p| {

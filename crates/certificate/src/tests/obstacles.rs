@@ -72,7 +72,7 @@ fn obstacle() -> impl Strategy<Value = Obstacle> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
     #[test]
-    fn no_pair_is_ever_nearer_than_what_is_proved(obstacles in prop::collection::vec(obstacle(), 1..12)) {
+    fn no_sample_of_a_pair_is_nearer_than_the_proved_clearance(obstacles in prop::collection::vec(obstacle(), 1..12)) {
         let named = obstacles.into_iter().enumerate();
         let named = named.map(|(k, obstacle)| Obstacle { name: format!("body {k}"), ..obstacle });
         let plan = among(named.collect());
@@ -104,7 +104,7 @@ proptest! {
 
 /// Whatever is waived of plates that overlap: what stands in one is refused.
 #[test]
-fn what_stands_in_a_plate_breaks_plates_apart() {
+fn an_obstacle_in_a_plate_breaks_plates_apart() {
     let plate = good().job.plates[0].pose.translation.vector;
     let shape = ObstacleShape::Convex(Shape::Sphere { radius_m: 0.01 });
     let stone = Obstacle::new("stone", shape, Pose::translation(plate.x, plate.y, plate.z - 0.01));

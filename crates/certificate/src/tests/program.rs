@@ -69,7 +69,7 @@ fn first_wash(plan: &Plan) -> &PlanSegment {
 }
 
 #[test]
-fn the_plan_itself_holds() {
+fn a_program_equal_to_its_plan_holds() {
     let plan = good();
     let motion = lines(&plan, 1, |_, q| q);
     let proof = judged(&motion, &LIMITS);
@@ -86,7 +86,7 @@ proptest! {
 
     /// The bound of the deviation is above every sample, and no more than the resolution above the worst.
     #[test]
-    fn no_sample_is_beyond_the_bound(every in 1..7_usize, size in 0.0..2e-4_f64, frequency in 0.5..20.0_f64, joint in 0..6_usize) {
+    fn no_sample_exceeds_the_bound(every in 1..7_usize, size in 0.0..2e-4_f64, frequency in 0.5..20.0_f64, joint in 0..6_usize) {
         let plan = good();
         let shaken = |t: f64, mut q: JointVector| {
             q[joint] += size * (frequency * t).sin();
@@ -107,7 +107,7 @@ proptest! {
 }
 
 #[test]
-fn a_bump_in_one_joint_is_found_where_it_is() {
+fn finds_a_bump_in_one_joint_at_its_time() {
     let plan = good();
     let wash = first_wash(&plan);
     let there = 0.5 * (wash.t_start_s + wash.t_end_s);
@@ -144,7 +144,7 @@ fn a_bump_in_one_joint_is_found_where_it_is() {
 }
 
 #[test]
-fn a_wash_that_is_left_out_washes_nothing() {
+fn a_program_without_a_wash_washes_nothing() {
     let plan = good();
     let wash = first_wash(&plan);
     let (from, to) = (wash.t_start_s, wash.t_end_s);
@@ -169,7 +169,7 @@ fn a_wash_that_is_left_out_washes_nothing() {
 }
 
 #[test]
-fn joints_beyond_their_limits_are_found() {
+fn finds_joints_beyond_their_limits() {
     let plan = good();
     let proof = judged(
         &lines(&plan, 1, |_, q| q),
@@ -208,7 +208,7 @@ fn joints_beyond_their_limits_are_found() {
 }
 
 #[test]
-fn a_program_that_goes_through_something_is_not_clear() {
+fn finds_a_program_that_passes_through_a_body() {
     let plan = good();
     let through = |t: f64, mut q: JointVector| {
         if t > 0.2 && t < 0.4 {
@@ -245,7 +245,7 @@ fn a_motion_may_be_shorter_or_longer_than_the_plan() {
 }
 
 #[test]
-fn nothing_is_no_motion() {
+fn rejects_an_empty_motion() {
     let nothing = PiecewiseMotion::new(Vec::new()).unwrap();
     let judged = prove_program(certified(), &nothing, &irb120(), &LIMITS, &CancelToken::new());
     assert!(judged.is_err());

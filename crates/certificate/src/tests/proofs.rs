@@ -37,7 +37,7 @@ fn only_a_plan_whose_certificate_holds_is_certified() {
 }
 
 #[test]
-fn requirements_stand_in_their_order_each_once() {
+fn requirements_are_listed_once_in_order() {
     let checks = prove(&good(), &irb120()).unwrap().checks;
     assert!(checks.is_sorted_by(|a, b| a.requirement < b.requirement));
     assert_eq!(checks.len(), 25);
@@ -45,7 +45,7 @@ fn requirements_stand_in_their_order_each_once() {
 
 /// Without a word about washing, the sponge on the plates is in the way, and the tip is never faster.
 #[test]
-fn a_motion_alone_keeps_clear_of_everything_all_the_time() {
+fn a_motion_without_washing_keeps_clear_at_all_times() {
     let (plan, token) = (good(), CancelToken::new());
     let whole = prove(&plan, &irb120()).unwrap();
     let proof = prove_motion(&plan.knots, &plan.job, &irb120(), &token).unwrap();
@@ -85,7 +85,7 @@ fn a_motion_alone_keeps_clear_of_everything_all_the_time() {
 }
 
 #[test]
-fn what_the_verdict_rests_on_is_told() {
+fn reports_the_basis_of_the_verdict() {
     let mut plan = good();
     let mut post = crate::tests::maker::post("post");
     post.pose.translation.x = -0.9;
@@ -129,7 +129,7 @@ fn what_the_verdict_rests_on_is_told() {
 
 /// The proof does not depend on the planner: of this project, the crate uses only kinematics and workcell.
 #[test]
-fn the_certificate_knows_no_planner() {
+fn the_certificate_does_not_depend_on_the_planner() {
     let manifest: toml::Table = include_str!("../../Cargo.toml").parse().unwrap();
     for section in ["dependencies", "dev-dependencies"] {
         let ours = manifest[section]

@@ -47,7 +47,7 @@ fn hull() -> Shape {
 }
 
 #[test]
-fn a_name_reads_as_one_name() {
+fn quotes_names_so_that_they_read_as_one() {
     let forged = "floor, all below 0; dust";
     let named = |name: &str| {
         let name = name.to_owned();
@@ -78,7 +78,7 @@ fn a_name_reads_as_one_name() {
 }
 
 #[test]
-fn a_dry_run_is_told_before_everything_else() {
+fn a_dry_run_is_stated_first() {
     let dry_run = DryRun {
         parent: "0a".repeat(32),
         height_m: 0.05,
@@ -98,13 +98,13 @@ fn a_dry_run_is_told_before_everything_else() {
 }
 
 #[test]
-fn a_missing_floor_is_told() {
+fn states_a_missing_floor() {
     assert_eq!(told("obstacles", |_| ()), "\"floor\", all below 0");
     assert_eq!(told("obstacles", |r| r.workcell.obstacles.clear()), "none; no floor");
 }
 
 #[test]
-fn bodies_of_the_tool_are_told_with_where_they_are_and_how_they_lie() {
+fn states_position_and_orientation_of_the_bodies_of_the_tool() {
     let straight = told("tool", |_| ());
     assert_eq!(
         straight,
@@ -137,7 +137,7 @@ fn bodies_of_the_tool_are_told_with_where_they_are_and_how_they_lie() {
 }
 
 #[test]
-fn a_turned_obstacle_is_told_by_axis_and_angle() {
+fn states_axis_and_angle_of_a_turned_obstacle() {
     let post_turned = |rotation: UnitQuaternion<f64>| {
         told("obstacles", move |r| {
             let mut post = post("post");
@@ -162,7 +162,7 @@ fn a_turned_obstacle_is_told_by_axis_and_angle() {
 }
 
 #[test]
-fn a_hull_is_told_by_its_points_and_bounds() {
+fn states_the_points_and_bounds_of_a_hull() {
     let words = "the hull of 4 points, x from -10 to 30, y from 0 to 20, z from 0 to 40.0004 mm, at ";
     let obstacle = told("obstacles", |r| {
         let mut rock = post("rock");
@@ -181,7 +181,7 @@ fn a_hull_is_told_by_its_points_and_bounds() {
 }
 
 #[test]
-fn all_sizes_of_plates_are_told_and_the_first_places() {
+fn states_all_sizes_of_plates_and_the_first_positions() {
     let row = |count: u32| (0..count).map(|i| Plate::level_disc([f64::from(i), 0.5, 0.03], 0.145, 0.02));
     let few = told("plates", |r| r.plates = row(2).collect());
     let size = "of radius 145 mm, 20 mm thick, faces 30 mm above 0";
@@ -207,7 +207,7 @@ fn all_sizes_of_plates_are_told_and_the_first_places() {
 }
 
 #[test]
-fn plates_that_are_tilted_say_how() {
+fn states_the_tilt_of_tilted_plates() {
     let leaning = told("plates", |r| {
         r.plates = vec![Plate::level_disc([0.5, 0.0, 0.03], 0.145, 0.02); 2];
         r.plates[1].pose.rotation = nalgebra::UnitQuaternion::from_euler_angles(0.0, -45_f64.to_radians(), 0.0);
@@ -221,7 +221,7 @@ fn plates_that_are_tilted_say_how() {
 }
 
 #[test]
-fn profiles_are_told_by_name_or_knots_with_rim_and_foot() {
+fn states_profiles_by_name_or_knots_with_rim_and_foot() {
     let plate = |surface: Surface, foot: Option<Foot>| {
         told("plates", move |r| {
             r.plates.truncate(1);
@@ -262,7 +262,7 @@ fn profiles_are_told_by_name_or_knots_with_rim_and_foot() {
 }
 
 #[test]
-fn contact_that_nobody_asks_for_is_told() {
+fn states_that_no_contact_is_required() {
     let words = "not required: a point counts as swept where the sponge's face touches it, pressed or not";
     assert_eq!(told("contact", |_| ()), words);
     let landing = told("contact", |r| r.requirements.landing_m_s = Some(0.05));
@@ -270,7 +270,7 @@ fn contact_that_nobody_asks_for_is_told() {
 }
 
 #[test]
-fn no_number_reads_as_a_rounder_one() {
+fn limits_are_printed_without_rounding() {
     let tip_at = |speed: f64| {
         let limits = told("limits", move |r| r.limits.tip_speed_m_s = speed);
         limits

@@ -22,7 +22,7 @@ fn refused(change: impl FnOnce(&mut Plan)) -> ProveError {
 
 /// Eight plates 1 mm apart: 28 pairs overlap, and in 56 washes a neighbour is swept.
 #[test]
-fn all_that_is_waived_is_counted_and_follows_what_is_not_kept() {
+fn the_headline_counts_waived_requirements_after_failed_ones() {
     let mut plan = good();
     let first = plan.job.plates[0];
     plan.job.plates = vec![first; 8];
@@ -79,7 +79,7 @@ fn number(line: &str, unit: &str) -> f64 {
 }
 
 #[test]
-fn the_table_says_no_more_than_is_proved() {
+fn the_table_claims_no_more_than_is_proved() {
     let certificate = certificate();
     let table = format!("{certificate:#}");
     let lines = |from: &str| {
@@ -138,7 +138,7 @@ fn the_table_says_no_more_than_is_proved() {
 }
 
 #[test]
-fn one_is_singular_and_what_ends_within_the_rim_is_inside_it() {
+fn words_for_one_plate_are_singular_and_reach_within_the_rim_is_inside() {
     let mut certificate = certificate();
     (
         certificate.swept[0].beyond_rim_m,
@@ -227,7 +227,7 @@ fn names_out_of_files_are_escaped_in_messages() {
 
 /// A bound that is missing reads as one that is missing, and a force has two sides.
 #[test]
-fn forces_are_told_on_both_sides_and_what_is_not_bounded_is_told_so() {
+fn reports_both_bounds_of_the_force_and_missing_bounds() {
     let mut certificate = prove(&disc(0.006, 4.0, rings()).plan(), &irb120()).unwrap();
     let contact = certificate.contact[0];
     let [least, most] = [contact.least_force_n, contact.greatest_force_n].map(|force| force.bound.unwrap());

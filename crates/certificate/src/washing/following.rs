@@ -254,7 +254,7 @@ mod tests {
         /// If a later value is less than an earlier one, one of them must move by half the difference: no non-decreasing sequence is nearer
         /// than the greatest such half.
         #[test]
-        fn the_order_costs_half_the_greatest_fall(values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
+        fn sorting_moves_values_by_half_the_greatest_fall(values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
             let ordered = in_order(values.clone());
             prop_assert!(ordered.is_sorted());
             let moved = values.iter().zip(&ordered).map(|(v, o)| (v - o).abs()).fold(0.0, f64::max);
@@ -264,14 +264,14 @@ mod tests {
         }
 
         #[test]
-        fn what_is_in_order_stays(mut values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
+        fn sorted_values_stay_unchanged(mut values in prop::collection::vec(-3.0..3.0f64, 1..40)) {
             values.sort_by(f64::total_cmp);
             prop_assert_eq!(in_order(values.clone()), values);
         }
     }
 
     #[test]
-    fn nothing_and_no_number_are_no_trouble() {
+    fn accepts_empty_input_and_nan() {
         assert!(in_order(Vec::new()).is_empty());
         assert_eq!(in_order(vec![0.0, f64::NAN, 1.0]).len(), 3);
     }

@@ -82,12 +82,12 @@ impl Instants {
     }
 
     /// Adds a stretch whose first end has been added already.
-    fn add(&mut self, look: &StretchInputs<'_>, stretch: &Stretch<'_>, depth: u32) {
-        let bounds = look.arm.derivatives(stretch);
+    fn add(&mut self, inputs: &StretchInputs<'_>, stretch: &Stretch<'_>, depth: u32) {
+        let bounds = inputs.arm.derivatives(stretch);
         let drift = drift(stretch, &bounds);
-        let sags = look.sags(stretch, &bounds, &drift);
+        let sags = inputs.sags(stretch, &bounds, &drift);
         let [from, to] = stretch.ends.each_ref();
-        let [step_m, sag_m] = if look.plate.surface.is_flat() {
+        let [step_m, sag_m] = if inputs.plate.surface.is_flat() {
             [STEP_M, SAG_M]
         } else {
             [STEP_ON_BENDS_M, SAG_ON_BENDS_M]
@@ -97,10 +97,10 @@ impl Instants {
                 .iter()
                 .any(|lost_m| *lost_m > sag_m || lost_m.is_nan());
         let halves = (far && depth < MOST_HALVINGS)
-            .then(|| look.arm.halves(stretch))
+            .then(|| inputs.arm.halves(stretch))
             .flatten();
         if let Some(halves) = halves {
-            return halves.iter().for_each(|half| self.add(look, half, depth + 1));
+            return halves.iter().for_each(|half| self.add(inputs, half, depth + 1));
         }
         self.sags.push(sags);
         self.drifts.push(drift);
@@ -108,7 +108,7 @@ impl Instants {
             tip_m_s3: bounds.third(),
             axis: bounds.third_of_axis(),
         });
-        self.see(look.plate, stretch, 1);
+        self.see(inputs.plate, stretch, 1);
     }
 
     fn see(&mut self, plate: &Plate, stretch: &Stretch<'_>, end: usize) {

@@ -66,7 +66,7 @@ pub(crate) fn check(
         return Check::not_judged(Requirement::ContactSpeed);
     };
     let wanted = &subject.job.requirements;
-    let judged = |asked: &TouchSpeedLimit<'_>| judge(arm, subject, pieces, schedule, tips, asked);
+    let judged = |limit: &TouchSpeedLimit<'_>| judge(arm, subject, pieces, schedule, tips, limit);
     let as_washed = FarFace {
         beyond_m: 0.0,
         error_m: 0.0,
@@ -102,17 +102,17 @@ fn judge(
     pieces: &[Piece],
     schedule: &Schedule,
     tips: &Tips,
-    asked: &TouchSpeedLimit<'_>,
+    touch: &TouchSpeedLimit<'_>,
 ) -> Check {
-    let limit = asked.limit;
+    let limit = touch.limit;
     let mut tracker = BoundTracker::new(limit, RESOLUTION * limit);
-    let touching = |span: &Span| asked.kinds.contains(&span.kind);
+    let touching = |span: &Span| touch.kinds.contains(&span.kind);
     let spans = || schedule.spans.iter().enumerate().filter(|(_, span)| touching(span));
     // A plate that is not there is found elsewhere.
     let rim = |index: usize, span: &Span| {
         let plate = subject.plates().get(span.plate)?;
         let sponge = &subject.job.workcell.tool.sponge;
-        Some(Rim::new(plate, sponge, asked.far, tips.least_upright_cosine_of(index)))
+        Some(Rim::new(plate, sponge, touch.far, tips.least_upright_cosine_of(index)))
     };
     tracker.allow_for(spans().map(|(_, span)| span.pieces.len()).sum());
     // Nothing that touches is fast: so it is until something is seen, and for good where nothing touches.
@@ -180,7 +180,7 @@ pub(crate) struct Rim<'a> {
 /// Parts of the sponge's face that may touch over a stretch.
 struct Parts<'a> {
     columns: &'a Columns,
-    touching: Vec<TouchRegion>,
+    region: Vec<TouchRegion>,
 }
 
 impl<'a> Rim<'a> {
@@ -277,7 +277,7 @@ impl<'a> Rim<'a> {
         let mut greatest = 0.0_f64;
         let mut far_m = 0.0_f64;
         let mut along = [f64::INFINITY, f64::NEG_INFINITY];
-        for touching in &parts.touching {
+        for touching in &parts.region {
             for along_m in touching.along_m {
                 far_m = far_m.max(along_m.abs());
                 for m in ends {
@@ -388,7 +388,7 @@ impl Rim<'_> {
         }
         let parts = Parts {
             columns: &columns.0,
-            touching,
+            region: touching,
         };
         Some(self.at_most_of(&parts, stretch, bounds).min(rough))
     }

@@ -193,17 +193,17 @@ impl Pressing {
     }
 
     /// Updates the attained values with those of one moment.
-    pub fn see(&mut self, seen: &PlateLoad, time_s: f64, place_m: [f64; 3]) {
+    pub fn see(&mut self, load: &PlateLoad, time_s: f64, place_m: [f64; 3]) {
         let [least, most] = &mut self.volume;
-        if seen.volume_m3[0] < least.seen {
-            (least.seen, least.time_s, least.place_m) = (seen.volume_m3[0], time_s, place_m);
+        if load.volume_m3[0] < least.seen {
+            (least.seen, least.time_s, least.place_m) = (load.volume_m3[0], time_s, place_m);
         }
-        if seen.volume_m3[1] > most.seen {
-            (most.seen, most.time_s, most.place_m) = (seen.volume_m3[1], time_s, place_m);
+        if load.volume_m3[1] > most.seen {
+            (most.seen, most.time_s, most.place_m) = (load.volume_m3[1], time_s, place_m);
         }
-        if seen.deepest_m > self.deepest.seen {
-            (self.deepest.seen, self.deepest.time_s) = (seen.deepest_m, time_s);
-            self.deepest.place_m = seen.deepest_at_m;
+        if load.deepest_m > self.deepest.seen {
+            (self.deepest.seen, self.deepest.time_s) = (load.deepest_m, time_s);
+            self.deepest.place_m = load.deepest_at_m;
         }
     }
 

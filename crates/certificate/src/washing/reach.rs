@@ -48,7 +48,7 @@ impl ReachInputs<'_> {
 }
 
 /// Fills in the reach of the sponge beyond the rim of each plate, and the plates it may touch there.
-pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &ReachInputs<'_>) {
+pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], inputs: &ReachInputs<'_>) {
     let most_tilted = cos(subject.limits.tilt_rad);
     for wash in washes {
         let index = wash.swept.plate;
@@ -57,13 +57,13 @@ pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], proved: &ReachI
         };
         let radius_m = subject.path_radius_m(index).unwrap_or(0.0);
         let allowed_m = radius_m + outward_m(subject, index) + PATH_TOLERANCE_M;
-        let spans = proved.spans_at(wash.swept.plate);
+        let spans = inputs.spans_at(wash.swept.plate);
         let cos_tilt = spans.fold(1.0, |least: f64, (i, _)| {
-            least.min(proved.tips.least_upright_cosine_of(i))
+            least.min(inputs.tips.least_upright_cosine_of(i))
         });
         // About the axis of a face that is no disc no tilt is asked for.
         let most_tilted = if plate.surface.is_flat() { most_tilted } else { cos_tilt };
-        let [tip_m, seen_m] = tip_m(allowed_m, radius_m, plate, wash, proved);
+        let [tip_m, seen_m] = tip_m(allowed_m, radius_m, plate, wash, inputs);
         let reach_m = beyond_rim_m(subject, plate, tip_m, cos_tilt);
         let swept = &mut wash.swept;
         let touched = |reach_m| touched(subject, index, reach_m);
@@ -89,15 +89,15 @@ fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
 
 /// Returns an upper bound on the distance of the tip from the pole of a plate, seen along its axis, in its wash and in all approaches and
 /// retreats at the plate, and the greatest distance found \[m\]. The bound is infinite where nothing is proved.
-fn tip_m(allowed_m: f64, radius_m: f64, plate: &Plate, wash: &Wash, proved: &ReachInputs<'_>) -> [f64; 2] {
-    let along_path_m = (proved.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
-    let tips = proved.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
+fn tip_m(allowed_m: f64, radius_m: f64, plate: &Plate, wash: &Wash, inputs: &ReachInputs<'_>) -> [f64; 2] {
+    let along_path_m = (inputs.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
+    let tips = inputs.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
         // The wash of another entry.
         SegmentKind::Wash if i != wash.span => [0.0; 2],
         SegmentKind::Wash => [wash.tip_m.min(along_path_m), wash.seen_m],
         _ => {
-            let pieces = &proved.pieces[span.pieces.clone()];
-            let line = Polyline::new(proved.arm, pieces, &Face::of(plate), allowed_m, LINE_HALVINGS);
+            let pieces = &inputs.pieces[span.pieces.clone()];
+            let line = Polyline::new(inputs.arm, pieces, &Face::of(plate), allowed_m, LINE_HALVINGS);
             [line.within_m, line.seen_m]
         }
     });

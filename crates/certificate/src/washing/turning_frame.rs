@@ -253,7 +253,7 @@ mod tests {
 
         /// Checks by finite differences in the turning frame that no tip, axis or column moves, turns or bends more than the bounds say.
         #[test]
-        fn nothing_moves_more_than_is_said(
+        fn no_point_moves_more_than_the_bound(
             q in vector(1.2), step in vector(0.05), v in [vector(0.4), vector(0.4)], aside in [-0.15..0.15f64, -0.15..0.15f64], share in 0.05..0.95f64,
         ) {
             let robot = RobotModel::irb120().unwrap();
@@ -303,7 +303,7 @@ mod tests {
 
     /// A tip that goes round the plate's axis evenly does not move at all.
     #[test]
-    fn what_goes_round_stands_still() {
+    fn a_circling_motion_stands_still_in_the_turning_frame() {
         let robot = RobotModel::irb120().unwrap();
         let (tool, cancel) = (kitchen_tool(), CancelToken::new());
         let arm = Arm::new(&robot, &tool, &cancel);

@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn loads_that_a_controller_refuses() {
+    fn rejects_loads_that_a_controller_refuses() {
         assert!(refused(|mass| mass.mass_kg = 0.0009).contains("0.001 kg or more"));
         assert!(refused(|mass| mass.com_m = [0.0; 3]).contains("centre of mass"));
         assert!(refused(|mass| mass.mass_kg = f64::NAN).contains("finite"));
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn arms_of_others_are_refused() {
+    fn rejects_arms_of_other_makers() {
         let text = IRB120_URDF.replace("<robot name=\"irb120\">", "<robot name=\"ur5\">");
         assert_ne!(text, IRB120_URDF);
         let sources = platewash_kinematics::urdf::MeshSource::none();

@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn keywords_and_names_of_the_controller_are_taken() {
+    fn rejects_keywords_and_names_of_the_controller() {
         assert!(
             ["Proc", "z5", "V100", "wobj0", "MoveL", "JointTarget", "fine"]
                 .into_iter()
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn zones_and_speeds_by_name() {
+    fn knows_zones_and_speeds_by_name() {
         let zones = [0.005, 0.000_3, 0.004, f64::NAN].map(zone_named);
         assert_eq!(zones, [Some("z5"), Some("z0"), None, None]);
         assert_eq!((zone_mm("z5"), zone_mm("z3")), (Some(5.0), None));

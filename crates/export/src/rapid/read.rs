@@ -587,7 +587,7 @@ impl<'a> Run<'a> {
         Ok(Reading {
             speed_share,
             points: self.points,
-            between: Interpolation::RoundedLines,
+            interpolation: Interpolation::RoundedLines,
             tool: self.tool,
             checks_start: self.start_rad.is_some(),
         })

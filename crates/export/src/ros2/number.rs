@@ -87,7 +87,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn every_reader_takes_them_for_floats() {
+    fn every_yaml_reader_takes_written_numbers_for_floats() {
         let texts = [0.0, -0.0, 1.0, -2.0, 1e-5, 1.5e-7, 1e16, 1e300, 0.1].map(float);
         let expected = [
             "0.0", "0.0", "1.0", "-2.0", "1.0e-5", "1.5e-7", "1.0e+16", "1.0e+300", "0.1",
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_float_is_told() {
+    fn reports_numbers_that_are_no_floats() {
         for (text, said) in [
             ("1", ParsedNumber::Whole(1)),
             ("-3", ParsedNumber::Whole(-3)),

@@ -73,7 +73,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     Ok(Reading {
         speed_share: None,
         points,
-        between: Interpolation::Cubics,
+        interpolation: Interpolation::Cubics,
         tool: None,
         checks_start: false,
     })

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn times_that_round_to_one_are_told_apart() {
+    fn keeps_times_apart_that_round_to_the_same_nanosecond() {
         assert_eq!(
             nanoseconds([0.0, 1e-10, 2e-10].into_iter()),
             [500_000_000, 500_000_001, 500_000_002]
@@ -210,7 +210,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn they_increase_and_are_within_a_nanosecond(steps in prop::collection::vec(2e-9..1.0_f64, 1..50)) {
+        fn written_times_increase_and_are_within_a_nanosecond(steps in prop::collection::vec(2e-9..1.0_f64, 1..50)) {
             let times: Vec<f64> = steps.iter().scan(0.0, |t, step| { *t += step; Some(*t) }).collect();
             let all = nanoseconds(times.iter().copied());
             prop_assert!(all.windows(2).all(|pair| pair[0] < pair[1]));

@@ -42,13 +42,13 @@ fn refused(settings: &ExportSettings) -> Refusal {
 }
 
 fn bound(exported: &ExportedProgram, requirement: Requirement) -> f64 {
-    let worst = exported.judged.worst();
+    let worst = exported.judgement.worst();
     let check = worst.iter().find(|check| check.requirement == requirement).unwrap();
     check.measure.unwrap().bound.unwrap()
 }
 
 #[test]
-fn a_plan_is_handed_over_with_as_few_points_as_its_tolerance_needs() {
+fn exports_as_few_points_as_the_tolerance_needs() {
     let mut last = usize::MAX;
     for tolerance_m in [1e-4, 2e-4, 5e-4, 2e-3] {
         let exported = export(&ExportSettings {
@@ -62,7 +62,7 @@ fn a_plan_is_handed_over_with_as_few_points_as_its_tolerance_needs() {
             deviation_m <= tolerance_m && deviation_m > 0.85 * tolerance_m,
             "{tolerance_m}: {deviation_m}"
         );
-        assert_eq!(exported.judged.cases.len(), 4);
+        assert_eq!(exported.judgement.cases.len(), 4);
         let points = exported.reading.points;
         assert!(points.len() < last, "{tolerance_m}: {} points", points.len());
         last = points.len();
@@ -114,7 +114,7 @@ fn a_share_of_the_speed_makes_a_longer_program_on_the_same_path() {
 }
 
 #[test]
-fn the_same_plan_gives_the_same_bytes_and_says_what_it_is() {
+fn the_same_plan_gives_the_same_bytes_with_its_origin() {
     let [a, b] = [0, 1].map(|_| export(&ExportSettings::default()).unwrap().files);
     assert_eq!(a, b);
     let head: Vec<_> = a[0].text.lines().filter(|line| line.starts_with('#')).collect();
@@ -290,7 +290,7 @@ fn a_program_that_does_not_hold_is_refused_by_name() {
 }
 
 #[test]
-fn nothing_is_handed_over_when_it_is_given_up() {
+fn a_cancelled_export_writes_nothing() {
     let cancel = CancelToken::new();
     cancel.cancel();
     let exported = export::export(kitchen(), &arm(), &Toy, &ExportSettings::default(), &cancel);
@@ -336,7 +336,7 @@ fn line_of(text: &str, point: usize) -> (usize, String) {
 }
 
 #[test]
-fn what_is_unchanged_is_found_unchanged() {
+fn finds_no_change_in_an_unchanged_program() {
     let same = compared(str::to_owned).unwrap();
     assert!(same.is_unchanged() && same.holds(), "{:?}", same.changes);
     // Line ends, spaces, and how numbers are written.
@@ -345,7 +345,7 @@ fn what_is_unchanged_is_found_unchanged() {
 }
 
 #[test]
-fn a_digit_that_was_changed_is_found_in_its_line() {
+fn finds_a_changed_digit_in_its_line() {
     let (line, before) = line_of(&text(), 300);
     let words: Vec<_> = before.split(' ').map(str::to_owned).collect();
     let edit = |word: usize, by: f64| {
@@ -370,7 +370,7 @@ fn a_digit_that_was_changed_is_found_in_its_line() {
 }
 
 #[test]
-fn lines_that_are_missing_or_added_are_found_where_they_are() {
+fn finds_missing_and_added_lines_where_they_are() {
     let (line, before) = line_of(&text(), 300);
     let found = compared(|text| text.replace(&format!("{before}\n"), "")).unwrap();
     assert_eq!(found.changes.len(), 1, "{:?}", found.changes);
@@ -389,14 +389,14 @@ fn lines_that_are_missing_or_added_are_found_where_they_are() {
 
 /// Changes outside the motion are listed too, such as those of the head.
 #[test]
-fn a_head_that_was_changed_is_named() {
+fn names_a_changed_header() {
     let found = compared(|text| text.replace("not a safety function", "a safety function")).unwrap();
     assert_eq!(found.changes.len(), 1);
     assert!(found.changes[0].expected.contains("not a safety function"));
 }
 
 #[test]
-fn a_program_of_another_plan_is_refused_by_its_hash() {
+fn rejects_a_program_of_another_plan_by_its_hash() {
     let hash = kitchen().plan().hash.clone().unwrap();
     let other = "0123456789abcdef".repeat(4);
     let refused = compared(|text| text.replace(&hash, &other)).unwrap_err();
@@ -408,7 +408,7 @@ fn a_program_of_another_plan_is_refused_by_its_hash() {
 
 /// A tolerance that was widened in the head is the one that the program is judged by.
 #[test]
-fn a_setting_that_was_changed_is_what_is_judged_by() {
+fn judges_a_program_by_its_edited_setting() {
     let found = compared(|text| text.replace("tolerance_m = 0.0002", "tolerance_m = 0.001")).unwrap();
     assert_eq!(found.tolerance_m, 1e-3);
     let refused = compared(|text| text.replace("tolerance_m = 0.0002", "tolerance_m = 1"));
@@ -419,7 +419,7 @@ fn a_setting_that_was_changed_is_what_is_judged_by() {
 
 /// The text of a program names the promises about contact for which it is not judged; without promises it says nothing.
 #[test]
-fn what_is_not_judged_of_contact_is_told() {
+fn reports_contact_promises_that_are_not_judged() {
     let job = &kitchen().plan().job;
     let text = export(&ExportSettings::default()).unwrap().files[0].text.clone();
     assert!(

@@ -82,7 +82,7 @@ impl Dialect for Toy {
         Ok(Reading {
             speed_share,
             points,
-            between: Interpolation::RoundedLines,
+            interpolation: Interpolation::RoundedLines,
             tool: None,
             checks_start: false,
         })

@@ -127,20 +127,20 @@ impl Controller {
     }
 
     /// One of [`INSTRUCTIONS`].
-    pub(crate) fn instruction(&mut self, name: &str, given: &ParameterValues, place: Place) -> Result<(), String> {
+    pub(crate) fn instruction(&mut self, name: &str, values: &ParameterValues, place: Place) -> Result<(), String> {
         match name {
             "set_tcp" => {
                 self.check_standing("the tip")?;
-                self.tip = Some(pose(required(given, 0, "pose")?)?);
+                self.tip = Some(pose(required(values, 0, "pose")?)?);
             }
             "set_payload" => {
                 self.check_standing("the payload")?;
-                self.load = Some(load(given)?);
+                self.load = Some(load(values)?);
             }
-            "movej" => return self.movej(given, place),
-            "servoj" => return self.servoj(given, place),
+            "movej" => return self.movej(values, place),
+            "servoj" => return self.servoj(values, place),
             "stopj" => {
-                positive(given, 0, "a")?;
+                positive(values, 0, "a")?;
                 if matches!(self.stage, Stage::Before) {
                     return Err("stopj before any motion".to_owned());
                 }
@@ -152,7 +152,7 @@ impl Controller {
                 );
             }
             _ => {
-                required(given, 0, "text")?;
+                required(values, 0, "text")?;
             }
         }
         Ok(())
@@ -166,15 +166,15 @@ impl Controller {
         }
     }
 
-    fn movej(&mut self, given: &ParameterValues, place: Place) -> Result<(), String> {
-        let q_rad = joints(given)?;
+    fn movej(&mut self, values: &ParameterValues, place: Place) -> Result<(), String> {
+        let q_rad = joints(values)?;
         for (k, name) in [(1, "a"), (2, "v")] {
-            if given.get(k).is_some_and(Option::is_some) {
-                positive(given, k, name)?;
+            if values.get(k).is_some_and(Option::is_some) {
+                positive(values, k, name)?;
             }
         }
         for (k, name) in [(3, "t"), (4, "r")] {
-            let found = given.get(k).and_then(Option::as_ref).map_or(Ok(0.0), Value::number)?;
+            let found = values.get(k).and_then(Option::as_ref).map_or(Ok(0.0), Value::number)?;
             if found != 0.0 {
                 let reason = format!(
                     "movej with {name}: its ramps and blends are the controller's; expected servoj for what is timed"
@@ -202,7 +202,7 @@ impl Controller {
         Ok(())
     }
 
-    fn servoj(&mut self, given: &ParameterValues, place: Place) -> Result<(), String> {
+    fn servoj(&mut self, values: &ParameterValues, place: Place) -> Result<(), String> {
         match self.stage {
             Stage::Before => {
                 return Err("servoj before the arm is at its start; expected movej to the start first".to_owned());
@@ -210,15 +210,15 @@ impl Controller {
             Stage::Stopped => return Err("servoj behind stopj, which takes a time of its own".to_owned()),
             Stage::Moving => {}
         }
-        let q_rad = joints(given)?;
-        let t_s = positive(given, 3, "t")?;
+        let q_rad = joints(values)?;
+        let t_s = positive(values, 3, "t")?;
         if t_s > LONGEST_S {
             return Err(format!(
                 "servoj with t = {t_s} s: it hastens to its target, which is even motion up to {LONGEST_S} s alone"
             ));
         }
-        within(given, 4, "lookahead_time", LOOKAHEAD_S)?;
-        within(given, 5, "gain", GAIN)?;
+        within(values, 4, "lookahead_time", LOOKAHEAD_S)?;
+        within(values, 5, "gain", GAIN)?;
         self.t_s += t_s;
         let t_s = self.t_s;
         self.points.push(ReadPoint {
@@ -261,30 +261,32 @@ impl Controller {
         Ok(Reading {
             speed_share: Some(speed_share),
             points: self.points,
-            between: Interpolation::Lines,
+            interpolation: Interpolation::Lines,
             tool,
             checks_start: false,
         })
     }
 }
 
-fn required<'a>(given: &'a ParameterValues, k: usize, name: &str) -> Result<&'a Value, String> {
-    match given.get(k) {
+fn required<'a>(values: &'a ParameterValues, k: usize, name: &str) -> Result<&'a Value, String> {
+    match values.get(k) {
         Some(Some(value)) => Ok(value),
         _ => Err(format!("expected an argument \"{name}\"")),
     }
 }
 
-fn positive(given: &ParameterValues, k: usize, name: &str) -> Result<f64, String> {
-    let found = required(given, k, name)?.number()?;
+fn positive(values: &ParameterValues, k: usize, name: &str) -> Result<f64, String> {
+    let found = required(values, k, name)?.number()?;
     match found > 0.0 {
         true => Ok(found),
         false => Err(format!("expected {name} above 0, found {found}")),
     }
 }
 
-fn within(given: &ParameterValues, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), String> {
-    let Some(Some(value)) = given.get(k) else { return Ok(()) };
+fn within(values: &ParameterValues, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), String> {
+    let Some(Some(value)) = values.get(k) else {
+        return Ok(());
+    };
     let found = value.number()?;
     match (least..=most).contains(&found) {
         true => Ok(()),
@@ -292,8 +294,8 @@ fn within(given: &ParameterValues, k: usize, name: &str, [least, most]: [f64; 2]
     }
 }
 
-fn joints(given: &ParameterValues) -> Result<JointVector, String> {
-    let value = required(given, 0, "q")?;
+fn joints(values: &ParameterValues) -> Result<JointVector, String> {
+    let value = required(values, 0, "q")?;
     if let Value::Pose(_) = value {
         return Err("expected joint positions, found a pose: which branch it means is the controller's".to_owned());
     }
@@ -308,9 +310,9 @@ fn joints(given: &ParameterValues) -> Result<JointVector, String> {
     }
 }
 
-fn load(given: &ParameterValues) -> Result<(f64, [f64; 3]), String> {
-    let mass_kg = positive(given, 0, "m")?;
-    let com_m = match given.get(1) {
+fn load(values: &ParameterValues) -> Result<(f64, [f64; 3]), String> {
+    let mass_kg = positive(values, 0, "m")?;
+    let com_m = match values.get(1) {
         Some(Some(cog)) => cog.list::<3>()?,
         _ => [0.0; 3],
     };

@@ -291,7 +291,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn each_scheme_by_hand() {
+    fn damping_schemes_agree_with_hand_calculation() {
         let regular = Jacobian::identity();
         let singular = Jacobian::zeros();
         let sugihara = Damping::default();
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_out_of_range_are_found() {
+    fn finds_numbers_out_of_range() {
         assert_eq!(Damping::default().misfit(), None);
         assert_eq!(Damping::Constant { lambda: -1.0 }.misfit(), Some(-1.0));
         assert!(Damping::ErrorProportional { gain: f64::NAN }.misfit().is_some());
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_not_positive_definite() {
+    fn rejects_matrices_that_are_not_positive_definite() {
         let mut a = Matrix6::identity();
         a[(3, 3)] = -1.0;
         assert_eq!(solve_spd(&a, &Vector6::zeros()), None);

@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_limit_counts_what_is_read() {
+    fn the_size_limit_counts_bytes_read() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");
         std::fs::write(&path, "12345").unwrap();
@@ -102,7 +102,7 @@ mod tests {
     /// `/dev/zero` never ends; files below `/proc` state a length of zero.
     #[cfg(target_os = "linux")]
     #[test]
-    fn devices_are_refused_and_stated_lengths_not_believed() {
+    fn rejects_devices_and_ignores_stated_lengths() {
         assert_eq!(read_bytes(Path::new("/dev/zero"), 5), Err(FileError::NotRegular));
         assert_eq!(
             read_bytes(Path::new("/proc/self/status"), 5),

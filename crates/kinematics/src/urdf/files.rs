@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_read_is_held_when_the_disk_has_forgotten_it() {
+    fn keeps_read_files_after_they_leave_the_disk() {
         let folder = tempfile::tempdir().unwrap();
         let [path, none] = ["a.urdf", "none"].map(|name| folder.path().join(name));
         std::fs::write(&path, "abc").unwrap();

@@ -128,13 +128,13 @@ fn convert_link(
     link: &urdf_rs::Link,
     frame: Frame,
     meshes: &MeshSource,
-    looks: &mut VisualReader<'_>,
+    reader: &mut VisualReader<'_>,
 ) -> Result<Link, UrdfError> {
     Ok(Link {
         name: link.name.clone(),
         frame,
         collision: shapes::primitives(link, meshes)?,
-        visuals: looks.of(link),
+        visuals: reader.of(link),
         inertial: inertial(link)?,
     })
 }

@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn percentiles_by_hand() {
+    fn percentiles_agree_with_hand_calculation() {
         assert_eq!(percentile(&[3.0, 1.0, 2.0], 0.5), 2.0);
         assert_eq!(percentile(&[0.0, 10.0], 0.95), 9.5);
         assert_eq!(percentile(&[], 0.5), 0.0);
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn binomial_errors_by_hand() {
+    fn binomial_errors_agree_with_hand_calculation() {
         let e = binomial_percent(50, 100);
         assert_eq!(e.value, 50.0);
         // Wilson's interval for 50 of 100 is 0.4038 … 0.5962.

@@ -100,7 +100,7 @@ pub struct Promise {
     /// The sponge; of unknown stiffness 1 Pa.
     pub foundation: Foundation,
     /// Requirement at a single place of the face.
-    pub wanted: ContactThresholds,
+    pub thresholds: ContactThresholds,
     /// Shares that must be in contact, long enough, and with enough of a dose.
     pub shares: [f64; 3],
     /// Greatest strain; infinite without a limit.
@@ -119,7 +119,7 @@ impl Promise {
         let Some(contact) = &requirements.contact else {
             return Self {
                 foundation,
-                wanted: ContactThresholds {
+                thresholds: ContactThresholds {
                     compression_m: if surface.is_flat() { ANY_M } else { 0.0 },
                     height_error_m: 0.0,
                     time_s: 0.0,
@@ -132,7 +132,7 @@ impl Promise {
         };
         Self {
             foundation,
-            wanted: ContactThresholds {
+            thresholds: ContactThresholds {
                 compression_m: contact.compression_m,
                 height_error_m: contact.height_error_m,
                 time_s: contact.time_s,
@@ -155,7 +155,7 @@ impl Promise {
     /// cone, less the tip's deviation from its path, as in the certificate. `None` for all other promises.
     pub(crate) fn swept_within(&self, surface: &Surface, cone_rad: f64) -> Option<Self> {
         let (_, cosine) = sin_cos(cone_rad);
-        let is_swept = surface.is_flat() && self.wanted.compression_m == ANY_M;
+        let is_swept = surface.is_flat() && self.thresholds.compression_m == ANY_M;
         is_swept.then(|| Self {
             foundation: Foundation {
                 radius_m: (self.foundation.radius_m * cosine - PATH_TOLERANCE_M).max(0.0),
@@ -222,7 +222,7 @@ impl Promise {
             distance_m = distance_m.max(moment.pose.tip.xy().norm());
         }
         let (_, cosine) = sin_cos(acos(least_cosine) + margin.tilt_rad);
-        let off_m = OFF_FACE_M + self.wanted.height_error_m;
+        let off_m = OFF_FACE_M + self.thresholds.height_error_m;
         let level = Level {
             height_m: [-off_m, off_m],
             cosine,
@@ -239,7 +239,7 @@ impl Promise {
         } else {
             Columns::fine(&self.foundation)
         };
-        let error_m = self.wanted.height_error_m;
+        let error_m = self.thresholds.height_error_m;
         let loads = moments.par_iter().map(|moment| {
             let [low, high] = [-error_m, error_m].map(|more_m| columns.load(surface, &moment.pose, more_m));
             ([low.volume_m3[0], high.volume_m3[1]], high.deepest_m)
@@ -272,9 +272,9 @@ impl Promise {
     /// Requirement at a place, with a margin.
     fn wanted_with(&self, margin: &Margin) -> ContactThresholds {
         ContactThresholds {
-            time_s: margin.more * self.wanted.time_s,
-            dose_pa_m: margin.more * self.wanted.dose_pa_m,
-            ..self.wanted
+            time_s: margin.more * self.thresholds.time_s,
+            dose_pa_m: margin.more * self.thresholds.dose_pa_m,
+            ..self.thresholds
         }
     }
 
@@ -307,18 +307,18 @@ impl Promise {
         least: f64,
     ) -> Option<f64> {
         let mut slowest = *self;
-        slowest.wanted.time_s *= least;
+        slowest.thresholds.time_s *= least;
         if !slowest.seems_kept(surface, moments, margin) {
             return None;
         }
-        let looks = ContactSampler::new(&self.foundation, moments, &self.wanted);
+        let looks = ContactSampler::new(&self.foundation, moments, &self.thresholds);
         let places = (0..PLACES).into_par_iter();
         let mut times_s: Vec<f64> = places.map(|k| looks.at(&place(surface, k)).time_s).collect();
         times_s.sort_by(|a, b| b.total_cmp(a));
         let [_, share, _] = self.shares;
         let needed = f64::from(PLACES) * margin.required(share);
         let time_s = times_s.get((needed.ceil() as usize).saturating_sub(1))?;
-        Some((time_s / (margin.more * self.wanted.time_s)).clamp(least, 1.0))
+        Some((time_s / (margin.more * self.thresholds.time_s)).clamp(least, 1.0))
     }
 
     /// The share of a face that is too small, checked place by place over some moments.
@@ -365,12 +365,12 @@ pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
 }
 
 /// Checks that the k-th place is pressed deep enough, long enough, and with enough of a dose.
-fn kept_at(looks: &ContactSampler<'_>, surface: &Surface, wanted: &ContactThresholds, k: u32) -> [bool; 3] {
-    let dwell = looks.at(&place(surface, k));
+fn kept_at(sampler: &ContactSampler<'_>, surface: &Surface, thresholds: &ContactThresholds, k: u32) -> [bool; 3] {
+    let dwell = sampler.at(&place(surface, k));
     [
-        dwell.compression_m >= wanted.compression_m,
-        dwell.time_s >= wanted.time_s,
-        dwell.dose_pa_m >= wanted.dose_pa_m,
+        dwell.compression_m >= thresholds.compression_m,
+        dwell.time_s >= thresholds.time_s,
+        dwell.dose_pa_m >= thresholds.dose_pa_m,
     ]
 }
 

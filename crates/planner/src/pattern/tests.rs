@@ -29,7 +29,7 @@ fn open() -> PlannerSettings {
 }
 
 #[test]
-fn what_is_stated_is_kept() {
+fn keeps_the_stated_pattern() {
     let (job, wanted) = (contact_kitchen(), disc());
     let stated = |change: fn(&mut PlannerSettings)| {
         let mut settings = open();
@@ -68,7 +68,7 @@ fn what_is_stated_is_kept() {
 
 /// Rings are as many as are stated, however few or many a face asks for, and however small the sponge or the path: there is always a curve.
 #[test]
-fn rings_are_as_many_as_are_stated() {
+fn keeps_the_stated_number_of_rings() {
     let job = contact_kitchen();
     let mut surfaces = vec![
         disc(),
@@ -130,7 +130,7 @@ fn a_job_that_states_all_has_one_pattern() {
 
 /// The shortest first, no curve beyond the rim, and none faster than the area allows.
 #[test]
-fn what_is_chosen_is_short_and_on_the_plate() {
+fn chooses_short_wash_paths_on_the_plate() {
     let job = contact_kitchen();
     let mut surfaces = vec![disc()];
     surfaces.extend(SHIPPED_PROFILES.iter().filter_map(|name| Surface::shipped(name)));
@@ -155,7 +155,7 @@ fn what_is_chosen_is_short_and_on_the_plate() {
 /// A pattern checked on the bare face alone also keeps its promise with the arm's own tilts; with a third of the compression no
 /// pattern does.
 #[test]
-fn the_kitchen_presses_as_is_promised() {
+fn the_kitchen_keeps_its_promises_of_contact() {
     let job = contact_kitchen();
     let planned = crate::plan(&job).unwrap();
     let pressed = |job: &WashJob| {

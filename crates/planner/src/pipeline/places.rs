@@ -193,14 +193,14 @@ pub fn washable_map(
 
 impl Pipeline<'_> {
     /// Checks, place by place, that the plate suits with its centre there \[m\], and leaves the arm room at home.
-    fn suited(&self, asked: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
+    fn suited(&self, moved: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
         let look = |trial: &mut Trial<'_>, centre: &[f64; 2]| match trial.suits(&(*centre).into()) {
             Ok(suits) => Ok(suits && self.check_homes_among(trial.bodies()).is_ok()),
             Err(RedundancyError::Cancelled(cancelled)) => Err(cancelled),
             // Planning would refuse it there.
             Err(_) => Ok(false),
         };
-        centres.par_iter().map_init(|| Trial::new(asked), look).collect()
+        centres.par_iter().map_init(|| Trial::new(moved), look).collect()
     }
 }
 
@@ -319,7 +319,7 @@ mod tests {
 
     /// Each answer is that of a trial of its own, made for this place alone.
     #[test]
-    fn answers_are_those_of_each_place_alone() {
+    fn batch_answers_equal_those_of_each_place_alone() {
         let (job, cancel) = (kitchen(), CancelToken::new());
         let watch = Watch::silent(&cancel);
         let area = MapArea {
@@ -349,7 +349,7 @@ mod tests {
 
     /// One plate after the other over the floor around the arm.
     #[test]
-    fn what_is_told_of_a_plate_is_what_comes_of_its_washing() {
+    fn predicted_washability_equals_the_planned_result() {
         let (kitchen, cancel) = (kitchen(), CancelToken::new());
         let watch = Watch::silent(&cancel);
         let mut told = [0; 3];

@@ -168,16 +168,16 @@ fn line(
     foot: &Contact,
     tilt_rad: f64,
     q: &JointVector,
-    touching: TouchSpeed,
+    touch_speed: TouchSpeed,
 ) -> Result<LiftLine, PlanError> {
     let (plate, lift_m, terms) = (path.plate, path.lift_m, pipeline.terms);
     let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
-    let touches_m = match touching.from {
+    let touches_m = match touch_speed.from {
         // The tilted rim touches up to there, and a sample more.
         Reach::Compressed => terms.workcell.tool.sponge.radius_m * sin(scene.stance.lean_rad(tilt_rad)) + LINE_STEP_M,
         Reach::Free => pipeline.meets_m(plate, lift_m, over),
     };
-    let heights = match touching.from {
+    let heights = match touch_speed.from {
         // A sample where it meets the plate: from there on it may be faster.
         Reach::Free if touches_m < lift_m - LINE_STEP_M => {
             let mut heights = evenly(0.0, touches_m, 2.0);
@@ -198,7 +198,7 @@ fn line(
     // To the bit where the wash begins or ends.
     configurations[0] = *q;
     let line = LiftLine::line(plate, heights, configurations)?;
-    Ok(line.no_faster(touches_m, touching.speed_m_s))
+    Ok(line.no_faster(touches_m, touch_speed.speed_m_s))
 }
 
 /// Heights from one to another, evenly, no farther apart than [`LINE_STEP_M`] and in that many steps or more.

@@ -38,7 +38,7 @@ pub struct MovedPlate<'a> {
 /// One place after the other, with the plate moved there.
 #[derive(Debug, Clone)]
 pub struct Trial<'a> {
-    asked: MovedPlate<'a>,
+    moved: MovedPlate<'a>,
     plates: Vec<Plate>,
     clearance: ClearanceModel,
 }
@@ -46,11 +46,11 @@ pub struct Trial<'a> {
 impl<'a> Trial<'a> {
     /// Trials with the plate of the wash path.
     #[must_use]
-    pub fn new(asked: &MovedPlate<'a>) -> Self {
+    pub fn new(moved: &MovedPlate<'a>) -> Self {
         Self {
-            asked: *asked,
-            plates: asked.scene.plates.to_vec(),
-            clearance: asked.clearance.clone(),
+            moved: *moved,
+            plates: moved.scene.plates.to_vec(),
+            clearance: moved.clearance.clone(),
         }
     }
 
@@ -71,7 +71,7 @@ impl<'a> Trial<'a> {
             clearance_m,
             near,
             ..
-        } = self.asked;
+        } = self.moved;
         scene.check_cancelled()?;
         let (plate, count) = (path.plate, self.plates.len());
         let lies = self
@@ -132,15 +132,15 @@ pub const MOST_CHECKS: usize = 32;
 /// # Errors
 /// [`RedundancyError`] for numbers out of range, or where the search was given up.
 pub fn nearest_washable(
-    asked: &MovedPlate<'_>,
+    moved: &MovedPlate<'_>,
     holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
     tell: &dyn Fn(u32),
 ) -> Result<Option<Vector2<f64>>, RedundancyError> {
-    let (plate, plates) = (asked.path.plate, asked.scene.plates);
+    let (plate, plates) = (moved.path.plate, moved.scene.plates);
     let count = plates.len();
     let here = plates.get(plate).ok_or(RedundancyError::Plate { plate, count })?;
-    let here = Vector2::from(asked.scene.centre_in_world(here));
-    let mut trial = Trial::new(asked);
+    let here = Vector2::from(moved.scene.centre_in_world(here));
+    let mut trial = Trial::new(moved);
     let at_rest = on_grid(&here);
     if trial.suits(&at_rest)? && holds(&at_rest) {
         return Ok(Some(at_rest));

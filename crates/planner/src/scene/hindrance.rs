@@ -211,7 +211,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_too_near_is_told_by_the_distance_and_the_one_required() {
+    fn reports_the_distance_and_the_required_clearance() {
         struct WorstText(f64);
         impl fmt::Display for WorstText {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

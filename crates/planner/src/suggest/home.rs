@@ -309,7 +309,7 @@ mod tests {
 
     /// A box around all that the arm can reach.
     #[test]
-    fn where_nothing_is_clear_there_is_no_home() {
+    fn returns_no_home_where_nothing_is_clear() {
         let mut terms = kitchen().terms().clone();
         let block = ObstacleShape::Convex(Shape::Box { half_m: [2.0; 3] });
         terms

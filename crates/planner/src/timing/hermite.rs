@@ -77,7 +77,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_is_the_trajectorys_segment(q in [vector(), vector()], v in [vector(), vector()], h in 0.01..2.0f64) {
+        fn cubic_equals_the_segment_of_the_trajectory(q in [vector(), vector()], v in [vector(), vector()], h in 0.01..2.0f64) {
             let piece = Piece::new(h, [&q[0], &q[1]], v);
             let motion = Trajectory::from_knots(vec![0.0, h], q.to_vec(), v.to_vec()).unwrap();
             let extremes = motion.extremes().next().unwrap();

@@ -410,7 +410,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(128))]
         #[test]
-        fn the_answer_is_allowed_and_no_search_finds_a_larger_one(
+        fn the_speed_is_allowed_and_the_largest(
             interval in intervals(),
             most in (1e-3..2.0f64, prop_oneof![Just(0.0), 1e-3..2.0f64]),
         ) {
@@ -423,7 +423,7 @@ mod tests {
         }
 
         #[test]
-        fn the_furthest_is_allowed_and_a_little_more_is_not(interval in intervals(), share in 0.0..0.99f64) {
+        fn the_furthest_value_is_the_largest_allowed_one(interval in intervals(), share in 0.0..0.99f64) {
             let x = LinearProgram::new().furthest_back(&interval, [1.0, 1.0]);
             let x0 = x[0] * share;
             let most = interval.furthest(x0);
@@ -436,7 +436,7 @@ mod tests {
 
     /// By hand: |x₁ − x₀| ≤ 1 from x₁ ≤ 1/2 lets x₀ be at most 3/2.
     #[test]
-    fn braking_by_hand() {
+    fn braking_agrees_with_hand_calculation() {
         let mut at_start = [0.0; STRIPS];
         let mut at_end = [0.0; STRIPS];
         (at_start[3], at_end[3]) = (-1.0, 1.0);

@@ -65,7 +65,7 @@ pub fn time_optimal_slowed(
     robot: &RobotModel,
     tip: &Frame,
     limits: &MotionLimits,
-    slow: &[SlowStretch],
+    slow_stretches: &[SlowStretch],
 ) -> Result<TimedPath, TimingError> {
     if let Some((limit, value)) = limits.unusable() {
         return Err(TimingError::Limit { limit, value });
@@ -77,7 +77,7 @@ pub fn time_optimal_slowed(
         });
     }
     let tip = limits.tip.map(|_| TipModel::new(robot, tip));
-    Rounds::new(Grid::of(path, tip)?, limits, slow).run()
+    Rounds::new(Grid::of(path, tip)?, limits, slow_stretches).run()
 }
 
 /// A path in time.

@@ -41,7 +41,7 @@ pub(crate) struct Rounds<'a> {
     /// Limits that are aimed at: the given limits less the margin.
     limits: MotionLimits,
     /// Ranges in which the parameter moves slowly.
-    slow: Vec<SlowStretch>,
+    slow_stretches: Vec<SlowStretch>,
     intervals: Vec<Interval>,
     /// Divisor of the speed limit of each interval.
     slowed: Vec<f64>,
@@ -55,13 +55,13 @@ pub(crate) struct Rounds<'a> {
 
 impl<'a> Rounds<'a> {
     /// State before the first round.
-    pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow: &[SlowStretch]) -> Self {
+    pub fn new(grid: Grid<'a>, limits: &MotionLimits, slow_stretches: &[SlowStretch]) -> Self {
         let samples = grid.knots().len();
         let mut rounds = Self {
             grid,
             samples,
             limits: limits.times(1.0 - MARGIN),
-            slow: slow.to_vec(),
+            slow_stretches: slow_stretches.to_vec(),
             intervals: Vec::new(),
             slowed: vec![1.0; samples - 1],
             most: Vec::new(),
@@ -124,7 +124,10 @@ impl<'a> Rounds<'a> {
             let around = k.saturating_sub(1)..(k + 1).min(last);
             let slowed = self.slowed[around.clone()].iter().fold(1.0, |a: f64, &b| a.max(b));
             let width = self.intervals[around].iter().fold(f64::INFINITY, |a, i| a.min(i.width));
-            let here = self.slow.iter().filter(|s| s.u[0] <= knot.u && knot.u <= s.u[1]);
+            let here = self
+                .slow_stretches
+                .iter()
+                .filter(|s| s.u[0] <= knot.u && knot.u <= s.u[1]);
             let slow = here.fold(f64::INFINITY, |most, s| most.min(s.most / self.grid.span()));
             let fastest = (fastest(knot, &self.limits) / slowed)
                 .min(width / SHORTEST_PIECE_S)

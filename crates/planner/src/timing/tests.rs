@@ -251,7 +251,7 @@ proptest! {
 
     /// A path walked backwards takes as long: the greed is forwards, the optimum has no direction.
     #[test]
-    fn backwards_takes_as_long(samples in samples()) {
+    fn a_reversed_path_takes_as_long(samples in samples()) {
         let (robot, tip) = arm();
         let path = smooth(samples, 20, Ends::NotAKnot);
         let u: Vec<f64> = path.parameters().iter().rev().map(|u| -u).collect();
@@ -330,7 +330,7 @@ fn configurations_may_repeat_within_a_path() {
 }
 
 #[test]
-fn a_path_that_stays_is_refused() {
+fn rejects_a_path_without_motion() {
     let (robot, tip) = arm();
     let path = JointPath::through(vec![0.0, 1.0, 2.0], vec![JointVector::repeat(0.1); 3], Ends::NotAKnot).unwrap();
     let refused = time_optimal(&path, &robot, &tip, &limits(None));
@@ -338,7 +338,7 @@ fn a_path_that_stays_is_refused() {
 }
 
 #[test]
-fn limits_that_are_none_are_refused_by_name() {
+fn rejects_invalid_limits_by_name() {
     let (robot, tip) = arm();
     let path = line(1.0, 5);
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 5e-324] {

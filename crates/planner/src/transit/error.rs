@@ -176,7 +176,7 @@ mod tests {
 
     /// A plate whose surface is `gap` below the free sponge, under the tool that points straight down.
     #[test]
-    fn the_pair_its_distance_and_what_is_required_are_named() {
+    fn names_the_pair_its_distance_and_the_required_clearance() {
         let robot = RobotModel::irb120().unwrap();
         let tool = kitchen_tool();
         let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);

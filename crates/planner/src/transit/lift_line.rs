@@ -193,7 +193,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_ends_are_met_with_both_derivatives(a in states(), b in states(), length in 0.1..3.0f64) {
+        fn meets_both_ends_with_their_derivatives(a in states(), b in states(), length in 0.1..3.0f64) {
             let at = |u: f64| quintic(&a, &b, length, u / length);
             let h = 1e-4 * length;
             for (end, state, h) in [(0.0, a, h), (length, b, -h)] {

@@ -150,7 +150,7 @@ impl Search<'_> {
 }
 
 /// Checks that the tip exceeds its speed limit at a knot of a stretch that must be slow.
-fn is_too_fast(rules: &TransitRules<'_>, timed: &TimedPath, slow: &SlowStretch) -> bool {
+fn is_too_fast(rules: &TransitRules<'_>, timed: &TimedPath, slow_stretches: &SlowStretch) -> bool {
     let (positions, speeds) = (timed.motion.positions(), timed.motion.speeds());
     let tip_speed = |k: usize| {
         let jacobian = rules
@@ -160,8 +160,10 @@ fn is_too_fast(rules: &TransitRules<'_>, timed: &TimedPath, slow: &SlowStretch) 
             .jacobian(&rules.scene.tip, Axes::Base);
         (jacobian.fixed_rows::<3>(0) * speeds[k]).norm()
     };
-    let within = |k: &usize| (slow.u[0]..=slow.u[1]).contains(&timed.parameters[*k]);
-    (0..positions.len()).filter(within).any(|k| tip_speed(k) > slow.most)
+    let within = |k: &usize| (slow_stretches.u[0]..=slow_stretches.u[1]).contains(&timed.parameters[*k]);
+    (0..positions.len())
+        .filter(within)
+        .any(|k| tip_speed(k) > slow_stretches.most)
 }
 
 fn check_line(rules: &TransitRules<'_>, end: &LiftLine) -> Result<(), TransitError> {

@@ -129,7 +129,7 @@ fn joint_2_is_drawn_back_where_only_that_helps() {
 }
 
 #[test]
-fn the_arc_stands_in_where_the_joints_are_blocked() {
+fn uses_the_arc_where_joint_motion_is_blocked() {
     let set = set();
     // A tunnel about the arc.
     let tunnel = |q: &JointVector, _: Stretch| {
@@ -151,7 +151,7 @@ fn a_window_among_the_joints_is_found_by_sampling() {
 }
 
 #[test]
-fn what_cannot_be_crossed_is_named() {
+fn names_the_obstruction_of_a_transit() {
     let set = set();
     let blocked = |q: &JointVector, _: Stretch| q[0].abs() > 0.1;
     let error = plan_among(&set, &blocked, Some(0.3)).unwrap_err();
@@ -172,7 +172,7 @@ fn what_cannot_be_crossed_is_named() {
 }
 
 #[test]
-fn what_is_given_up_is_no_transit() {
+fn a_cancelled_search_returns_no_transit() {
     let (set, cancel) = (set(), CancelToken::new());
     cancel.cancel();
     among(&set, &|_, _| true, |scene| {

@@ -171,8 +171,8 @@ impl From<&std::io::Error> for SystemWord {
 }
 
 /// A file that the system does not give or take: an `OSError` too, with the name as `filename`.
-pub fn system_file(py: Python<'_>, of: FileKind, word: SystemWord, filename: &str, message: &str) -> PyErr {
-    let (class, number) = match (of, word) {
+pub fn system_file(py: Python<'_>, kind: FileKind, word: SystemWord, filename: &str, message: &str) -> PyErr {
+    let (class, number) = match (kind, word) {
         (FileKind::Urdf, SystemWord::NotFound) => ("UrdfNotFoundError", Some(ENOENT)),
         (FileKind::Plan, SystemWord::NotFound) => ("PlanNotFoundError", Some(ENOENT)),
         (FileKind::Scenario, SystemWord::NotFound) => ("ScenarioNotFoundError", Some(ENOENT)),
@@ -193,19 +193,19 @@ pub fn system_file(py: Python<'_>, of: FileKind, word: SystemWord, filename: &st
 }
 
 /// An input file that was not read: missing, refused by the system, or no text that is read.
-pub fn unread(py: Python<'_>, of: FileKind, path: &Path, error: &FileError) -> PyErr {
+pub fn unread(py: Python<'_>, kind: FileKind, path: &Path, error: &FileError) -> PyErr {
     let filename = path.display().to_string();
     let message = format!("{filename}: cannot be read: {error}");
     match error {
-        FileError::System { kind, code, .. } => {
-            let word = match kind {
+        FileError::System { kind: cause, code, .. } => {
+            let word = match cause {
                 ErrorKind::NotFound => SystemWord::NotFound,
                 _ => SystemWord::Refused(*code),
             };
-            system_file(py, of, word, &filename, &message)
+            system_file(py, kind, word, &filename, &message)
         }
-        FileError::NotRegular => system_file(py, of, SystemWord::Refused(None), &filename, &message),
-        _ => match of {
+        FileError::NotRegular => system_file(py, kind, SystemWord::Refused(None), &filename, &message),
+        _ => match kind {
             FileKind::Urdf => named(py, "UrdfError", &message),
             FileKind::Plan => named(py, "PlanFileError", &message),
             FileKind::Scenario => named(py, "ScenarioError", &message),

@@ -58,7 +58,7 @@ impl ExecutionObject {
     }
 
     fn felt<'py>(&self, py: Python<'py>, of: impl Fn(&FoamLoad) -> f64) -> Option<Bound<'py, PyArray1<f64>>> {
-        let felt: Option<Vec<f64>> = self.samples().iter().map(|s| s.felt.as_ref().map(&of)).collect();
+        let felt: Option<Vec<f64>> = self.samples().iter().map(|s| s.load.as_ref().map(&of)).collect();
         felt.map(|felt| arrays::line(py, felt))
     }
 }

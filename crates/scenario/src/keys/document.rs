@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn no_key_is_there_twice() {
+    fn every_key_exists_once() {
         let paths: BTreeSet<_> = in_order().iter().map(|(key, _)| key.path).collect();
         assert_eq!(paths.len(), in_order().len());
     }

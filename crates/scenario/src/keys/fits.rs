@@ -273,7 +273,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_is_found_where_it_stands_or_in_its_section() {
+    fn finds_a_key_in_its_line_or_its_section() {
         let text = "seed = 1\nlayout.count = 2\n[wash]\nturns = 1\n[[plate]]\ncount = 1\n\n[[plate]]\ncount = 2\n";
         let table = DeTable::parse(text).unwrap();
         let line = |key: &str| byte_of(table.get_ref(), key).map(|at| line_at(text, at));

@@ -202,7 +202,7 @@ mod tests {
     type Change = fn(&mut Scenario);
 
     #[test]
-    fn what_no_certified_job_can_have_is_refused_by_its_key() {
+    fn rejects_keys_that_no_certified_job_can_have() {
         let cases: [(&str, Change); 18] = [
             ("layout.plate_foot_m", |s| s.layout.plate_foot_m = Some([1e-6, 0.01])),
             ("layout.plate_foot_m", |s| s.layout.plate_foot_m = Some([0.05, 1e-6])),
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn too_much_work_is_refused_before_it_is_begun() {
+    fn refuses_too_much_work_before_it_begins() {
         assert!(with(49_950, 4).validate().is_ok());
         let message = with(49_951, 4).validate().unwrap_err().to_string();
         assert!(
@@ -277,7 +277,7 @@ mod tests {
 
     /// Waypoints are the paper program's alone: they refuse no certified job, whose own wash paths count.
     #[test]
-    fn only_keys_that_the_program_uses_count() {
+    fn rejects_keys_that_the_program_does_not_use() {
         let mut scenario = Scenario::load("kitchen-spiral").unwrap();
         (scenario.wash.points, scenario.transition.samples) = (100_000, 100_000);
         scenario.layout.count = 200;

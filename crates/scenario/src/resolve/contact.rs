@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_promise_has_defaults_and_nothing_is_promised_without_it() {
+    fn the_contact_promise_has_defaults_and_is_optional() {
         let (asked, stiffness) = requirements("wash.contact = true");
         assert_eq!(asked.contact, Some(PROMISED));
         assert_eq!((asked.landing_m_s, asked.lifting_m_s), (Some(0.05), Some(0.05)));
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn every_key_of_contact_counts_with_the_promise_and_is_refused_without_it() {
+    fn keys_of_contact_need_the_contact_promise() {
         let keys: Vec<_> = KEYS
             .iter()
             .filter(|key| key.path.starts_with("wash.contact_"))
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stated_is_what_is_asked_for() {
+    fn requirements_equal_the_stated_keys() {
         let (asked, stiffness) = requirements(
             "wash.contact = true\nwash.landing_speed_m_s = 0.1\nwash.wrist_min_deg = 5\ntool.sponge_stiffness_kpa = [15, 20]",
         );
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wash_path_is_the_planners_where_it_is_not_stated() {
+    fn the_planner_chooses_an_unstated_wash_path() {
         let settings = |lines: &str| {
             let job = parsed(&format!("wash.height_m = 0\n{lines}")).unwrap().job().unwrap();
             let Planner::Wash(settings) = job.terms().planner.clone() else {
@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_make_no_sense_are_refused_with_their_range() {
+    fn rejects_senseless_values_with_their_range() {
         for (line, key) in [
             ("tool.sponge_stiffness_kpa = [0, 44]", "tool.sponge_stiffness_kpa"),
             ("tool.sponge_stiffness_kpa = [44, 11]", "tool.sponge_stiffness_kpa"),

@@ -322,7 +322,7 @@ mod tests {
     use platewash_workcell::fixtures;
 
     #[test]
-    fn the_kitchen_of_other_crates_tests_is_the_shipped_one() {
+    fn the_kitchen_fixture_equals_the_shipped_scenario() {
         for (name, fixture) in [
             ("kitchen-spiral", fixtures::kitchen()),
             ("kitchen", fixtures::contact_kitchen()),

@@ -97,7 +97,7 @@ mod tests {
     const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
     #[test]
-    fn a_mesh_is_cut_once_until_it_changes() {
+    fn a_mesh_is_decomposed_once_until_it_changes() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.obj");
         std::fs::write(&file, TETRAHEDRON).unwrap();
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_has_a_bound_and_the_longest_unused_goes_first() {
+    fn the_cache_is_bounded_and_drops_the_longest_unused_first() {
         let (solids, hulls) = (Solids::default(), Hulls::default());
         for k in 0..KEPT {
             solids.keep(k.to_string(), hulls.clone());

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn sections_that_make_no_tool_are_named_with_their_index_and_line() {
+    fn rejects_invalid_tool_sections_with_index_and_line() {
         let bracket = "[[tool_body]]\nname = \"bracket\"\nshape = \"box\"\nsize_m = [0.06, 0.02, 0.04]\n";
         let more = |text: &str| refused(&format!("{bracket}[[tool_body]]\n{text}"));
         for (said, words) in [
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_reads_back_as_it_is_and_no_body_has_the_name_of_a_link() {
+    fn reads_back_a_tool_chain_and_rejects_names_of_links() {
         let text = "[[tool_body]]\nname = \"link_3\"\nshape = \"capsule\"\nradius_m = 0.01\nlength_m = 0.05\nat_m = [0.03, 0, 0.05]\n\
                 rpy_deg = [0, 90, 0]\nmass_kg = 0.1\n";
         let mut scenario = Scenario::parse(&format!("{HEAD}mount_rpy_deg = [30, 0, 0]\n{text}"), "case").unwrap();

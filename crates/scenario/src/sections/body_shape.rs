@@ -207,7 +207,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_turn_is_none_to_the_bit() {
+    fn a_turn_of_zero_changes_no_bit() {
         let at = [0.1, -0.2, 0.3];
         assert_eq!(pose(at, [0.0; 3]), Pose::translation(0.1, -0.2, 0.3));
         // z turned about x by 30° is (0, −½, √¾), and that about z by 90° is (½, 0, √¾).

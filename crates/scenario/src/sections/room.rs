@@ -127,7 +127,7 @@ mod tests {
     use nalgebra::{Point3, Vector3};
 
     #[test]
-    fn the_floor_of_a_file_that_says_nothing_is_the_plain_one() {
+    fn the_default_floor_is_a_plain_half_space() {
         assert_eq!(FloorSection::default().obstacle(), Some(Obstacle::floor()));
         assert_eq!(TableSection::default().obstacle(), None);
         let none = FloorSection {
@@ -139,7 +139,7 @@ mod tests {
 
     /// By hand: a table of 1 m by 0.6 m turned by 90° about its middle at (0.5, 0).
     #[test]
-    fn a_table_ends_below_its_height() {
+    fn the_body_of_a_table_ends_below_its_height() {
         let table = TableSection {
             size_m: Some([1.0, 0.6]),
             height_m: Some(0.4),

@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn foam_is_on_where_its_stiffness_is_known_and_nothing_else_is_said() {
+    fn the_foam_is_on_by_default_where_its_stiffness_is_known() {
         let section = PlantSection::default();
         let known = sponge(Some([11e3, 44e3]));
         let contact = section.settings(Some(&known)).contact.unwrap();

@@ -256,7 +256,7 @@ mod tests {
     /// A double integrator under semi-implicit Euler is stable if and only if 4 − 2 T kd − T² kp > 0 and kd, kp > 0 (Jury's
     /// criterion on z² − (2 − T kd − T² kp) z + 1 − T kd).
     #[test]
-    fn the_limit_is_jurys() {
+    fn the_stability_limit_agrees_with_jurys_criterion() {
         let mass =
             RobotModel::irb120().map(|r| DynamicsModel::new(&r, None).unwrap().mass_matrix(&JointVector::zeros()));
         let mass = mass.unwrap();
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn doubling_is_repeating() {
+    fn doubling_equals_repeating_the_step() {
         let (step, input) = euler(&(MassMatrix::identity() * 7.0), &(MassMatrix::identity() * 3.0), 0.01);
         for count in 0..20 {
             let (mut passed, mut forced) = (Transition::identity(), Transition::zeros());

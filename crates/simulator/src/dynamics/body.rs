@@ -158,7 +158,7 @@ mod tests {
 
     /// Two halves of a rod, each m/2 and l/2 long, are the rod: m l²/12.
     #[test]
-    fn two_halves_are_the_whole() {
+    fn two_halves_give_the_body_of_the_whole() {
         let half = |z: f64| {
             let across = 0.5 * 0.5 * 0.5 / 12.0;
             RigidBody {
@@ -185,7 +185,7 @@ mod tests {
     proptest! {
         /// Masses at random points make a body, for any number of points.
         #[test]
-        fn points_of_mass_are_a_body(points in prop::collection::vec((0.01..2.0f64, prop::array::uniform3(-1.0..1.0f64)), 1..9)) {
+        fn point_masses_give_the_body(points in prop::collection::vec((0.01..2.0f64, prop::array::uniform3(-1.0..1.0f64)), 1..9)) {
             let point = |(mass_kg, at): &(f64, [f64; 3])| RigidBody {
                 mass_kg: *mass_kg,
                 com_m: Vector3::from(*at),
@@ -197,7 +197,7 @@ mod tests {
 
         /// The criterion is that of the principal moments.
         #[test]
-        fn the_triangle_inequality_decides(a in 0.0..1.0f64, b in 0.0..1.0f64, c in 0.0..1.0f64, turn in prop::array::uniform3(-3.0..3.0f64)) {
+        fn the_triangle_inequality_decides_about_inertias(a in 0.0..1.0f64, b in 0.0..1.0f64, c in 0.0..1.0f64, turn in prop::array::uniform3(-3.0..3.0f64)) {
             let least = (a + b - c).min(b + c - a).min(c + a - b) / (a + b + c);
             prop_assume!(least.abs() > 1e-4);
             let turn = nalgebra::Rotation3::new(Vector3::from(turn));
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_exist_is_named() {
+    fn names_impossible_mass_properties() {
         let fine = Matrix3::identity();
         assert_eq!(check(&body(fine)), Ok(()));
         assert_eq!(check(&body(Matrix3::zeros())), Ok(()));

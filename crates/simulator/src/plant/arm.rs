@@ -88,7 +88,7 @@ impl Plant {
                 self.acceleration(at, &pushed(&push))
             }),
         };
-        (next, qdd, first.felt)
+        (next, qdd, first.load)
     }
 
     /// Acceleration under joint torques and friction \[rad/s²\].

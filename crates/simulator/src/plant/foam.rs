@@ -113,7 +113,7 @@ pub struct FoamLoad {
 pub(crate) struct Wrench {
     pub force: Vector3<f64>,
     pub moment: Vector3<f64>,
-    pub felt: FoamLoad,
+    pub load: FoamLoad,
     pub energy_j: f64,
 }
 
@@ -194,7 +194,7 @@ mod tests {
     };
 
     #[test]
-    fn within_the_limit_it_is_the_foundation() {
+    fn within_the_limit_the_foam_equals_the_foundation() {
         for w in [1e-6, 0.005, 0.0149] {
             let (energy, pressure) = FOAM.of(w);
             assert!((pressure - 2e4 * w / 0.025).abs() < 1e-9);
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_slope_has_no_step() {
+    fn returns_no_step_for_an_invalid_slope() {
         let one = MassMatrix::identity();
         let euler = Integrator::SemiImplicitEuler;
         assert_eq!(longest_step_s(&one, &slope(0.0, 0.0), euler), f64::INFINITY);

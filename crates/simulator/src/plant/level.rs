@@ -99,7 +99,7 @@ impl LevelColumns {
         Wrench {
             force: Vector3::new(0.0, 0.0, force),
             moment: Vector3::new(lever.y, -lever.x, 0.0),
-            felt: FoamLoad {
+            load: FoamLoad {
                 force_n: stiffness * w,
                 deepest_m: outermost.map(|(at, _)| face.compression_m(at)).fold(0.0, f64::max),
             },
@@ -135,7 +135,7 @@ impl LevelColumns {
             lever[0] += pressed * away[0];
             lever[1] += pressed * away[1];
             wrench.energy_j += share * energy * area_m2;
-            wrench.felt.deepest_m = wrench.felt.deepest_m.max(w);
+            wrench.load.deepest_m = wrench.load.deepest_m.max(w);
             if slope != 0.0 {
                 let rho = rho_squared.sqrt();
                 let out = Vector3::new(px / rho, py / rho, 0.0);
@@ -146,7 +146,7 @@ impl LevelColumns {
                 wrench.moment += Vector3::new(away[0], away[1], -tip.z).cross(&force);
             }
         }
-        wrench.felt.force_n = push;
+        wrench.load.force_n = push;
         let [along_x, along_y] = lever.map(|sum| sum * face.over_cosine);
         wrench.force.z += push * face.over_cosine;
         wrench.moment += Vector3::new(along_y, -along_x, 0.0);

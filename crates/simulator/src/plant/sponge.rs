@@ -61,7 +61,7 @@ pub struct Push {
     /// Torques at the joints \[N·m\].
     pub torque: JointVector,
     /// Load on the foam: the sum of forces along the tool's axis, and the greatest compression.
-    pub felt: FoamLoad,
+    pub load: FoamLoad,
     /// Energy in the foam \[J\].
     pub energy_j: f64,
 }
@@ -149,8 +149,8 @@ impl SpongeOnPlates {
             let wrench = self.pressed(target, &at, &state.qd);
             push.torque += at.torque(&wrench.force, &wrench.moment);
             push.energy_j += wrench.energy_j;
-            push.felt.force_n += wrench.felt.force_n;
-            push.felt.deepest_m = push.felt.deepest_m.max(wrench.felt.deepest_m);
+            push.load.force_n += wrench.load.force_n;
+            push.load.deepest_m = push.load.deepest_m.max(wrench.load.deepest_m);
         }
         push
     }
@@ -166,7 +166,7 @@ impl SpongeOnPlates {
         let raised = Target::new(&raised, self.reach_m);
         let at = model.frame_motion(q, &self.tip);
         if raised.may_touch(&at) {
-            self.pressed(&raised, &at, &JointVector::zeros()).felt
+            self.pressed(&raised, &at, &JointVector::zeros()).load
         } else {
             FoamLoad::default()
         }
@@ -227,9 +227,9 @@ impl SpongeOnPlates {
         Wrench {
             force: turn * wrench.force * left,
             moment: turn * (wrench.moment * left + upright),
-            felt: FoamLoad {
-                force_n: wrench.felt.force_n * left,
-                ..wrench.felt
+            load: FoamLoad {
+                force_n: wrench.load.force_n * left,
+                ..wrench.load
             },
             energy_j: wrench.energy_j * left,
         }
@@ -269,8 +269,8 @@ impl SpongeOnPlates {
             wrench.force += force;
             wrench.moment += away.cross(&force);
             wrench.energy_j += share * energy * column.area_m2;
-            wrench.felt.force_n += share * pressure * column.area_m2;
-            wrench.felt.deepest_m = wrench.felt.deepest_m.max(w);
+            wrench.load.force_n += share * pressure * column.area_m2;
+            wrench.load.deepest_m = wrench.load.deepest_m.max(w);
         }
         wrench
     }
@@ -330,12 +330,12 @@ mod tests {
             let twist = (damping_pa_s > 0.0).then_some([Vector3::new(a, b, c), Vector3::new(d, e, f)]);
             let one_by_one = sponge.summed(&plate, &pose, &across, twist.as_ref());
             let at_once = sponge.level.pressed(&sponge.foam, plate.rim_m(), (&pose, &across), twist.as_ref());
-            let scale = one_by_one.felt.force_n.max(1.0);
+            let scale = one_by_one.load.force_n.max(1.0);
             prop_assert!((at_once.force - one_by_one.force).amax() < 1e-9 * scale, "{at_once:?} {one_by_one:?}");
             prop_assert!((at_once.moment - one_by_one.moment).amax() < 1e-10 * scale, "{at_once:?} {one_by_one:?}");
             prop_assert!((at_once.energy_j - one_by_one.energy_j).abs() < 1e-12 * scale);
-            prop_assert!((at_once.felt.force_n - one_by_one.felt.force_n).abs() < 1e-9 * scale);
-            prop_assert!((at_once.felt.deepest_m - one_by_one.felt.deepest_m).abs() < 1e-13);
+            prop_assert!((at_once.load.force_n - one_by_one.load.force_n).abs() < 1e-9 * scale);
+            prop_assert!((at_once.load.deepest_m - one_by_one.load.deepest_m).abs() < 1e-13);
         }
     }
 }

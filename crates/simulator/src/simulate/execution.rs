@@ -24,7 +24,7 @@ pub struct Sample {
     /// Torques held until the next sample, within the limits \[N·m\]; zeros under a kinematic law.
     pub torque: JointVector,
     /// Load on the sponge's foam; `None` where it is not simulated.
-    pub felt: Option<FoamLoad>,
+    pub load: Option<FoamLoad>,
 }
 
 /// Motion that the arm made.
@@ -78,7 +78,7 @@ impl fmt::Display for ExecutedTable<'_> {
         let tip = self.plan.job.workcell.tool.tip_frame(self.robot);
         let stride = (self.dt_s / self.execution.period_s).max(1.0);
         let last = samples.len().saturating_sub(1);
-        let force = if samples.first().is_some_and(|sample| sample.felt.is_some()) {
+        let force = if samples.first().is_some_and(|sample| sample.load.is_some()) {
             csv::FORCE
         } else {
             ""
@@ -94,7 +94,7 @@ impl fmt::Display for ExecutedTable<'_> {
             let motion = [&sample.state.q, &sample.state.qd, &sample.qdd];
             csv::write_row(f, sample.t_s, self.plan.segments.get(sample.segment), motion, &at)?;
             csv::write_joints(f, &sample.torque)?;
-            if let Some(felt) = &sample.felt {
+            if let Some(felt) = &sample.load {
                 write!(f, ",{}", felt.force_n)?;
             }
             writeln!(f)?;

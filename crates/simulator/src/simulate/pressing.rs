@@ -102,24 +102,24 @@ pub(crate) struct Judge<'a> {
 impl Judge<'_> {
     /// Pressing over the samples of a wash of a plate, by its index; `None` without samples, or without foam.
     pub fn pressing(&self, samples: &[Sample], index: usize, plate: &Plate) -> Option<Pressing> {
-        let felt: Option<Vec<FoamLoad>> = samples.iter().map(|sample| sample.felt).collect();
-        let felt = felt.filter(|felt| !felt.is_empty())?;
-        let deepest_m = felt.iter().map(|felt| felt.deepest_m).fold(0.0, f64::max);
+        let load: Option<Vec<FoamLoad>> = samples.iter().map(|sample| sample.load).collect();
+        let load = load.filter(|load| !load.is_empty())?;
+        let deepest_m = load.iter().map(|load| load.deepest_m).fold(0.0, f64::max);
         Some(Pressing {
-            force: ForceRange::of(&felt),
+            force: ForceRange::of(&load),
             deepest_m,
             strain: deepest_m / self.foundation.free_height_m,
-            lost: self.lost(samples, &felt),
+            lost: self.lost(samples, &load),
             planned: HEIGHT_ERRORS_M.map(|higher_m| self.at_height(samples, index, higher_m)),
             contact: self.required.map(|required| self.contact(samples, plate, required)),
         })
     }
 
-    fn lost(&self, samples: &[Sample], felt: &[FoamLoad]) -> Option<ContactLoss> {
-        let first = felt.iter().position(|felt| felt.deepest_m <= 0.0)?;
-        let count = felt.iter().filter(|felt| felt.deepest_m <= 0.0).count();
+    fn lost(&self, samples: &[Sample], load: &[FoamLoad]) -> Option<ContactLoss> {
+        let first = load.iter().position(|load| load.deepest_m <= 0.0)?;
+        let count = load.iter().filter(|load| load.deepest_m <= 0.0).count();
         Some(ContactLoss {
-            share: count as f64 / felt.len() as f64,
+            share: count as f64 / load.len() as f64,
             time_s: count as f64 * self.period_s,
             first_t_s: samples[first].t_s,
         })
@@ -128,12 +128,12 @@ impl Judge<'_> {
     fn at_height(&self, samples: &[Sample], index: usize, higher_m: f64) -> ForceAtHeight {
         let stride = samples.len().div_ceil(POSES).max(1);
         let poses = samples.iter().step_by(stride).map(|sample| &sample.commanded);
-        let felt: Vec<_> = poses
+        let load: Vec<_> = poses
             .map(|q| self.sponge.felt(self.model, q, index, higher_m))
             .collect();
         ForceAtHeight {
             higher_m,
-            force: ForceRange::of(&felt),
+            force: ForceRange::of(&load),
         }
     }
 
@@ -182,14 +182,14 @@ impl Judge<'_> {
 
 impl ForceRange {
     /// Range over samples of equal duration; zeros without samples.
-    fn of(felt: &[FoamLoad]) -> Self {
-        if felt.is_empty() {
+    fn of(load: &[FoamLoad]) -> Self {
+        if load.is_empty() {
             return Self::default();
         }
-        let forces = || felt.iter().map(|felt| felt.force_n);
+        let forces = || load.iter().map(|load| load.force_n);
         Self {
             least_n: forces().fold(f64::INFINITY, f64::min),
-            mean_n: forces().sum::<f64>() / felt.len() as f64,
+            mean_n: forces().sum::<f64>() / load.len() as f64,
             most_n: forces().fold(f64::NEG_INFINITY, f64::max),
         }
     }

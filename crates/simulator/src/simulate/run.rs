@@ -143,7 +143,7 @@ struct Outcome {
     /// True where a limit cut the torque.
     is_cut: bool,
     /// Load on the foam at the sample.
-    felt: Option<FoamLoad>,
+    load: Option<FoamLoad>,
 }
 
 impl Run<'_> {
@@ -184,7 +184,7 @@ impl Run<'_> {
                 state,
                 qdd: outcome.qdd,
                 torque: outcome.torque,
-                felt: outcome.felt,
+                load: outcome.load,
             };
             watch(&sample);
             samples.push(sample);
@@ -227,7 +227,7 @@ impl Run<'_> {
             qdd: (qd - state.qd) / self.period_s,
             torque: JointVector::zeros(),
             is_cut: false,
-            felt: None,
+            load: None,
         }
     }
 
@@ -262,7 +262,7 @@ impl Run<'_> {
             qdd: first.unwrap_or_default(),
             torque: held,
             is_cut: held != *torque,
-            felt,
+            load: felt,
         }
     }
 }

@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_round_and_within() {
+    fn ticks_are_round_numbers_within_the_range() {
         assert_eq!(scale([0.0, 42.7]).ticks(8), [0.0, 10.0, 20.0, 30.0, 40.0]);
         let ticks = scale([-0.31, 0.29]).ticks(6);
         assert_eq!(ticks, scale([0.29, -0.31]).ticks(6));

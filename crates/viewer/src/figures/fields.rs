@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fields_keep_within_the_room_and_apart() {
+    fn figure_fields_stay_in_their_area_and_apart() {
         let room = Rect::new(50.0, 160.0, 1500.0, 740.0);
         let holds = |rect: &Rect| (0..2).all(|k| rect.at[k] >= room.at[k] && rect.end()[k] <= room.end()[k]);
         let meets = |a: &Rect, b: &Rect| (0..2).all(|k| a.at[k] < b.end()[k] && b.at[k] < a.end()[k]);

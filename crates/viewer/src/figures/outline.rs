@@ -108,7 +108,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     #[test]
-    fn outlines_by_hand() {
+    fn outlines_agree_with_hand_calculation() {
         let cube = solid(
             &Shape::Box {
                 half_m: [1.0, 2.0, 3.0],

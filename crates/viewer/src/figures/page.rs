@@ -23,22 +23,22 @@ pub struct FigureTexts {
 }
 
 /// A new sheet with its words, and where there is room for the rest.
-pub fn begin(words: &FigureTexts) -> (Drawing, Rect) {
+pub fn begin(texts: &FigureTexts) -> (Drawing, Rect) {
     let mut drawing = Drawing::default();
     let [title, subtitle] =
         [(33, INK), (21, GREY)].map(|(size, colour)| format!("font-size=\"{size}\" fill=\"{colour}\""));
     // As many letters as there is room for, were all of them wide.
     drawing.text(
         [MARGIN, 66.0],
-        &shortened(&words.title, 64),
+        &shortened(&texts.title, 64),
         &[&title, "font-weight=\"bold\""],
     );
-    drawing.text([MARGIN, 101.0], &shortened(&words.subtitle, 110), &[&subtitle]);
+    drawing.text([MARGIN, 101.0], &shortened(&texts.subtitle, 110), &[&subtitle]);
     let (right, foot) = (SIZE[0] - MARGIN, SIZE[1] - 74.0);
     drawing.line([MARGIN, foot], [right, foot], &stroke(LINE, 1.0));
-    drawing.text([right, foot + 26.0], &words.source, &[SMALL, END]);
-    let room = right - MARGIN - width(&words.source, 16.0) - 60.0;
-    for (k, line) in lines(&words.caption, 16.0, room).iter().take(3).enumerate() {
+    drawing.text([right, foot + 26.0], &texts.source, &[SMALL, END]);
+    let room = right - MARGIN - width(&texts.source, 16.0) - 60.0;
+    for (k, line) in lines(&texts.caption, 16.0, room).iter().take(3).enumerate() {
         drawing.text([MARGIN, foot + 26.0 + 20.0 * k as f64], line, &[SMALL]);
     }
     let top = 126.0;

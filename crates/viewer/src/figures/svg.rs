@@ -258,7 +258,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_keep_their_corners_and_what_is_said_is_text() {
+    fn lines_keep_corners_and_labels_are_text() {
         let line: Vec<Spot> = (0..=20_i32)
             .map(|k| [f64::from(k), f64::from((k - 10).abs())])
             .collect();

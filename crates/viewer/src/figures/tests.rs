@@ -112,7 +112,7 @@ fn no_text_is_cut_or_lies_on_another() {
 }
 
 #[test]
-fn a_hostile_name_is_text_and_keeps_within_the_sheet() {
+fn escapes_a_hostile_name_and_keeps_it_within_the_sheet() {
     let mut plan = KNOWN.plan.clone();
     plan.provenance.scenario = "</title><script>\"&\u{202e}\u{7}\n".repeat(400);
     let subject = Subject::new(&plan, KNOWN.job.arm()).unwrap();
@@ -202,7 +202,7 @@ fn the_same_plan_gives_the_same_bytes_for_every_number_of_threads() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_said() {
+fn reports_figures_that_cannot_be_drawn() {
     let known = &*KNOWN;
     let said = |name| Figure::named(name).unwrap_err().to_string();
     assert_eq!(

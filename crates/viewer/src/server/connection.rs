@@ -51,7 +51,7 @@ fn answer(stream: &TcpStream, served: &ServerState, place: &Place, head: &[u8]) 
         Ok(request) => request,
         Err(refused) => return refused.write(&mut Deadline::after(stream, LONG), !head.starts_with(b"HEAD ")),
     };
-    if let (RequestKind::Answer(question), Some(service)) = (request.wants, service) {
+    if let (RequestKind::Answer(question), Some(service)) = (request.kind, service) {
         let begun = head.get(request.head_bytes..).unwrap_or_default();
         // While it is being sent it may have to go for another one.
         place.set_answered(false);
@@ -59,13 +59,13 @@ fn answer(stream: &TcpStream, served: &ServerState, place: &Place, head: &[u8]) 
         place.set_answered(true);
         return match body {
             Ok(body) => {
-                let turns = question.asked.is_work.then_some(&served.turns);
+                let turns = question.limits.is_work.then_some(&served.turns);
                 answer_question(stream, service, turns, &request.path, &body)
             }
             Err(refused) => refused.write(&mut Deadline::after(stream, LONG), true),
         };
     }
-    let wants_contents = request.wants == RequestKind::Contents;
+    let wants_contents = request.kind == RequestKind::Contents;
     let found = site.find(&request);
     let mut out = Deadline::after(stream, LONG);
     match found {

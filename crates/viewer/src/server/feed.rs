@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_early_and_who_gives_up_does_not_wait() {
+    fn samples_are_never_early_and_cancelling_ends_the_wait() {
         let (start, token) = (Instant::now(), CancelToken::new());
         wait(start, 0.05, &token);
         assert!(start.elapsed() >= Duration::from_millis(50));
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn fifty_samples_a_second_are_told_the_first_and_the_last_among_them() {
+    fn sends_fifty_samples_a_second_with_the_first_and_the_last() {
         let job = kitchen();
         let (arm, plan) = (job.shared_arm(), plan(&job).unwrap().plan);
         let execution = simulate(&plan, &arm, &plan.job.simulation).unwrap();
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_run_is_told_in_so_many_rows() {
+    fn a_long_run_is_sent_in_a_bounded_number_of_rows() {
         let job = kitchen();
         let (arm, mut plan) = (job.shared_arm(), plan(&job).unwrap().plan);
         let mut sample = simulate(&plan, &arm, &plan.job.simulation).unwrap().samples[0];

@@ -50,7 +50,7 @@ pub struct LiveEnd {
 #[derive(Debug)]
 pub struct LiveRun {
     tag: String,
-    told: Mutex<LiveLog>,
+    log: Mutex<LiveLog>,
     changed: Condvar,
 }
 
@@ -73,7 +73,7 @@ impl LiveRun {
     pub fn new(tag: &str) -> Arc<Self> {
         Arc::new(Self {
             tag: tag.chars().filter(char::is_ascii_alphanumeric).collect(),
-            told: Mutex::new(LiveLog {
+            log: Mutex::new(LiveLog {
                 state: LiveState::Waiting,
                 rows: Vec::new(),
                 end: None,
@@ -146,8 +146,8 @@ impl LiveRun {
         write(&mut out(), &format!("retry: {RETRY_MS}\n\n"))?;
         loop {
             let told = self.lock();
-            let is_old = |told: &mut LiveLog| {
-                !told.is_closed && known == Some(told.state) && told.rows.len() <= next && told.end.is_none()
+            let is_old = |log: &mut LiveLog| {
+                !log.is_closed && known == Some(log.state) && log.rows.len() <= next && log.end.is_none()
             };
             let woken = self.changed.wait_timeout_while(told, HEARTBEAT, is_old);
             let told = woken.unwrap_or_else(PoisonError::into_inner).0;
@@ -210,7 +210,7 @@ impl LiveRun {
     }
 
     fn lock(&self) -> MutexGuard<'_, LiveLog> {
-        self.told.lock().unwrap_or_else(PoisonError::into_inner)
+        self.log.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// All rows so far.
@@ -248,7 +248,7 @@ mod tests {
     const NOW: Duration = Duration::ZERO;
 
     #[test]
-    fn there_are_only_so_many_followers_and_one_that_leaves_makes_room() {
+    fn bounds_followers_and_frees_the_place_of_one_that_leaves() {
         let live = LiveRun::new("a");
         let mut followers: Vec<_> = (0..FOLLOWERS).map(|_| live.enter().unwrap()).collect();
         assert!(live.enter().is_none());
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_waits_for_a_page_and_for_all_to_know_its_end() {
+    fn a_run_waits_for_a_page_and_until_all_received_its_end() {
         let (live, token) = (LiveRun::new("a"), CancelToken::new());
         assert!(!live.wait_for_page(NOW, &token));
         let (headline, washed) = ("WASHED".to_owned(), Some(true));
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wait_is_given_up_when_told_so() {
+    fn a_wait_can_be_cancelled() {
         let (live, token) = (LiveRun::new("a"), CancelToken::new());
         token.cancel();
         assert!(!live.wait_for_page(Duration::from_secs(1000), &token));

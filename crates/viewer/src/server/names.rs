@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn the_loopback_goes_by_three_names_and_its_port() {
+    fn accepts_three_names_of_the_loopback_with_its_port() {
         let names = names("127.0.0.1:8080");
         for own in ["127.0.0.1:8080", "localhost:8080", "LOCALHOST:8080", "[::1]:8080"] {
             assert!(names.is_host(own), "{own}");
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn others_are_foreign() {
+    fn other_hosts_are_foreign() {
         let names = names("127.0.0.1:8080");
         let foreign = [
             "",
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn on_all_addresses_any_address_is_its_own_but_no_name() {
+    fn on_all_addresses_accepts_addresses_but_no_names() {
         for bound in ["0.0.0.0:8080", "[::]:8080"] {
             let names = names(bound);
             for own in ["192.168.0.7:8080", "[fe80::1]:8080", "localhost:8080"] {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_port_that_nobody_states_is_that_of_http() {
+    fn the_default_port_is_that_of_http() {
         assert!(names("192.168.0.7:80").is_host("192.168.0.7"));
         assert!(names("192.168.0.7:80").is_host("localhost"));
         assert!(!names("192.168.0.7:80").is_host("192.168.0.8"));

@@ -23,7 +23,7 @@ const TOKEN: &str = "x-platewash-token";
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
     /// Kind of answer that is asked for.
-    pub wants: RequestKind,
+    pub kind: RequestKind,
     /// From `/` to `?`.
     pub path: String,
     /// Behind `?`.
@@ -49,7 +49,7 @@ pub enum RequestKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Question {
     /// Its kind.
-    pub asked: QuestionLimits,
+    pub limits: QuestionLimits,
     /// Its length \[bytes\].
     pub length: usize,
 }
@@ -142,7 +142,7 @@ impl Request {
             return Err(Refusal::Contents);
         }
         Ok(Self {
-            wants,
+            kind: wants,
             path: path.ok_or(Refusal::Garbled)?.to_owned(),
             query: query.map(ToOwned::to_owned),
             last_event_id: headers.one("last-event-id")?.map(ToOwned::to_owned),
@@ -181,7 +181,7 @@ impl<'a> Headers<'a> {
 
 impl Question {
     /// Judges the headers of a question that came to `host`, one of this server's names.
-    fn judge(headers: &Headers<'_>, host: &str, asked: QuestionLimits, token: &str) -> Result<Self, Refusal> {
+    fn judge(headers: &Headers<'_>, host: &str, limits: QuestionLimits, token: &str) -> Result<Self, Refusal> {
         // Only a page that was loaded from here under the very name that it asks: browsers state the origin of each POST.
         let origin = headers.one("origin")?.and_then(|origin| origin.strip_prefix("http://"));
         let is_own = origin.is_some_and(|origin| origin.eq_ignore_ascii_case(host));
@@ -205,7 +205,7 @@ impl Question {
             return Err(Refusal::Garbled);
         }
         match stated.parse() {
-            Ok(length) if length <= asked.most_bytes => Ok(Self { asked, length }),
+            Ok(length) if length <= limits.most_bytes => Ok(Self { limits, length }),
             _ => Err(Refusal::LongQuestion),
         }
     }
@@ -225,10 +225,10 @@ mod tests {
     }
 
     #[test]
-    fn a_request_is_its_path_and_what_it_missed() {
+    fn reads_path_and_last_event_of_a_request() {
         let asked = with("GET /events?run=7 HTTP/1.1", "last-event-id: 41\r\nAccept: */*\r\n").unwrap();
         let expected = Request {
-            wants: RequestKind::Contents,
+            kind: RequestKind::Contents,
             path: "/events".to_owned(),
             query: Some("run=7".to_owned()),
             last_event_id: Some("41".to_owned()),
@@ -236,11 +236,11 @@ mod tests {
         };
         assert_eq!(asked, expected);
         let asked = with("HEAD / HTTP/1.0", "").unwrap();
-        assert!(asked.wants == RequestKind::Headers && asked.query.is_none());
+        assert!(asked.kind == RequestKind::Headers && asked.query.is_none());
     }
 
     #[test]
-    fn what_follows_a_head_is_no_part_of_it() {
+    fn ignores_bytes_behind_the_headers() {
         let alone = with("GET / HTTP/1.1", "").unwrap();
         let host = "\r\nHost: localhost:8080\r\n\r\n";
         let followed = judged(&format!("GET / HTTP/1.1{host}more\r\n\r\n")).unwrap();
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_request_is_refused() {
+    fn rejects_invalid_requests() {
         let many = "a: b\r\n".repeat(HEADERS);
         let cases = [
             (judged("\r\n\r\n"), Refusal::Garbled),
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_question_is_as_long_as_announced_however_it_comes() {
+    fn reads_a_question_of_the_announced_length_in_any_pieces() {
         let text: Vec<u8> = (0..=255).cycle().take(3 * CHUNK + 7).collect();
         for with_head in [0, 1, CHUNK, text.len()] {
             for step in [1000, CHUNK, text.len()] {
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_behind_a_question_is_left_there() {
+    fn leaves_bytes_behind_a_question_unread() {
         let mut source = SlowSource(b"defGET / HTTP/1.1", 100, None);
         assert_eq!(read_question(&mut source, b"abc", 6), Ok(b"abcdef".to_vec()));
         assert_eq!(source.0, b"GET / HTTP/1.1");
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn a_question_that_ends_early_is_none_and_one_that_stops_is_late() {
+    fn rejects_a_question_that_ends_early_and_times_out_one_that_stops() {
         assert_eq!(read_question(SlowSource(b"ab", 1, None), b"", 3), Err(Refusal::Garbled));
         for kind in [ErrorKind::WouldBlock, ErrorKind::TimedOut, ErrorKind::ConnectionReset] {
             assert_eq!(
@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn a_head_ends_with_its_empty_line_however_it_comes() {
+    fn headers_end_with_an_empty_line_in_any_pieces() {
         for text in ["GET / HTTP/1.1\r\nHost: a\r\n\r\n", "GET / HTTP/1.0\nHost: a\n\n"] {
             for step in 1..=text.len() {
                 assert_eq!(
@@ -370,13 +370,13 @@ mod tests {
     }
 
     #[test]
-    fn an_end_half_way_is_no_request_and_one_before_the_first_byte_is_none() {
+    fn rejects_cut_requests_and_accepts_an_empty_connection() {
         assert_eq!(read_head(&b""[..]), Ok(None));
         assert_eq!(read_head(&b"GET / HTTP/1.1\r\nHo"[..]), Err(Refusal::Garbled));
     }
 
     #[test]
-    fn a_head_without_an_end_is_read_up_to_its_bound() {
+    fn reads_endless_headers_up_to_the_bound() {
         let endless = vec![b'a'; HEAD_BYTES + 1];
         for step in [1, 1000, CHUNK] {
             let mut source = SlowSource(&endless, step, None);
@@ -397,7 +397,7 @@ mod tests {
         ("Content-Length", "100"),
     ];
 
-    fn judged_question(headers: &[(&str, &str)], asked: QuestionLimits) -> Result<Question, Refusal> {
+    fn judged_question(headers: &[(&str, &str)], limits: QuestionLimits) -> Result<Question, Refusal> {
         let header = |&(name, value): &(&'static str, &'static str)| Header {
             name,
             value: value.as_bytes(),
@@ -408,7 +408,7 @@ mod tests {
             .map(|(name, value)| (&*name.to_string().leak(), &*value.to_string().leak()))
             .collect();
         let headers: Vec<_> = leaked.iter().map(header).collect();
-        Question::judge(&Headers(&headers), HOST, asked, "secret")
+        Question::judge(&Headers(&headers), HOST, limits, "secret")
     }
 
     /// The good headers with one of them stated so, or not at all.
@@ -420,8 +420,8 @@ mod tests {
 
     #[test]
     fn a_question_of_the_page_may_be_read() {
-        let (asked, length) = (ASKED, 100);
-        assert_eq!(judged_question(&GOOD, ASKED), Ok(Question { asked, length }));
+        let (limits, length) = (ASKED, 100);
+        assert_eq!(judged_question(&GOOD, ASKED), Ok(Question { limits, length }));
         for kind in [
             "Application/JSON",
             "application/json; charset=utf-8",
@@ -437,7 +437,7 @@ mod tests {
     }
 
     #[test]
-    fn each_header_is_needed_as_it_should_be() {
+    fn each_required_header_is_checked() {
         let long = "9".repeat(40);
         let cases = [
             ("Origin", None, Refusal::ForeignOrigin),

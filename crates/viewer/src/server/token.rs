@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn a_token_is_like_itself_alone() {
+    fn tokens_equal_only_themselves() {
         let expected = "0123456789abcdef";
         assert!(is_token(expected, expected));
         for n in 0..expected.len() {

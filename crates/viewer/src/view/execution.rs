@@ -68,7 +68,7 @@ impl ExecutionFacts {
 /// Executed motion, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExecutedMotion {
-    told: ExecutionFacts,
+    facts: ExecutionFacts,
     samples: Vec<RecordedSample>,
 }
 
@@ -93,7 +93,7 @@ impl ExecutedMotion {
             ..ExecutionFacts::new(Source::Simulated, Some(report.law))
         };
         let samples = samples.collect();
-        Self { told, samples }
+        Self { facts: told, samples }
     }
 
     /// A motion that a kinematic law made of the commands, as the paper's program does; `headline` is the first line of its report.
@@ -114,14 +114,14 @@ impl ExecutedMotion {
             ..ExecutionFacts::new(Source::Simulated, Some(law))
         };
         let samples = samples.collect();
-        Self { told, samples }
+        Self { facts: told, samples }
     }
 
     /// A recorded motion: only its samples are known.
     #[must_use]
     pub fn recorded(motion: &RecordedMotion) -> Self {
         Self {
-            told: ExecutionFacts::new(Source::Recorded, None),
+            facts: ExecutionFacts::new(Source::Recorded, None),
             samples: motion.samples.clone(),
         }
     }
@@ -134,7 +134,7 @@ impl ExecutedMotion {
             ..ExecutionFacts::new(Source::Live, Some(law))
         };
         let samples = Vec::new();
-        Self { told, samples }
+        Self { facts: told, samples }
     }
 }
 
@@ -192,7 +192,7 @@ impl Execution {
             coverage::plates(plan, certificate, |span| way(samples, tips, span))
         };
         Ok(Self {
-            told: executed.told.clone(),
+            told: executed.facts.clone(),
             t_s: Numbers::f64([shown.len()], shown.iter().map(|sample| sample.t_s)),
             q_rad: Numbers::f32_rows(shown.iter().map(|sample| &sample.q)),
             qd_rad_s: Numbers::f32_rows(shown.iter().map(|sample| &sample.qd)),

@@ -144,15 +144,15 @@ impl View {
     ///
     /// # Errors
     /// [`ViewError`] for a plan that is no motion, a job with which nothing can be computed, or a motion of another plan.
-    pub fn of_plan(plan: &Plan, robot: &RobotModel, beside: &ViewExtras<'_>) -> Result<Self, ViewError> {
-        let (job, certificate) = (&plan.job, beside.certificate);
+    pub fn of_plan(plan: &Plan, robot: &RobotModel, extras: &ViewExtras<'_>) -> Result<Self, ViewError> {
+        let (job, certificate) = (&plan.job, extras.certificate);
         job.validate()?;
         let motion = plan.knots.motion()?;
         let start = motion.positions().first().ok_or(ViewError::NoMotion)?;
         let tips = Tips::new(plan, robot, &motion);
-        let execution = beside.executed;
+        let execution = extras.executed;
         let execution = execution.map(|executed| Execution::new(executed, plan, &tips, certificate));
-        let region = beside.region.cloned().unwrap_or_default();
+        let region = extras.region.cloned().unwrap_or_default();
         Ok(Self {
             heading: Heading::of_plan(plan),
             certificate: certificate.map(Certificate::new),
@@ -162,7 +162,7 @@ impl View {
             clearance: Clearance::new(plan, robot, &motion, certificate),
             coverage: coverage::plates(plan, certificate, |[from, to]| tips.during(from, to)),
             execution: execution.transpose()?,
-            live: beside.events.map(str::to_owned),
+            live: extras.events.map(str::to_owned),
             ..Self::of_terms(job, robot, &region, start)
         })
     }

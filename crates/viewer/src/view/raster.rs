@@ -213,7 +213,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(24))]
         /// Every cell, against small steps along the way.
         #[test]
-        fn cells_know_when_the_disc_comes_and_how_long_it_stays(
+        fn cells_record_arrival_and_stay_of_the_disc(
             places in prop::collection::vec(prop::array::uniform2(-0.2..0.2f64), 2..5), radius in 0.01..0.1f64,
         ) {
             let path: Vec<_> = places.iter().enumerate().map(|(k, at)| disc(k as f64, *at, radius)).collect();

@@ -99,8 +99,8 @@ impl MovingPart<'_> {
     /// Returns lower bounds of the distances from some obstacles \[m\], by their index in the list.
     pub fn gaps<'b>(&'b self, poses: &BodyPoses, obstacles: &'b [usize]) -> impl Iterator<Item = f64> + 'b {
         let placed = self.part.place(poses);
-        let of = move |standing: &PlacedObstacle<'_>| {
-            standing
+        let of = move |obstacle: &PlacedObstacle<'_>| {
+            obstacle
                 .parts
                 .iter()
                 .map(|part| gap(part, &placed))

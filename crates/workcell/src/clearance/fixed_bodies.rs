@@ -53,7 +53,7 @@ impl fmt::Display for FixedBody {
 #[derive(Debug, Clone, PartialEq)]
 pub struct FixedOverlap {
     /// The first body.
-    pub standing: FixedBody,
+    pub body: FixedBody,
     /// Name of the plate, or of the link of the arm.
     pub other: String,
     /// Upper bound on the depth of the overlap \[m\].
@@ -116,7 +116,11 @@ pub fn standing_overlaps(
                     ObstacleShape::Parts(_) => FixedBody::Parts(name),
                     _ => FixedBody::Obstacle(name),
                 };
-                found.push(FixedOverlap { standing, other, by_m });
+                found.push(FixedOverlap {
+                    body: standing,
+                    other,
+                    by_m,
+                });
             }
         }
     }
@@ -143,7 +147,7 @@ fn in_base(index: usize, plate: &Body, bodies: &[Body], poses: &BodyPoses) -> Op
     base.find_map(|link| {
         let by_m = overlap(plate, link, poses);
         (by_m > TOUCH_M).then(|| FixedOverlap {
-            standing: FixedBody::Plate(index),
+            body: FixedBody::Plate(index),
             other: link.name.clone(),
             by_m,
         })

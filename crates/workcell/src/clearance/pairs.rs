@@ -247,7 +247,7 @@ mod tests {
 
     /// An SRDF that is read back excludes the pairs that were found.
     #[test]
-    fn the_srdf_leaves_out_what_was_found() {
+    fn the_written_srdf_excludes_the_found_pairs() {
         let robot = RobotModel::irb120().unwrap();
         let found = TouchingPairs::of(&robot).unwrap();
         assert_eq!(found.neighbours.len(), 6);

@@ -136,9 +136,9 @@ impl Part {
     }
 
     /// Returns the part moved by a transform, for a body that is fixed to the base and stands elsewhere.
-    pub fn carried(&self, by: &RigidTransform) -> Self {
+    pub fn carried(&self, transform: &RigidTransform) -> Self {
         Self {
-            frame: Frame::base().offset(&by.then(self.frame.on_body())),
+            frame: Frame::base().offset(&transform.then(self.frame.on_body())),
             ..self.clone()
         }
     }

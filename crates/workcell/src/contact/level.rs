@@ -92,7 +92,7 @@ mod tests {
     proptest! {
         /// Compared with squares a hundredth of the disc's radius wide.
         #[test]
-        fn what_is_beyond_a_rim_is_what_squares_say(r in 0.01..0.04f64, d in 0.0..0.2f64) {
+        fn the_area_beyond_a_rim_agrees_with_counted_squares(r in 0.01..0.04f64, d in 0.0..0.2f64) {
             let (big, n) = (0.145, 200);
             let mut beyond = 0;
             let mut all = 0;
@@ -111,7 +111,7 @@ mod tests {
 
         /// Dense sums over the sponge's face, at every height and tilt within the bounds, stay within the computed bounds.
         #[test]
-        fn no_pose_within_the_bounds_asks_for_more_or_less(
+        fn loads_of_poses_stay_within_the_bounds(
             height in [-2e-3..2e-3f64, -2e-3..2e-3f64], tilt in 0.0..0.3f64, share in [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64], far in 0.05..0.15f64,
         ) {
             let foundation = Foundation { radius_m: 0.025, free_height_m: 0.03, compression_m: 0.005, stiffness_pa: [1.1e4, 4.4e4] };

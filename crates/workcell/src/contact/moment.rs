@@ -109,7 +109,7 @@ pub fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
 pub struct ContactSampler<'a> {
     foundation: &'a Foundation,
     moments: &'a [Moment],
-    wanted: &'a ContactThresholds,
+    thresholds: &'a ContactThresholds,
     /// Longest distance of the tip between two moments \[m\].
     stride_m: f64,
 }
@@ -128,14 +128,14 @@ struct Instant {
 impl<'a> ContactSampler<'a> {
     /// Prepares the moments of a wash.
     #[must_use]
-    pub fn new(foundation: &'a Foundation, moments: &'a [Moment], wanted: &'a ContactThresholds) -> Self {
+    pub fn new(foundation: &'a Foundation, moments: &'a [Moment], thresholds: &'a ContactThresholds) -> Self {
         let strides = moments
             .windows(2)
             .map(|ends| (ends[1].pose.tip - ends[0].pose.tip).norm());
         Self {
             foundation,
             moments,
-            wanted,
+            thresholds,
             stride_m: strides.fold(1e-9, f64::max),
         }
     }
@@ -200,7 +200,7 @@ impl<'a> ContactSampler<'a> {
 
     fn instant(&self, index: usize, moment: &Moment, point: &Vector3<f64>) -> Instant {
         let SpongePose { tip, axis } = &moment.pose;
-        let (away, error_m) = (point - tip, self.wanted.height_error_m);
+        let (away, error_m) = (point - tip, self.thresholds.height_error_m);
         let along = away.dot(axis);
         let slide = moment.speed + moment.turning.cross(&away);
         let aside_m = (away.norm_squared() - along * along).max(0.0).sqrt() + error_m * axis.xy().norm();
@@ -214,7 +214,7 @@ impl<'a> ContactSampler<'a> {
 
     /// Returns the part of the time between two moments in which a point is in contact; `None` if it is not.
     fn in_contact(&self, ends: [&Instant; 2]) -> Option<[f64; 2]> {
-        let pressed = ends.map(|end| end.compression_m - self.wanted.compression_m);
+        let pressed = ends.map(|end| end.compression_m - self.thresholds.compression_m);
         let inside = ends.map(|end| end.inside_m);
         both(at_least_0(pressed)?, at_least_0(inside)?)
     }

@@ -350,7 +350,7 @@ mod tests {
     proptest! {
         /// The curvatures looked up hold those of the surface, and are within those of a range that is one ring wider on each side.
         #[test]
-        fn what_is_looked_up_is_what_the_face_says(profile in 0..4usize, near in -0.01..0.2f64, wide in 0.0..0.04f64) {
+        fn looked_up_curvatures_contain_those_of_the_surface(profile in 0..4usize, near in -0.01..0.2f64, wide in 0.0..0.04f64) {
             let surface = Surface::shipped(crate::surface::SHIPPED_PROFILES[profile]).unwrap();
             let (far, ring) = (near + wide, 1.01 * surface.rim_m() / RINGS as f64);
             prop_assume!(far > 0.0);

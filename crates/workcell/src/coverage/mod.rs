@@ -153,14 +153,11 @@ fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
     }
 }
 
-fn as_fractions(uncovered: &UnsweptArea, disc_area: f64) -> Coverage {
+fn as_fractions(unswept: &UnsweptArea, disc_area: f64) -> Coverage {
     let covered = |uncovered_area: f64, rounding: f64| (1.0 - uncovered_area / disc_area + rounding).clamp(0.0, 1.0);
-    let (lower, upper) = (
-        covered(uncovered.at_most, -ROUNDING),
-        covered(uncovered.at_least, ROUNDING),
-    );
+    let (lower, upper) = (covered(unswept.at_most, -ROUNDING), covered(unswept.at_least, ROUNDING));
     Coverage {
-        fraction: covered(uncovered.estimate, 0.0).max(lower).min(upper),
+        fraction: covered(unswept.estimate, 0.0).max(lower).min(upper),
         lower,
         upper,
     }

@@ -118,7 +118,7 @@ mod tests {
         }
 
         #[test]
-        fn a_cell_is_what_its_points_are(
+        fn a_cell_has_the_state_of_its_points(
             polyline in prop::collection::vec(prop::array::uniform2(-0.2..0.2f64), 1..6),
             sponge in 0.01..0.1f64,
             at in (0..20usize, 0..20usize),
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_refused() {
+    fn rejects_senseless_input() {
         let call = |polyline: &[[f64; 2]], radius, cells| raster(polyline, [0.0; 2], radius, 0.02, cells);
         assert_eq!(call(&[], 0.1, 0), Err(CoverageError::Cells { cells: 0 }));
         assert_eq!(call(&[], 0.1, 5000), Err(CoverageError::Cells { cells: 5000 }));

@@ -31,7 +31,7 @@ pub(crate) struct Raster<'a> {
     near: Vec<u32>,
     /// Buffer for the sections of a column.
     sections: Vec<[f64; 2]>,
-    uncovered: UnsweptArea,
+    unswept: UnsweptArea,
 }
 
 impl<'a> Raster<'a> {
@@ -45,7 +45,7 @@ impl<'a> Raster<'a> {
             cell,
             near,
             sections: Vec::new(),
-            uncovered: UnsweptArea::default(),
+            unswept: UnsweptArea::default(),
         }
     }
 
@@ -59,7 +59,7 @@ impl<'a> Raster<'a> {
             depth += 1;
         }
         self.visit([0.0, 0.0], half, depth, 0);
-        self.uncovered
+        self.unswept
     }
 
     /// Adds the cell about `middle`; `near[first..]` holds every capsule that may reach it.
@@ -99,9 +99,9 @@ impl<'a> Raster<'a> {
     }
 
     fn add_uncovered(&mut self, area: f64) {
-        self.uncovered.at_least += area;
-        self.uncovered.at_most += area;
-        self.uncovered.estimate += area;
+        self.unswept.at_least += area;
+        self.unswept.at_most += area;
+        self.unswept.estimate += area;
     }
 
     /// Adds a smallest cell that the capsules of `near[first..]` reach but none of them covers.
@@ -110,8 +110,8 @@ impl<'a> Raster<'a> {
         let near = self.near[first..].iter().map(|&k| &self.capsules[k as usize]);
         let cell = middle.map(|c| [c - half, c + half]);
         let share = swept_share(cell, self.radius, near, self.sponge_radius, &mut self.sections);
-        self.uncovered.at_most += area;
-        self.uncovered.estimate += area * (1.0 - share);
+        self.unswept.at_most += area;
+        self.unswept.estimate += area * (1.0 - share);
     }
 
     fn is_outside_disc(&self, [x, y]: [f64; 2], half: f64) -> bool {
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn known_areas() {
+    fn areas_agree_with_known_values() {
         let area = |x, y| area_of_rectangle_in_disc(2.0, x, y);
         assert!((area([-2.0, 2.0], [-2.0, 2.0]) - 4.0 * PI).abs() < 1e-14);
         assert!((area([0.0, 9.0], [-9.0, 9.0]) - 2.0 * PI).abs() < 1e-14);

@@ -102,7 +102,11 @@ pub enum JobError {
 fn overlaps(all: &[FixedOverlap]) -> String {
     const FEW: usize = 3;
     let one = |overlap: &FixedOverlap| {
-        let FixedOverlap { standing, other, by_m } = overlap;
+        let FixedOverlap {
+            body: standing,
+            other,
+            by_m,
+        } = overlap;
         let parts = match standing {
             FixedBody::Parts(_) => " (in convex parts, which hold more than the mesh)",
             FixedBody::Obstacle(_) | FixedBody::Plate(_) => "",

@@ -340,7 +340,7 @@ mod tests {
     type Change = fn(&mut JobTerms);
 
     #[test]
-    fn terms_with_which_nothing_can_be_computed_are_refused_by_name() {
+    fn rejects_unusable_terms_by_name() {
         let good = kitchen();
         let cases: [(&str, Change); 22] = [
             ("requirements.coverage", |t| t.requirements.coverage = f64::NAN),
@@ -401,7 +401,7 @@ mod tests {
     }
 
     #[test]
-    fn a_job_on_the_floor_is_what_its_arm_sees() {
+    fn a_mounted_job_equals_the_job_in_the_base_frame() {
         assert!(matches!(kitchen().terms().seen_from_base(), Cow::Borrowed(_)));
     }
 

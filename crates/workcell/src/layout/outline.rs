@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn rectangles_and_sectors_by_hand() {
+    fn rectangles_and_sectors_agree_with_hand_calculation() {
         let appendix = Region::PAPER_APPENDIX.outline_m();
         assert_eq!(appendix, [[0.0, -0.38], [0.30, -0.38], [0.30, 0.38], [0.0, 0.38]]);
         let square = |rho_m, azimuth_deg| Region {

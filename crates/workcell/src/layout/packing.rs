@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wedge_cuts_the_box() {
+    fn a_wedge_reduces_the_bounding_box() {
         // Left of the ray at 60° the box loses a triangle of base n/2: 3/4 of its area is left.
         let cut = |n: f64| Region {
             x_m: [0.0, n],

@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn long_lists_are_refused_and_everything_else_is_left_to_the_reader() {
+    fn rejects_long_lists_alone() {
         let long = " ".repeat(SMALL);
         let plates = |count: usize| format!("{long}{{\"job\":{{\"plates\":[{}{{}}]}}}}", "{},".repeat(count - 1));
         assert_eq!(refused(&plates(MAX_PLATES)), None);

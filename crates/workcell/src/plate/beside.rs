@@ -150,7 +150,7 @@ mod tests {
     proptest! {
         /// A rigid motion of both plates does not change their relation, except where rounding decides it.
         #[test]
-        fn a_motion_of_both_changes_nothing(
+        fn a_common_motion_of_both_plates_changes_nothing(
             axis in prop::array::uniform3(-1.0..1.0f64), angle in -3.0..3.0f64, place in prop::array::uniform3(-1.0..1.0f64),
             at in prop::array::uniform2(-0.5..0.5f64), higher in -0.05..0.05f64, tilted in any::<bool>(),
         ) {

@@ -191,7 +191,7 @@ mod tests {
     use nalgebra::{UnitQuaternion, Vector3};
 
     #[test]
-    fn a_tilted_plate_says_how_and_a_level_one_nothing() {
+    fn states_the_tilt_of_tilted_plates_alone() {
         let mut plate = kitchen().terms().plates[0];
         assert_eq!(plate.tilt_words(), None);
         let mut turned = |axis: Vector3<f64>, deg: f64| {

@@ -33,7 +33,7 @@ fn symmetric([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
 }
 
 #[test]
-fn a_straight_tool_on_the_flange_is_what_it_was() {
+fn a_straight_tool_on_the_flange_is_unchanged() {
     for length_m in [0.0, 0.15] {
         let straight = StraightTool { length_m, ..straight() };
         let chain = alone(straight, Pose::identity());
@@ -61,7 +61,7 @@ proptest! {
 
     /// A handle in two halves, of one density, is the whole; so is one of which a half states its mass.
     #[test]
-    fn halves_weigh_what_the_whole_does(cut in 0.1..0.9f64, stated in any::<bool>(), mass_kg in 0.05..3.0f64) {
+    fn two_halves_have_the_mass_of_the_whole(cut in 0.1..0.9f64, stated in any::<bool>(), mass_kg in 0.05..3.0f64) {
         let (r, l) = (0.02, 0.15);
         let part = |name: &str, from: f64, to: f64| ChainBody {
             name: name.to_owned(),
@@ -107,7 +107,7 @@ fn a_body_beside_the_handle_takes_its_share() {
 }
 
 #[test]
-fn what_is_no_tool_says_why() {
+fn invalid_tools_state_the_reason() {
     let plain = alone(straight(), Pose::identity());
     let of = |handle, bodies| {
         let said = ToolChain {

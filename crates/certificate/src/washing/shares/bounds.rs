@@ -42,7 +42,7 @@ impl Scratch {
 /// Bounds found for a cell.
 pub(crate) struct CellBounds {
     /// Amounts that every place of the cell gets.
-    pub kept: CellAmounts,
+    pub amounts: CellAmounts,
     /// Lower bounds that hold for every height of the plate within its error: contact (above 0 where in contact), time \[s\], dose
     /// \[Pa·m\].
     pub bounds: [Lower; 3],
@@ -64,7 +64,7 @@ impl<'a> Passes<'a> {
         surface: &'a Surface,
         foundation: &'a Foundation,
         (moments, sags): (&'a [Moment], &'a [Sags]),
-        wanted: &'a ContactThresholds,
+        thresholds: &'a ContactThresholds,
     ) -> Self {
         let [low_m, high_m] = surface.height_bounds_m();
         let far_m = surface.rim_m() + low_m.abs().max(high_m.abs());
@@ -74,7 +74,7 @@ impl<'a> Passes<'a> {
                 foundation,
                 moments,
                 sags,
-                wanted,
+                thresholds,
             },
             sums: Sums::new(foundation, (moments, sags), far_m),
             step_m: longest_step(moments, foundation.radius_m),
@@ -124,7 +124,7 @@ impl Passes<'_> {
         is_enough: impl Fn(&[Lower; 3]) -> bool,
     ) -> Option<CellBounds> {
         let edges = &self.edges;
-        let error_m = edges.wanted.height_error_m;
+        let error_m = edges.thresholds.height_error_m;
         let Scratch { all, spans } = scratch;
         all.clear();
         spans.clear();
@@ -156,7 +156,7 @@ impl Passes<'_> {
         }
         let bounds = bounds(gains);
         (!is_enough(&bounds)).then_some(CellBounds {
-            kept,
+            amounts: kept,
             bounds,
             compression_m: touch.compression_m,
         })
@@ -234,10 +234,10 @@ impl Passes<'_> {
     }
 
     /// Returns the dose that all of a cell gets.
-    fn dose(&self, cell: &Cell, kept: &CellAmounts) -> Lower {
-        let (value, gradient) = kept.dose.at(&cell.point);
-        let error_m = self.edges.wanted.height_error_m;
-        let lost = kept.dose.bend(cell.away_m() + error_m) + gradient.z.abs() * cell.bend_m + self.sums.rounding();
+    fn dose(&self, cell: &Cell, amounts: &CellAmounts) -> Lower {
+        let (value, gradient) = amounts.dose.at(&cell.point);
+        let error_m = self.edges.thresholds.height_error_m;
+        let lost = amounts.dose.bend(cell.away_m() + error_m) + gradient.z.abs() * cell.bend_m + self.sums.rounding();
         Lower {
             value: value - lost,
             slope: cell.along(&gradient),

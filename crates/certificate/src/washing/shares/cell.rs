@@ -235,7 +235,7 @@ mod tests {
     proptest! {
         /// Against squares a hundredth of the cell wide.
         #[test]
-        fn a_share_is_what_squares_say(value in -3.0..3.0f64, a in 0.0..2.0f64, b in 0.0..2.0f64, flat in 0..4) {
+        fn the_share_agrees_with_counted_squares(value in -3.0..3.0f64, a in 0.0..2.0f64, b in 0.0..2.0f64, flat in 0..4) {
             let (a, b) = if flat == 0 { (a, 0.0) } else { (a, b) };
             let n = 100;
             let at = |k: i32| (2.0 * f64::from(k) + 1.0) / f64::from(n) - 1.0;
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_below() {
+    fn nan_counts_as_below() {
         assert!(share_below_0(f64::NAN, [1.0, 1.0]) >= 1.0);
         assert!(share_below_0(-1.0, [0.0, 0.0]) >= 1.0 && share_below_0(1.0, [0.0, 0.0]) <= 0.0);
     }

@@ -108,8 +108,8 @@ impl Edges<'_> {
     }
 
     /// Sliding velocity of the sponge over the middle of a cell, across the sponge's axis \[m/s\].
-    fn slide(&self, cell: &Cell, seen: &CellState) -> Vector3<f64> {
-        let moment = self.moment(seen.index);
+    fn slide(&self, cell: &Cell, state: &CellState) -> Vector3<f64> {
+        let moment = self.moment(state.index);
         let axis = &moment.pose.axis;
         let slide = moment.speed + moment.turning.cross(&(cell.point - moment.pose.tip));
         slide - axis * slide.dot(axis)
@@ -123,14 +123,14 @@ impl Edges<'_> {
     }
 
     /// Returns the factors at a moment.
-    fn factors(&self, cell: &Cell, seen: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
-        let turning = self.moment(seen.index).turning.norm();
-        let away = turning * (cell.away_m() + self.wanted.height_error_m);
+    fn factors(&self, cell: &Cell, state: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
+        let turning = self.moment(state.index).turning.norm();
+        let away = turning * (cell.away_m() + self.thresholds.height_error_m);
         Factors {
             at_s,
-            compression_m: seen.compression_m - seen.shallower_m,
-            speed_m_s: self.slide(cell, seen).dot(direction) - away,
-            spread: [2.0 * seen.sloping_m, 2.0 * turning * cell.away_m()],
+            compression_m: state.compression_m - state.shallower_m,
+            speed_m_s: self.slide(cell, state).dot(direction) - away,
+            spread: [2.0 * state.sloping_m, 2.0 * turning * cell.away_m()],
         }
     }
 
@@ -148,7 +148,7 @@ impl Edges<'_> {
         };
         let w = above(
             ends.map(|end| end.compression_m - sags.compression_m),
-            self.wanted.compression_m,
+            self.thresholds.compression_m,
         );
         let v = above(ends.map(|end| end.speed_m_s - slower), 0.0);
         [0, 1].map(|k| Factors {
@@ -161,8 +161,8 @@ impl Edges<'_> {
     /// Returns the gain that places of a large cell are likely to get at most through a window in which not all of it is in contact. The
     /// proved gain is 0.
     pub(crate) fn grazed(&self, cell: &Cell, window: &[CellState]) -> Gain {
-        let near = |seen: &&CellState| {
-            self.pressed_m(seen) + 2.0 * seen.sloping_m >= 0.0 && self.inside_m(seen) + 2.0 * cell.away_m() >= 0.0
+        let near = |state: &&CellState| {
+            self.pressed_m(state) + 2.0 * state.sloping_m >= 0.0 && self.inside_m(state) + 2.0 * cell.away_m() >= 0.0
         };
         let (Some(first), Some(last)) = (window.iter().find(near), window.iter().rfind(near)) else {
             return Gain::default();

@@ -28,7 +28,7 @@ pub(crate) struct Edges<'a> {
     pub foundation: &'a Foundation,
     pub moments: &'a [Moment],
     pub sags: &'a [Sags],
-    pub wanted: &'a ContactThresholds,
+    pub thresholds: &'a ContactThresholds,
 }
 
 /// Lower bounds of time and dose that a cell gets in a part of a window.
@@ -43,7 +43,7 @@ pub(crate) struct Gain {
 /// Consecutive moments, in order or in reversed time.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a> {
-    seen: &'a [CellState],
+    state: &'a [CellState],
     pub reversed: bool,
 }
 
@@ -70,8 +70,8 @@ struct Line<T> {
 
 impl Window<'_> {
     pub fn at(&self, k: usize) -> Option<&CellState> {
-        let last = self.seen.len().checked_sub(1)?;
-        self.seen.get(if self.reversed { last.checked_sub(k)? } else { k })
+        let last = self.state.len().checked_sub(1)?;
+        self.state.get(if self.reversed { last.checked_sub(k)? } else { k })
     }
 
     /// Returns the states from the first moment to another one.
@@ -105,21 +105,21 @@ impl Edges<'_> {
     }
 
     /// Depth of the whole cell within the sponge's rim \[m\]; negative where a part is outside.
-    pub fn inside_m(&self, seen: &CellState) -> f64 {
-        self.foundation.radius_m - seen.off_m - seen.farther_m
+    pub fn inside_m(&self, state: &CellState) -> f64 {
+        self.foundation.radius_m - state.off_m - state.farther_m
     }
 
     /// Compression of the whole cell above the wanted one \[m\]; negative where a part has less.
-    pub fn pressed_m(&self, seen: &CellState) -> f64 {
-        seen.compression_m - seen.shallower_m - self.wanted.compression_m
+    pub fn pressed_m(&self, state: &CellState) -> f64 {
+        state.compression_m - state.shallower_m - self.thresholds.compression_m
     }
 
     /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
     /// moments, and one for entering, if it is at the last two.
-    pub fn gain(&self, cell: &Cell, seen: &[CellState]) -> [Option<Gain>; 2] {
-        let leaves = seen.len() > 2 && self.is_full(&seen[0], &seen[1]);
-        let enters = seen.len() > 2 && self.is_full(&seen[seen.len() - 2], &seen[seen.len() - 1]);
-        let one = |reversed| self.one_way(cell, Window { seen, reversed });
+    pub fn gain(&self, cell: &Cell, state: &[CellState]) -> [Option<Gain>; 2] {
+        let leaves = state.len() > 2 && self.is_full(&state[0], &state[1]);
+        let enters = state.len() > 2 && self.is_full(&state[state.len() - 2], &state[state.len() - 1]);
+        let one = |reversed| self.one_way(cell, Window { state, reversed });
         let (left, entered) = (
             leaves.then(|| one(false)).flatten(),
             enters.then(|| one(true)).flatten(),
@@ -158,9 +158,9 @@ impl Edges<'_> {
     }
 
     /// Time of a state since the first moment of a window \[s\].
-    pub fn elapsed_s(&self, window: Window<'_>, seen: &CellState) -> f64 {
+    pub fn elapsed_s(&self, window: Window<'_>, state: &CellState) -> f64 {
         let first = window.at(0).map_or(0.0, |first| self.moment(first.index).t_s);
-        (self.moment(seen.index).t_s - first).abs()
+        (self.moment(state.index).t_s - first).abs()
     }
 
     fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<LeavingTimes> {
@@ -170,7 +170,7 @@ impl Edges<'_> {
             let times = [before, after].map(|seen| self.elapsed_s(window, seen));
             let span_s = times[1] - times[0];
             let aside = after.off_m > radius_m;
-            let released = after.compression_m < self.wanted.compression_m;
+            let released = after.compression_m < self.thresholds.compression_m;
             if !aside && !released {
                 continue;
             }
@@ -178,7 +178,7 @@ impl Edges<'_> {
             let share = if aside {
                 crossing(&before.way, &after.way, radius_m)
             } else {
-                let [from, to] = [before, after].map(|seen| seen.compression_m - self.wanted.compression_m);
+                let [from, to] = [before, after].map(|seen| seen.compression_m - self.thresholds.compression_m);
                 from / (from - to)
             };
             let at_s = times[0] + share * span_s;
@@ -192,7 +192,7 @@ impl Edges<'_> {
             } else {
                 let line = Line {
                     at_s,
-                    value: self.wanted.compression_m,
+                    value: self.thresholds.compression_m,
                     rate: (after.compression_m - before.compression_m) / span_s,
                 };
                 self.released(cell, window, &line, &axis)
@@ -210,7 +210,7 @@ impl Edges<'_> {
         axis: &Vector3<f64>,
     ) -> Option<LeavingTimes> {
         let across = |v: Vector3<f64>| v - axis * v.dot(axis);
-        let error_m = self.wanted.height_error_m;
+        let error_m = self.thresholds.height_error_m;
         let (v0, b) = (&line.value, &line.rate);
         let outwards = v0.dot(b);
         let columns = [cell.tangents()[0], cell.tangents()[1], Vector3::z()].map(across);
@@ -219,7 +219,7 @@ impl Edges<'_> {
         let mu = cell.reach_m * (moved[0].norm_squared() + moved[1].norm_squared()).sqrt() + error_m * moved[2].norm();
         let spread_s = cell.reach_m * length(rates[0], rates[1]) + error_m * rates[2].abs();
         let last = self.all_left(window, line.at_s + spread_s)?;
-        let off = |seen: &CellState| (seen.way - v0 - b * (self.elapsed_s(window, seen) - line.at_s)).norm();
+        let off = |state: &CellState| (state.way - v0 - b * (self.elapsed_s(window, state) - line.at_s)).norm();
         let (off_m, turned, sags) = self.astray(window, last, axis, off);
         let reach_m = cell.away_m() + error_m;
         let lost_m = ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
@@ -247,7 +247,7 @@ impl Edges<'_> {
 
     /// Returns the times at which the foam on a cell is released while all of it is within the sponge.
     fn released(&self, cell: &Cell, window: Window<'_>, line: &Line<f64>, axis: &Vector3<f64>) -> Option<LeavingTimes> {
-        let error_m = self.wanted.height_error_m;
+        let error_m = self.thresholds.height_error_m;
         let falls = -line.rate;
         if falls.is_nan() || falls <= 0.0 {
             return None;
@@ -257,8 +257,8 @@ impl Edges<'_> {
         let ge = -axis.z / falls;
         let spread_s = cell.reach_m * length(gx, gy) + error_m * ge.abs();
         let last = self.all_left(window, line.at_s + spread_s)?;
-        let off = |seen: &CellState| {
-            (seen.compression_m - line.value - line.rate * (self.elapsed_s(window, seen) - line.at_s)).abs()
+        let off = |state: &CellState| {
+            (state.compression_m - line.value - line.rate * (self.elapsed_s(window, state) - line.at_s)).abs()
         };
         let (off_m, turned, sags) = self.astray(window, last, axis, off);
         let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.away_m() + error_m);
@@ -362,28 +362,28 @@ impl Touch {
 
     /// Updates the state with a moment. The squared lengths of the vectors P (X + J δ + b ẑ + e ẑ − p) are at most those of P (X + J δ −
     /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
-    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, seen: &CellState) {
-        let (inside_m, pressed_m) = (edges.inside_m(seen), edges.pressed_m(seen));
+    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, state: &CellState) {
+        let (inside_m, pressed_m) = (edges.inside_m(state), edges.pressed_m(state));
         if inside_m >= 0.0 {
-            self.compression_m = self.compression_m.max(seen.compression_m - seen.shallower_m);
+            self.compression_m = self.compression_m.max(state.compression_m - state.shallower_m);
             self.all |= pressed_m >= 0.0;
         }
-        self.some |= inside_m >= -2.0 * cell.away_m() && pressed_m >= -2.0 * seen.sloping_m;
-        let (tangent_m, axis) = (cell.tangent_m, &edges.moment(seen.index).pose.axis);
+        self.some |= inside_m >= -2.0 * cell.away_m() && pressed_m >= -2.0 * state.sloping_m;
+        let (tangent_m, axis) = (cell.tangent_m, &edges.moment(state.index).pose.axis);
         let bound = if pressed_m >= 0.0 {
-            let free_m = (edges.foundation.radius_m - (seen.farther_m - tangent_m)).max(0.0);
+            let free_m = (edges.foundation.radius_m - (state.farther_m - tangent_m)).max(0.0);
             Lower {
-                value: free_m * free_m - seen.off_m * seen.off_m - tangent_m * tangent_m,
-                slope: cell.along(&seen.way).map(|v| -2.0 * v),
+                value: free_m * free_m - state.off_m * state.off_m - tangent_m * tangent_m,
+                slope: cell.along(&state.way).map(|v| -2.0 * v),
                 over_height: 0.0,
                 slack: 2.0 * (tangent_m * tangent_m + 2.0 * edges.foundation.radius_m * cell.bend_m),
             }
         } else if inside_m >= 0.0 {
             let slope = cell.along(axis).map(|v| -v);
             let sloping_m = (slope[0] * slope[0] + slope[1] * slope[1]).sqrt() * cell.reach_m;
-            let lost_m = seen.shallower_m - sloping_m;
+            let lost_m = state.shallower_m - sloping_m;
             Lower {
-                value: seen.compression_m - lost_m - edges.wanted.compression_m,
+                value: state.compression_m - lost_m - edges.thresholds.compression_m,
                 slope,
                 over_height: 0.0,
                 slack: 2.0 * axis.z.abs() * cell.bend_m,

@@ -81,7 +81,7 @@ pub fn shares(
     surface: &Surface,
     foundation: &Foundation,
     (moments, sags): (&[Moment], &[Sags]),
-    wanted: &ContactThresholds,
+    thresholds: &ContactThresholds,
     fineness: &Fineness,
 ) -> Shares {
     let rim_m = surface.rim_m();
@@ -94,7 +94,7 @@ pub fn shares(
     while half > least && 2.0 * half > FIRST_CELLS * foundation.radius_m && half * MOST_FIRST_CELLS > rim_m {
         half *= 0.5;
     }
-    let passes = Passes::new(surface, foundation, (moments, sags), wanted);
+    let passes = Passes::new(surface, foundation, (moments, sags), thresholds);
     let mut missing = [MissingArea::default(); 3];
     let mut level = passes.first(half);
     let area_m2 = surface.area_m2();
@@ -141,7 +141,7 @@ struct Node {
     middle: [f64; 2],
     point: Vector3<f64>,
     /// Amounts that every place of the cell gets, so that its quarters need not look for them.
-    kept: CellAmounts,
+    amounts: CellAmounts,
     /// Remaining windows, as a range in its level.
     windows: Range<usize>,
     /// Upper bound on the area that does not get the wanted amount, for contact, time and dose \[m²\].
@@ -209,7 +209,8 @@ impl Passes<'_> {
                 }
                 let cell = Cell::new(self.surface, middle, half);
                 let found = (&mut next.windows, &mut scratch);
-                next.nodes.extend(self.node(&cell, middle, (node.kept, windows), found));
+                next.nodes
+                    .extend(self.node(&cell, middle, (node.amounts, windows), found));
             }
         }
         next
@@ -223,7 +224,7 @@ impl Passes<'_> {
         known: (CellAmounts, &[[u32; 2]]),
         (windows, scratch): (&mut Vec<[u32; 2]>, &mut Scratch),
     ) -> Option<Node> {
-        let wanted = self.edges.wanted;
+        let wanted = self.edges.thresholds;
         let thresholds = [0.0, wanted.time_s, wanted.dose_pa_m];
         // Nobody gets less than no time and no dose.
         let asked = [true, wanted.time_s != 0.0, wanted.dose_pa_m != 0.0];
@@ -244,7 +245,7 @@ impl Passes<'_> {
         Some(Node {
             middle,
             point: cell.point,
-            kept: found.kept,
+            amounts: found.amounts,
             windows: first..windows.len(),
             missing_m2: cell.greatest_areas(self.surface, below),
             worth: [0, 1, 2].map(|k| below[k] - share(k, Lower::hopeless, bounds)),

@@ -245,7 +245,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_without_idle_zeros() {
+    fn writes_numbers_without_trailing_zeros() {
         let told = [150.0, 0.25, -1e-9, 1e-9, 100.0, 12.3456789].map(|value| number(value, 6));
         assert_eq!(told, ["150", "0.25", "0", "0", "100", "12.345679"]);
         assert_eq!(number(100.0, 0), "100");

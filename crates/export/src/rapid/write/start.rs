@@ -176,7 +176,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn the_kitchen_tool_in_rapid() {
+    fn writes_the_kitchen_tool_in_rapid() {
         // 0.3 (3 · 0.02² + 0.15²) / 12 = 5.925e-4, 0.3 · 0.02² / 2 = 6e-5.
         let text = "[TRUE,[[0,0,150],[1,0,0,0]],[0.3,[0,0,75],[1,0,0,0],0.0005925,0.0005925,0.00006]]";
         assert_eq!(tooldata(&kitchen_tool()), text);

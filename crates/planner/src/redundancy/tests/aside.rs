@@ -29,7 +29,7 @@ fn beside_a_wall<T>(azimuth_deg: f64, act: impl FnOnce(&World<'_>) -> T) -> T {
 /// Towards the wall there is nothing to be had, away from it there is: upright where it stands far enough off, leaning where it does not, and
 /// not at all where it is too near.
 #[test]
-fn the_tool_leans_away_from_a_wall_and_only_where_it_must() {
+fn the_tool_leans_away_from_a_wall_only_where_needed() {
     let (mut upright, mut leant, mut failed) = (0, 0, 0);
     for k in 0..12 {
         beside_a_wall(10.0 + f64::from(k), |world| {

@@ -45,7 +45,7 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
 
 /// Extremes of the allowed ranges end with an answer or a reason.
 #[test]
-fn extremes_end() {
+fn ends_for_extreme_values() {
     for (x, y, z) in [
         (0.0, 0.0, 0.03),
         (10.0, -10.0, 10.0),
@@ -76,7 +76,7 @@ fn extremes_end() {
 
 /// The sponge may touch other plates while it works on one; how near they lie changes nothing.
 #[test]
-fn other_plates_may_lie_as_near_as_they_like() {
+fn ignores_the_distance_of_other_plates() {
     let first = plate_at(0.36, 0.0);
     let path = path(curve(RADIUS_M), 15.0);
     let alone = within(&kitchen_tool(), &[first], |world| world.washing(&path).unwrap());

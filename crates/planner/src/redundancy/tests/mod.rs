@@ -231,7 +231,7 @@ proptest! {
 
     /// The last turn alone gives the same answer as the whole search, on every branch.
     #[test]
-    fn what_is_known_before_the_search_is_what_the_search_finds(
+    fn early_checks_agree_with_the_search(
         places in prop::collection::vec((0.2..0.62f64, -170.0..170.0f64), 1..3),
         tilt in prop::sample::select(vec![0.0, 5.0, 15.0]),
         radius in 0.03..0.08f64,
@@ -250,7 +250,7 @@ proptest! {
 
     /// The search alone, without the policies, keeps the same promises.
     #[test]
-    fn the_search_washes_what_the_policies_wash(rho in 0.27..0.48f64, azimuth in -90.0..90.0f64) {
+    fn the_search_washes_every_plate_that_policies_wash(rho in 0.27..0.48f64, azimuth in -90.0..90.0f64) {
         let plates = [plate_at(rho, azimuth)];
         let path = path(curve(RADIUS_M), 15.0);
         within(&kitchen_tool(), &plates, |world| {
@@ -268,7 +268,7 @@ proptest! {
     /// The quick answer of the clearance model equals that of all its distances, except where a distance is within the error of
     /// the quick routine of the required one.
     #[test]
-    fn the_quick_clearance_is_the_slow_one(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
+    fn fast_and_slow_clearance_agree(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
         let plates = [plate_at(0.3, 10.0), plate_at(0.4, 60.0)];
         within(&kitchen_tool(), &plates, |world| {
             let q = JointVector::from(q);
@@ -355,7 +355,7 @@ fn a_long_path_out_of_reach_is_refused_before_it_is_searched() {
 /// Plates too near, too far or behind are refused with their obstruction, and where no other branch of the arm would do the
 /// exhaustive search agrees at every dead end.
 #[test]
-fn a_failure_is_the_arms_own() {
+fn failures_name_obstructions_of_the_arm_itself() {
     let cases = [
         (0.2, 0.0, 15.0, [Filter::Limit, Filter::Clearance], 0.0),
         (0.25, 45.0, 30.0, [Filter::Limit, Filter::Clearance], 0.0),
@@ -440,7 +440,7 @@ fn a_failure_is_the_arms_own() {
 }
 
 #[test]
-fn a_better_position_is_near_and_does() {
+fn a_better_position_is_near_and_washable() {
     let path = path(curve(RADIUS_M), 15.0);
     for (rho, azimuth, furthest) in [(0.2, 30.0, 0.065), (0.56, -40.0, 0.055), (0.36, 0.0, 0.0)] {
         let plates = [plate_at(rho, azimuth), plate_at(0.4, 120.0)];
@@ -465,7 +465,7 @@ fn a_better_position_is_near_and_does() {
 
 /// A place that the caller refuses is no answer: the next one is, further out, and none is where all are refused.
 #[test]
-fn a_better_position_is_one_that_the_caller_accepts() {
+fn suggests_only_positions_that_the_caller_accepts() {
     let (path, plates) = (path(curve(RADIUS_M), 15.0), [plate_at(0.56, -40.0)]);
     within(&kitchen_tool(), &plates, |world| {
         let search = elsewhere(world, &path);
@@ -513,7 +513,7 @@ fn a_plate_that_does_not_lie_level_is_washed_too() {
 
 /// Every search ends at once when it is cancelled, whether it would succeed or not.
 #[test]
-fn what_is_given_up_is_neither_found_nor_refused() {
+fn a_cancelled_search_returns_cancelled() {
     let cancel = CancelToken::new();
     cancel.cancel();
     for rho in [0.36, 0.62] {

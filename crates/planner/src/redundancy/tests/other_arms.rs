@@ -26,7 +26,7 @@ fn ur5_home() -> JointVector {
 /// The arm is the same from every side: a plate that is washed in one direction is washed in all of them, whichever way joint 1
 /// would turn first from home.
 #[test]
-fn a_plate_is_washed_wherever_it_is_turned_about_axis_1() {
+fn washability_does_not_depend_on_the_angle_about_axis_1() {
     for k in 0..12 {
         let azimuth = -149.999 + 30.0 * f64::from(k);
         let (s, c) = sin_cos(azimuth.to_radians());
@@ -40,7 +40,7 @@ fn a_plate_is_washed_wherever_it_is_turned_about_axis_1() {
 }
 
 #[test]
-fn cannot_is_said_where_a_bound_or_every_branch_proves_it() {
+fn says_unwashable_only_with_a_proof() {
     let conclusion = |urdf: &str, lies: Plate, near: &JointVector| {
         with(urdf, lies, |world| {
             match washable(&world.task_near(&path(curve(0.09), 15.0), near)).unwrap() {
@@ -102,7 +102,7 @@ fn the_search_leaves_room_under_the_largest_tilt() {
 }
 
 #[test]
-fn plates_are_moved_without_making_the_arm_again() {
+fn moving_plates_reuses_the_arm() {
     let robot = RobotModel::from_urdf(KR5, &MeshSource::none()).unwrap();
     let [before, after] = [
         [plate(0.6, 0.1, 0.2), plate(0.2, -0.6, 0.1)],

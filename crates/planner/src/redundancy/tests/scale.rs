@@ -105,7 +105,7 @@ impl Tally {
 
 #[test]
 #[ignore = "a measurement"]
-fn single_plates() {
+fn searches_single_plates() {
     for (name, handle_m, radius_m, tilt) in [("ring at 0.12385", 0.02, RADIUS_M, 15.0), ("rim", 0.015, 0.145, 30.0)] {
         let mut tally = Tally::default();
         let tool = straight(0.15, handle_m);
@@ -121,7 +121,7 @@ fn single_plates() {
 
 #[test]
 #[ignore = "a measurement"]
-fn layouts_of_the_paper() {
+fn searches_layouts_of_the_paper() {
     for (name, region) in [("text", Region::PAPER_TEXT), ("appendix", Region::PAPER_APPENDIX)] {
         for min_distance_m in [0.28, 0.30] {
             let mut tally = Tally::default();
@@ -163,7 +163,7 @@ fn layouts_of_the_paper() {
 /// Plates and tools of all kinds, many of them beyond the arm's abilities; failures judged by the exhaustive search.
 #[test]
 #[ignore = "a measurement"]
-fn anything() {
+fn searches_random_plates_and_tools() {
     let mut random = stream(2, "posture");
     let mut tally = Tally::default();
     for _ in 0..400 {

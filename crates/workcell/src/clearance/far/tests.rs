@@ -19,7 +19,7 @@ fn turned_box(half: [f64; 3], at: [f64; 3], turn: [f64; 3], margin_m: f64) -> Ob
 }
 
 #[test]
-fn nothing_is_around_a_half_space() {
+fn a_half_space_has_no_bounding_body() {
     let poses = RobotModel::irb120().unwrap().fk(&JointVector::zeros());
     let floor = obstacle_body(&Obstacle::floor()).unwrap();
     assert!(around(&floor, &poses).is_none());
@@ -28,7 +28,7 @@ fn nothing_is_around_a_half_space() {
 proptest! {
     /// A box turned any way reaches along each axis as far as one of its corners; of those none is outside.
     #[test]
-    fn it_holds_all_and_no_more(
+    fn the_hull_holds_all_points_and_no_more(
         half in prop::array::uniform3(0.01..0.3f64), at in prop::array::uniform3(-1.0..1.0f64), turn in prop::array::uniform3(-2.0..2.0f64),
         margin_m in 0.0..0.05f64,
     ) {
@@ -48,7 +48,7 @@ proptest! {
 
     /// Passing over many at once answers as looking at each pair does, whatever is asked for and whatever it stands among.
     #[test]
-    fn a_crowd_answers_as_its_pairs_do(
+    fn grouped_pairs_give_the_answers_of_single_pairs(
         q in prop::array::uniform6(-2.0..2.0f64), required_m in 0.0..0.2f64,
         boxes in prop::collection::vec(
             (prop::array::uniform3(0.01..0.1f64), prop::array::uniform3(-0.8..0.8f64), prop::array::uniform3(-2.0..2.0f64), 0.0..0.02f64), 0..12,

@@ -21,16 +21,13 @@ fn found(obstacles: Vec<Obstacle>) -> Vec<FixedOverlap> {
 
 /// By hand: plates are 20 mm thick and lie at 30 mm, the base stands on 0.
 #[test]
-fn what_touches_stands_and_what_reaches_in_is_named() {
+fn accepts_touching_bodies_and_names_overlapping_ones() {
     // A table whose top is at the plates' undersides, and one at the foot of the arm.
     let under = |top: f64| block("table", [1.0, 1.0, 0.1], [1.12, 0.0, top - 0.1]);
     let foot = block("slab", [1.0, 1.0, 0.1], [0.0, 0.0, -0.1]);
     assert_eq!(found(vec![under(0.01), foot]), []);
     let wrong = found(vec![under(0.0101)]);
-    let names: Vec<_> = wrong
-        .iter()
-        .map(|w| (w.standing.to_string(), w.other.as_str()))
-        .collect();
+    let names: Vec<_> = wrong.iter().map(|w| (w.body.to_string(), w.other.as_str())).collect();
     assert_eq!(
         names,
         [
@@ -48,7 +45,7 @@ fn what_touches_stands_and_what_reaches_in_is_named() {
 }
 
 #[test]
-fn what_holds_a_plate_may_reach_into_it() {
+fn a_holder_may_reach_into_its_plate() {
     let mut rack = block("rack", [0.2, 0.2, 0.02], [0.3, 0.2, 0.02]);
     assert_eq!(found(vec![rack.clone()]).len(), 1);
     rack.holds_plates = vec![0];
@@ -58,10 +55,10 @@ fn what_holds_a_plate_may_reach_into_it() {
 }
 
 #[test]
-fn what_reaches_into_the_base_is_named() {
+fn names_bodies_that_reach_into_the_base() {
     let wrong = found(vec![block("box", [0.05; 3], [-0.1, 0.0, 0.05])]);
     assert_eq!(
-        (wrong[0].standing.to_string().as_str(), wrong[0].other.as_str()),
+        (wrong[0].body.to_string().as_str(), wrong[0].other.as_str()),
         ("obstacle 'box'", "base_link")
     );
     // A ceiling under the shoulder, of which joint 1 never gets out.
@@ -77,14 +74,14 @@ fn what_reaches_into_the_base_is_named() {
 }
 
 #[test]
-fn margins_are_for_what_moves() {
+fn margins_apply_to_moving_bodies_only() {
     let mut table = block("table", [1.0, 1.0, 0.1], [1.12, 0.0, -0.09]);
     table.margin_m = 0.05;
     assert_eq!(found(vec![table]), []);
 }
 
 #[test]
-fn raised_plates_are_not_there() {
+fn ignores_raised_plates_of_a_dry_run() {
     let robot = RobotModel::irb120().unwrap();
     let mut terms = kitchen_terms(&robot, vec![kitchen_plate([0.3, 0.2])]);
     terms.workcell.obstacles.push(DryRun::standing(0, &terms.plates[0]));
@@ -100,7 +97,7 @@ fn raised_plates_are_not_there() {
 proptest! {
     /// A box turned at will, of which one corner is pushed into a box by so much, or kept away.
     #[test]
-    fn corners_are_seen_as_deep_as_they_are(turn in prop::array::uniform3(-3.0..3.0f64), by in -1e-2..1e-2f64) {
+    fn reports_the_true_depth_of_corners(turn in prop::array::uniform3(-3.0..3.0f64), by in -1e-2..1e-2f64) {
         let pose = Pose::from_parts(Vector3::zeros().into(), UnitQuaternion::from_scaled_axis(turn.into()));
         let half = Vector3::new(0.1, 0.05, 0.07);
         let lowest = (pose.rotation.to_rotation_matrix().matrix().row(2).abs() * half)[0];
@@ -140,7 +137,7 @@ fn a_plate_in_the_base_is_named_however_it_is_turned() {
         let wrong = found(vec![tilted(0.6, 0.0), tilted(0.12, angle)]);
         assert_eq!(wrong.len(), 1, "{angle}: {wrong:?}");
         assert_eq!(
-            (&wrong[0].standing, wrong[0].other.as_str()),
+            (&wrong[0].body, wrong[0].other.as_str()),
             (&FixedBody::Plate(1), "base_link")
         );
         assert_eq!(found(vec![tilted(0.24, angle)]), [], "{angle}");

@@ -65,7 +65,7 @@ fn distance(points: &[Point3<f64>], point: Point3<f64>) -> f64 {
 }
 
 #[test]
-fn a_trough_stays_hollow_where_it_is_decomposed() {
+fn decomposition_keeps_a_trough_hollow() {
     let middle = Point3::new(0.25, 0.2, 0.12);
     let hull = solid_parts(&trough(), SolidParts::Hull).unwrap();
     assert_eq!((hull.len(), hull[0].len()), (1, 8));
@@ -76,7 +76,7 @@ fn a_trough_stays_hollow_where_it_is_decomposed() {
 }
 
 #[test]
-fn a_box_is_behind_its_six_faces() {
+fn a_box_lies_behind_its_six_faces() {
     let hull = Part::around(distinct(
         cuboid([0.0; 3], [1.0; 3])
             .iter()
@@ -87,7 +87,7 @@ fn a_box_is_behind_its_six_faces() {
 }
 
 #[test]
-fn sheets_get_a_thickness_and_what_is_flat_altogether_is_refused() {
+fn thickens_sheets_and_rejects_flat_point_sets() {
     let sheet = |z: f64| [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3]].map(|[x, y]| Point3::new(x, y, z));
     assert_eq!(solid_parts(&[sheet(0.1)], SolidParts::Hull), Err(SolidError::Flat));
     assert_eq!(solid_parts(&[], SolidParts::Hull), Err(SolidError::Empty));

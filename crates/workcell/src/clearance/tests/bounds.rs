@@ -70,7 +70,7 @@ fn hold(a: (&Shape, &Isometry3<f64>), b: (&Shape, &Isometry3<f64>)) {
 proptest! {
     /// Handles and sponges of any thickness, down to a tenth of a millimetre, over boxes and cylinders.
     #[test]
-    fn no_more_is_claimed_than_the_distance(
+    fn the_lower_bound_never_exceeds_the_distance(
         a in iso(), b in iso(), size in prop::array::uniform3(0.01..0.2f64), thin in -4.0..-1.0f64, long in 0.5..20.0f64, boxed in any::<bool>(),
     ) {
         let [x, y, z] = size;
@@ -85,7 +85,7 @@ proptest! {
 /// The foot of the arm and the sponge: GJK says 26.132691 mm here, 20.5 µm too much; coal, with a tolerance of 1e-12, says
 /// 26.112177 mm.
 #[test]
-fn no_more_is_claimed_where_a_routine_stops_early() {
+fn the_lower_bound_holds_where_a_routine_stops_early() {
     let q = JointVector::new(
         1.593_112_175_223_078,
         1.478_442_351_519_066,

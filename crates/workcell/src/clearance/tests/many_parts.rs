@@ -52,7 +52,7 @@ fn near() -> impl Strategy<Value = JointVector> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
     #[test]
-    fn many_parts_are_as_near_as_the_nearest_of_them(q in near(), kind in 0..4usize, z in 0.03..0.2f64, required in 0.0..0.05f64) {
+    fn the_distance_of_many_parts_is_the_least_of_theirs(q in near(), kind in 0..4usize, z in 0.03..0.2f64, required in 0.0..0.05f64) {
         let robot = RobotModel::irb120().unwrap();
         let world = workcell(&robot, kitchen_tool());
         let plates = plates(kind, z);
@@ -119,7 +119,7 @@ fn holds(pairs: &PartPairs<'_>, poses: &platewash_kinematics::BodyPoses) -> Resu
 }
 
 #[test]
-fn plates_laid_elsewhere_are_those_made_there() {
+fn moved_plates_equal_plates_made_there() {
     let robot = RobotModel::irb120().unwrap();
     let world = workcell(&robot, kitchen_tool());
     let first = ClearanceModel::new(&robot, &world, &plates(0, 0.03)).unwrap();
@@ -136,7 +136,7 @@ fn plates_laid_elsewhere_are_those_made_there() {
 }
 
 #[test]
-fn nan_keeps_nothing_clear_of_many_parts() {
+fn nan_is_never_clear_of_many_parts() {
     let robot = RobotModel::irb120().unwrap();
     let world = workcell(&robot, kitchen_tool());
     let model = ClearanceModel::new(&robot, &world, &plates(1, 0.03)).unwrap();

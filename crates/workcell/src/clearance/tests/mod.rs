@@ -139,7 +139,7 @@ proptest! {
     }
 
     #[test]
-    fn the_smallest_is_the_least_of_all(q in prop::array::uniform6(-1.5..1.5f64)) {
+    fn the_nearest_pair_has_the_least_distance(q in prop::array::uniform6(-1.5..1.5f64)) {
         let model = model();
         let q = JointVector::from(q);
         let least = model.all(&q).into_iter().min_by(|x, y| x.distance_m.total_cmp(&y.distance_m)).unwrap();
@@ -226,7 +226,7 @@ fn known_distances_at_the_home_position() {
 }
 
 #[test]
-fn the_sponge_may_touch_the_plate_it_works_on() {
+fn ignores_contact_of_the_sponge_with_its_plate() {
     let model = model();
     // Tool straight down over plate 1 with the sponge on its surface: found by the place of contact alone.
     let robot = RobotModel::irb120().unwrap();
@@ -295,7 +295,7 @@ fn wide_and_low_hulls_are_no_smaller_than_their_points() {
 }
 
 #[test]
-fn points_without_a_volume_are_no_body() {
+fn rejects_points_without_volume() {
     let flat = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| Point3::new(x, y, 0.3 * x - 0.2 * y));
     let line = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, x, x));
     for points in [flat.to_vec(), line.to_vec(), vec![Point3::origin(); 5], Vec::new()] {

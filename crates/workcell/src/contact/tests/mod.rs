@@ -57,7 +57,7 @@ fn twice_along_x() -> Vec<Moment> {
 
 /// Stays add up to the time in contact, follow one another, and begin and end where the rim of the sponge gets over the place.
 #[test]
-fn the_stays_of_a_place_are_its_time_in_contact() {
+fn the_contact_intervals_of_a_point_add_up_to_its_contact_time() {
     let (foundation, moments) = (foundation(), twice_along_x());
     let wanted = ContactThresholds {
         compression_m: 0.001,

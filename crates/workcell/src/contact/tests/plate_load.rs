@@ -116,7 +116,7 @@ proptest! {
 
     /// At a moment, on a disc and on every profile.
     #[test]
-    fn what_is_pressed_at_a_moment_is_what_columns_say(
+    fn the_load_at_a_moment_agrees_with_the_sum_of_columns(
         profile in 0..5usize, place in [0.0..1.0f64, 0.0..TAU], up in -3e-3..6e-3f64, lean in [0.0..0.52f64, 0.0..TAU], many: bool,
     ) {
         let surface = surface(profile);
@@ -136,7 +136,7 @@ proptest! {
     /// Checks the bounds over a stretch in which the sponge moves, accelerates and turns, at any moment of it, with columns that turn with
     /// it.
     #[test]
-    fn what_is_pressed_between_moments_is_what_their_columns_say(
+    fn the_load_between_moments_agrees_with_the_sum_of_columns(
         profile in 0..5usize, place in [0.0..1.0f64, 0.0..TAU], up in -2e-3..3e-3f64, lean in [0.0..0.52f64, 0.0..TAU],
         speed in prop::array::uniform3(-0.2..0.2f64), acceleration in prop::array::uniform3(-2.0..2.0f64),
         turning in prop::array::uniform3(-1.5..1.5f64), length_s in 1e-3..3e-2f64, share in 0.0..1.0f64,
@@ -174,7 +174,7 @@ proptest! {
 
     /// Little is lost across the face: the bounds at a moment are near the values.
     #[test]
-    fn what_is_said_of_a_moment_is_not_much_more_than_what_is(profile in 0..5usize, place in [0.05..0.75f64, 0.0..TAU], tilt in -0.1..0.1f64) {
+    fn bounds_at_a_moment_are_close_to_the_load(profile in 0..5usize, place in [0.05..0.75f64, 0.0..TAU], tilt in -0.1..0.1f64) {
         let surface = surface(profile);
         let bends = Bends::of(&surface);
         let [share, azimuth] = place;
@@ -195,7 +195,7 @@ proptest! {
 
 /// Nothing is claimed where nothing is known: for a tool that lies along the face, one that flies, and a place that is NaN.
 #[test]
-fn of_what_is_not_met_nothing_is_said() {
+fn gives_no_bounds_for_columns_that_miss_the_plate() {
     let surface = surface(0);
     let (bends, columns) = (Bends::of(&surface), Columns::new(&FOUNDATION));
     let lying = over(&surface, [0.5, 0.0], 0.0, [0.5 * PI, 0.0]);

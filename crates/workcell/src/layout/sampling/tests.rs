@@ -105,7 +105,7 @@ fn uniformity(sampler: &Sampler, region: &Region, placed: &[[f64; 2]], low: [f64
 }
 
 #[test]
-fn plates_are_uniform_over_what_is_free() {
+fn plates_are_uniform_over_the_free_area() {
     let text = Region::PAPER_TEXT;
     let ring = Region {
         x_m: [-0.6, 0.6],

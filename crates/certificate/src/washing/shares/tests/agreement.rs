@@ -78,20 +78,20 @@ fn proved(
     surface: &Surface,
     foundation: &Foundation,
     (moments, sags): (&[Moment], &[Sags]),
-    wanted: &ContactThresholds,
+    thresholds: &ContactThresholds,
 ) -> Dwell {
     let fineness = Fineness {
         cell_m: 2.0 * surface.rim_m(),
         enough: [1.0; 3],
     };
-    let worst = |wanted: &ContactThresholds| {
-        let found = shares(surface, foundation, (moments, sags), wanted, &fineness);
+    let worst = |thresholds: &ContactThresholds| {
+        let found = shares(surface, foundation, (moments, sags), thresholds, &fineness);
         [found.contact, found.time, found.dose].map(|share| share.worst)
     };
-    let [_, time_s, dose_pa_m] = worst(wanted);
+    let [_, time_s, dose_pa_m] = worst(thresholds);
     let [compression_m, ..] = worst(&ContactThresholds {
         compression_m: NEVER,
-        ..*wanted
+        ..*thresholds
     });
     Dwell {
         compression_m: compression_m.unwrap(),
@@ -119,7 +119,7 @@ fn place(random: &mut Pcg64, surface: &Surface) -> Vector3<f64> {
 }
 
 #[test]
-fn a_point_is_measured_to_get_what_its_cell_is_proved_to() {
+fn measured_points_get_at_least_the_bounds_of_their_cell() {
     let (mut pressed, mut partly) = (0, 0);
     for seed in 1..=400 {
         let random = &mut stream(seed, "agreement");
@@ -159,7 +159,7 @@ fn a_point_is_measured_to_get_what_its_cell_is_proved_to() {
 }
 
 #[test]
-fn a_small_cell_is_proved_to_get_nearly_what_its_points_are_measured_to() {
+fn bounds_of_small_cells_are_close_to_measured_points() {
     let (mut compared, mut complaints) = (0, Vec::new());
     for seed in 1..=200 {
         let random = &mut stream(seed, "agreement, small cells");

@@ -129,7 +129,7 @@ proptest! {
         let windows: Vec<_> = scratch.windows().collect();
         let quarter = [middle[0] + 0.5 * half, middle[1] - 0.5 * half];
         let quartered = Cell::new(&surface, quarter, 0.5 * half);
-        let again = passes.bounds(&quartered, (found.kept, &windows), &mut scratch, |_| false).unwrap();
+        let again = passes.bounds(&quartered, (found.amounts, &windows), &mut scratch, |_| false).unwrap();
         let dt = step / 40.0;
         for [x, y, e] in inside.into_iter().chain([[1.0, 1.0, -1.0], [-1.0, 1.0, 1.0]]) {
             for (found, middle, half) in [(&found, middle, half), (&again, quarter, 0.5 * half)] {
