@@ -119,7 +119,7 @@ fn a_washing_that_calls_itself_a_dry_run_is_refused() {
         height_m: 0.05,
     };
     let real = plan.job.plates.iter().enumerate();
-    let standing = real.map(|(i, plate)| DryRun::standing(i, &dry_run.lowered(plate)));
+    let standing = real.map(|(i, plate)| DryRun::plate_as_obstacle(i, &dry_run.lowered(plate)));
     plan.job.workcell.obstacles.extend(standing.collect::<Vec<_>>());
     plan.job.workcell.exclusions = plan.job.workcell.own_exclusions(job.arm()).unwrap();
     plan.job.dry_run = Some(dry_run);

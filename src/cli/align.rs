@@ -112,7 +112,7 @@ fn tolerance(text: &str) -> Result<f64> {
 /// Finds the mount, tells how well it fits, and carries points over.
 pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode> {
     let touched = in_file(&arguments.file, touched_points)?;
-    let wanted = wanted(arguments)?;
+    let wanted = points_to_map(arguments)?;
     let touches: Vec<Touch> = touched.iter().map(|point| point.touch).collect();
     let order = fitting_order(&touches, arguments.tolerance).map(|order| {
         let order: Vec<String> = order.iter().map(usize::to_string).collect();
@@ -139,7 +139,7 @@ fn in_file<T>(file: &Path, points: fn(&str) -> Result<Vec<T>, TableError>) -> Re
 }
 
 /// The points that shall be told in the base frame.
-fn wanted(arguments: &AlignArguments) -> Result<Vec<DrawnPoint>> {
+fn points_to_map(arguments: &AlignArguments) -> Result<Vec<DrawnPoint>> {
     let given = arguments.point.chunks_exact(3).map(|point| DrawnPoint {
         line: 0,
         name: None,

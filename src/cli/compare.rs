@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::certificate::{Measure, MeasureWords, Requirement, differences, paper_headline};
 use platewash::workcell::plan::Process;
 use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
-use platewash::workcell::words::{counted, quoted};
+use platewash::workcell::words::{count_with_noun, quoted};
 use platewash::{Certificate, Plan};
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -198,13 +198,13 @@ impl Display for Comparison {
                 writeln!(f, "{part:<34}{a:>12}{b:>12}{change:>18}")?;
             }
         }
-        let (same, other): (Vec<_>, Vec<_>) = self.margins.iter().partition(|margins| margins.reads_same());
+        let (same, other): (Vec<_>, Vec<_>) = self.margins.iter().partition(|margins| margins.prints_equal());
         if !other.is_empty() {
             writeln!(f, "\n{:<34}{:>12}{:>12}  limit", "proved bound", "A", "B")?;
         }
         other.iter().try_for_each(|margins| margins.line(f))?;
         if !same.is_empty() {
-            writeln!(f, "\nthe same in both: {}", counted(same.len(), "proved bound"))?;
+            writeln!(f, "\nthe same in both: {}", count_with_noun(same.len(), "proved bound"))?;
         }
         Ok(())
     }
@@ -215,7 +215,7 @@ impl Margins {
         [self.a, self.b].map(|measure| measure.map(|measure| measure.words()))
     }
 
-    fn reads_same(&self) -> bool {
+    fn prints_equal(&self) -> bool {
         let [a, b] = self.words();
         a == b
     }

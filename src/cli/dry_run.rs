@@ -4,7 +4,7 @@ use super::failure::ExitCode;
 use super::files::{Files, REPORTS, place};
 use super::numbers::positive;
 use super::options::Options;
-use super::output::{DetailArguments, json, whole};
+use super::output::{DetailArguments, full_report, json};
 use super::plan_file::PlanFile;
 use anyhow::{Error, Result, bail};
 use clap::Args;
@@ -96,7 +96,7 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode> {
             drop(progress);
             let report = NoDryRun::new(hash, arguments.height, works_at_m, why);
             files.add_report("report", &report)?;
-            files.answer(options, &report, || whole(&report))?;
+            files.answer(options, &report, || full_report(&report))?;
             return Ok(report.why.verdict.into());
         }
     };
@@ -150,7 +150,7 @@ fn other_height(file: &PlanFile<'_>, arguments: &DryRunArguments, watch: &Watch<
     };
     let (mut low, mut high, mut found) = (least_height_m(&file.plan.job), arguments.height, None);
     for _ in 0..TRIES {
-        let height_m = typed(0.5 * (low + high));
+        let height_m = whole_millimetres(0.5 * (low + high));
         if !(height_m > low && height_m < high) {
             break;
         }
@@ -161,7 +161,7 @@ fn other_height(file: &PlanFile<'_>, arguments: &DryRunArguments, watch: &Watch<
         }
     }
     for more_m in HIGHER_M {
-        let height_m = typed(arguments.height + more_m);
+        let height_m = whole_millimetres(arguments.height + more_m);
         if found.is_none() && works(height_m)? {
             found = Some(height_m);
         }
@@ -170,7 +170,7 @@ fn other_height(file: &PlanFile<'_>, arguments: &DryRunArguments, watch: &Watch<
 }
 
 /// A height as a whole number of millimetres, so that it can be typed in \[m\].
-fn typed(height_m: f64) -> f64 {
+fn whole_millimetres(height_m: f64) -> f64 {
     (1e3 * height_m).floor() / 1e3
 }
 

@@ -14,7 +14,7 @@ use platewash::certificate::prove_with;
 use platewash::editor::{Editor, Keeper, Save, SaveError, SaveReport, site};
 use platewash::kinematics::urdf::file::{FileError, read_bytes};
 use platewash::scenario::{Draft, ScenarioSource, source};
-use platewash::workcell::words::counted;
+use platewash::workcell::words::count_with_noun;
 use platewash::{CancelToken, Failure, Scenario, WashReport};
 use serde::Serialize;
 use std::ffi::OsString;
@@ -58,7 +58,7 @@ pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode> {
     let listener = arguments.serve.listen(options)?;
     let bundle = page::needed_bundle()?;
     let (url, saved_in) = (listener.url(), file.file());
-    let editor = editor.kept_by(Box::new(file));
+    let editor = editor.with_keeper(Box::new(file));
     let editor = match arguments.serve.is_loopback() {
         true => editor,
         false => editor.open_to_others(),
@@ -190,7 +190,7 @@ impl ScenarioFile {
         };
         match files.stale() {
             0 => {}
-            removed => words += &format!("; {} of an earlier save removed", counted(removed, "file")),
+            removed => words += &format!("; {} of an earlier save removed", count_with_noun(removed, "file")),
         }
         if !files.write_if(cancel, still)? {
             return Ok(None);

@@ -20,7 +20,7 @@ use platewash::export::{
 };
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
-use platewash::workcell::words::{counted, printable};
+use platewash::workcell::words::{count_with_noun, printable};
 use platewash::{Certified, JointVector, Pose, ProveError};
 use serde::Serialize;
 use std::ffi::OsStr;
@@ -205,7 +205,7 @@ fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Export
         Some(folder) => folder.clone(),
         None => options.folder().join(target.name()),
     };
-    refuse_others(&folder, target, &exported.files)?;
+    refuse_other_programs(&folder, target, &exported.files)?;
     let mut files = Files::new(folder, &[]);
     for file in &exported.files {
         files.add(&file.name, &file.text);
@@ -227,7 +227,7 @@ fn write(options: &Options, target: &dyn Dialect, plan: &Plan, exported: &Export
 }
 
 /// Beginning of the answer on a dry run's program; empty for any other program.
-fn before(dry_run: Option<String>) -> String {
+fn dry_run_prefix(dry_run: Option<String>) -> String {
     dry_run.map_or_else(String::new, |words| words + "; ")
 }
 
@@ -235,7 +235,7 @@ impl Answer<'_> {
     fn text(&self) -> String {
         let mut text = format!(
             "{}{} program: {} points, {:.3} s; read back and judged: HOLDS\n",
-            before(self.dry_run.clone()),
+            dry_run_prefix(self.dry_run.clone()),
             self.target,
             self.points,
             self.duration_s
@@ -249,7 +249,7 @@ impl Answer<'_> {
 }
 
 /// Refuses a folder with programs of the same kind that would stay beside the new one: modules of two plans are none.
-fn refuse_others(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> Result<()> {
+fn refuse_other_programs(folder: &Path, target: &dyn Dialect, files: &[ProgramFile]) -> Result<()> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return Ok(());
     };
@@ -289,7 +289,7 @@ struct HandoverAnswer {
 }
 
 /// Compares the files of a program with the one that is made of the plan, and judges them as they stand.
-pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCode> {
+pub fn verify_program(options: &Options, plan: &Path, program: &[PathBuf]) -> Result<ExitCode> {
     let files = with_siblings(program)
         .iter()
         .map(|path| read(path))
@@ -309,7 +309,7 @@ pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Resul
     let (holds, unchanged) = (compared.holds(), compared.is_unchanged());
     let changed = match (unchanged, compared.changes.len() + compared.more_changes) {
         (true, _) => "as it was handed over".to_owned(),
-        (false, count) => format!("CHANGED in {}", counted(count, "place")),
+        (false, count) => format!("CHANGED in {}", count_with_noun(count, "place")),
     };
     let verdict = match (holds, compared.checks_start) {
         (true, true) => "HOLDS",
@@ -319,7 +319,7 @@ pub fn handed_over(options: &Options, plan: &Path, program: &[PathBuf]) -> Resul
     let answer = HandoverAnswer {
         headline: format!(
             "{}{verdict}{}: {} program, tip within {} mm of the plan; {changed}",
-            before(file.plan.job.dry_run.as_ref().map(DryRun::words)),
+            dry_run_prefix(file.plan.job.dry_run.as_ref().map(DryRun::words)),
             certified.certificate().but_for(),
             compared.dialect,
             1e3 * compared.tolerance_m

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all, and what belongs to whom in the folders that they go to.
 
 use super::options::Options;
-use super::output::{Reader, json, whole};
+use super::output::{Reader, full_report, json};
 use anyhow::{Context, Result, bail};
 use platewash::CancelToken;
 use platewash::workcell::atomic_file::{FolderLock, StagedFile, folder_of};
@@ -95,7 +95,7 @@ impl<'a> Files<'a> {
     /// Adds a report as data and in words.
     pub fn add_report(&mut self, name: &str, report: &(impl Serialize + Display)) -> Result<()> {
         self.add(&format!("{name}.json"), json(report)?);
-        self.add(&format!("{name}.txt"), whole(report));
+        self.add(&format!("{name}.txt"), full_report(report));
         Ok(())
     }
 
@@ -133,7 +133,7 @@ impl<'a> Files<'a> {
         let locks = self.locks()?;
         let mut complete = Vec::new();
         for (path, content) in &self.files {
-            let write = |out: &mut dyn Write| write!(out, "{content}").with_context(|| cannot(path));
+            let write = |out: &mut dyn Write| write!(out, "{content}").with_context(|| write_failure(path));
             complete.push((stage(path, write)?, path));
             cancel.check()?;
         }
@@ -148,7 +148,7 @@ impl<'a> Files<'a> {
                 .with_context(|| format!("{}: is of an earlier call and cannot be removed", path.display()))?;
         }
         for (staged, path) in complete {
-            staged.persist(path).with_context(|| cannot(path))?;
+            staged.persist(path).with_context(|| write_failure(path))?;
         }
         locks.iter().for_each(FolderLock::sync);
         Ok(true)
@@ -158,7 +158,10 @@ impl<'a> Files<'a> {
     fn locks(&self) -> Result<Vec<FolderLock>> {
         let mut folders = BTreeMap::new();
         for path in self.paths() {
-            folders.insert(place(folder_of(path)).with_context(|| cannot(path))?, folder_of(path));
+            folders.insert(
+                place(folder_of(path)).with_context(|| write_failure(path))?,
+                folder_of(path),
+            );
         }
         let lock = |folder: &Path| {
             let lock = FolderLock::new(folder);
@@ -172,23 +175,23 @@ impl<'a> Files<'a> {
 
 /// Writes a file by what makes it piece by piece: whole or not at all.
 pub fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
-    let lock = FolderLock::new(folder_of(path)).with_context(|| cannot(path))?;
+    let lock = FolderLock::new(folder_of(path)).with_context(|| write_failure(path))?;
     lock.remove_leftovers();
-    stage(path, write)?.persist(path).with_context(|| cannot(path))
+    stage(path, write)?.persist(path).with_context(|| write_failure(path))
 }
 
 /// A file that is complete, and not in its place yet.
 fn stage(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<StagedFile> {
     refuse_taken(path)?;
-    let staged = StagedFile::in_folder(folder_of(path)).with_context(|| cannot(path))?;
+    let staged = StagedFile::in_folder(folder_of(path)).with_context(|| write_failure(path))?;
     let mut buffered = BufWriter::new(staged);
     write(&mut buffered)?;
     let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
     let synced = staged.and_then(|staged| staged.sync().map(|()| staged));
-    synced.with_context(|| cannot(path))
+    synced.with_context(|| write_failure(path))
 }
 
-fn cannot(path: &Path) -> String {
+fn write_failure(path: &Path) -> String {
     format!("{}: cannot be written", path.display())
 }
 
@@ -204,15 +207,15 @@ fn refuse_place(path: &Path) -> Result<()> {
     if let Err(error) = path.symlink_metadata()
         && error.kind() == ErrorKind::InvalidFilename
     {
-        return Err(error).with_context(|| cannot(path));
+        return Err(error).with_context(|| write_failure(path));
     }
-    let place = place(folder_of(path)).with_context(|| cannot(path))?;
+    let place = place(folder_of(path)).with_context(|| write_failure(path))?;
     // A link that leads nowhere does not exist, but stands in the way.
     let stands = |place: &&Path| std::fs::symlink_metadata(place).is_ok();
     let Some(nearest) = place.ancestors().find(stands) else {
         return Ok(());
     };
-    let (cannot, folder) = (cannot(path), nearest.display());
+    let (cannot, folder) = (write_failure(path), nearest.display());
     if !nearest.is_dir() {
         bail!("{cannot}: {folder} is no folder");
     }
@@ -230,14 +233,14 @@ fn refuse_taken(path: &Path) -> Result<()> {
         Ok(found) if !found.is_file() => "no regular file",
         _ => return Ok(()),
     };
-    bail!("{}: it is {what}", cannot(path));
+    bail!("{}: it is {what}", write_failure(path));
 }
 
 /// No file may take the place of another one of the same run.
 fn refuse_one_place_for_two<'a>(files: impl Iterator<Item = &'a Path>) -> Result<()> {
     let mut taken = BTreeMap::new();
     for path in files {
-        let place = place(path).with_context(|| cannot(path))?;
+        let place = place(path).with_context(|| write_failure(path))?;
         if let Some(first) = taken.insert(place, path) {
             bail!(
                 "{}: is also where {} is written: give --csv or --out another place",

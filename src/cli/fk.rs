@@ -13,7 +13,7 @@ use platewash::kinematics::LimitViolation;
 use platewash::kinematics::ik::{AnalyticStarts, IkCause, Method, RandomRestarts, Start};
 use platewash::kinematics::model::manipulability;
 use platewash::kinematics::rotation::from_rpy;
-use platewash::kinematics::words::{fixed, not_as_zero};
+use platewash::kinematics::words::{fixed, nonzero_decimals};
 use platewash::{
     Axes, ClearanceModel, Frame, IkError, IkSettings, IkSolver, JointVector, PairClearance, Pose, RobotModel, Scenario,
     ToolFrame,
@@ -275,7 +275,7 @@ impl Configuration {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "within limits: {within}; manipulability {easy:.3e}");
         for beyond in &self.beyond_limits {
-            let by = not_as_zero((beyond.position_rad - beyond.limit_rad).abs().to_degrees(), 2);
+            let by = nonzero_decimals((beyond.position_rad - beyond.limit_rad).abs().to_degrees(), 2);
             let _ = writeln!(text, "  {beyond}, by {by}°");
         }
         let _ = writeln!(

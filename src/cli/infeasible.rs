@@ -3,7 +3,7 @@
 use super::failure::ExitCode;
 use super::files::{Files, RESULTS};
 use super::options::Options;
-use super::output::{self, whole};
+use super::output::{self, full_report};
 use anyhow::{Error, Result};
 use platewash::paper::PaperError;
 use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
@@ -90,7 +90,7 @@ fn in_full(
                 Err(PlanError::Cancelled(_)) if !options.cancel.is_cancelled() => {
                     (why, "; there was no time to check the other plates fully")
                 }
-                others => (why.besides(&others?), ""),
+                others => (why.with_plates(&others?), ""),
             }
         }
         _ => (why, ""),
@@ -134,7 +134,7 @@ pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Du
     let report = in_full(options, scenario, &failure, report, search_time)?;
     let mut files = Files::new(options.folder(), &RESULTS);
     files.add_report("report", &report)?;
-    files.answer(options, &report, || whole(&report))?;
+    files.answer(options, &report, || full_report(&report))?;
     Ok(ExitCode::from(report.why.verdict).job(scenario.job.on_failure))
 }
 

@@ -189,7 +189,7 @@ fn answer(arguments: impl IntoIterator<Item = OsString>, token: impl FnOnce() ->
         Ok((arguments, taken)) => taken
             .and_then(|()| dispatch(arguments, token))
             .map_or_else(|error| failure::report(&error) as u8, |code| code as u8),
-        Err(refused) => told(refused),
+        Err(refused) => report_arguments(refused),
     });
     // A caller that is no Rust program does not flush; a reader that has gone away is no error.
     let _ = std::io::stdout().flush();
@@ -204,7 +204,7 @@ fn parsed(arguments: Vec<OsString>) -> Result<(Arguments, Result<()>), clap::Err
 }
 
 /// Prints what is wrong with the arguments, or the help that was asked for; the exit code.
-fn told(refused: clap::Error) -> u8 {
+fn report_arguments(refused: clap::Error) -> u8 {
     let code = u8::try_from(refused.exit_code()).unwrap_or(ExitCode::Input as u8);
     match options::with_tip(refused).print() {
         // A closed pipe is no reason to fail; help that cannot be written is.

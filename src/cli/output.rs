@@ -76,7 +76,7 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
 }
 
 /// The whole report, as files hold it.
-pub fn whole(report: &impl Display) -> String {
+pub fn full_report(report: &impl Display) -> String {
     text(&format_args!("{report:#}"))
 }
 
@@ -91,7 +91,7 @@ pub struct DetailArguments {
 impl DetailArguments {
     /// The report as it is printed: one screen of it, or the whole.
     pub fn printed(&self, report: &impl Display) -> String {
-        let (short, whole) = (text(report), whole(report));
+        let (short, whole) = (text(report), full_report(report));
         match self.details || short == whole {
             true => whole,
             false => short + HINT,
@@ -119,7 +119,7 @@ pub struct Progress {
 impl Progress {
     /// A display of the work named `work`, which shows nothing yet. With `quiet` it stays silent.
     pub fn new(quiet: bool, work: &'static str) -> Self {
-        let silent = Self::silent(work);
+        let silent = Self::hidden(work);
         if quiet {
             return silent;
         }
@@ -133,7 +133,7 @@ impl Progress {
         })
     }
 
-    fn silent(work: &'static str) -> Self {
+    fn hidden(work: &'static str) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()).with_message(work);
         style(&bar, "{spinner} {msg}, {elapsed}");
         let timer = None;
@@ -244,7 +244,7 @@ mod progress_tests {
     #[test]
     fn without_a_terminal_prints_a_progress_line_now_and_then() {
         let written = SharedBuffer::default();
-        let progress = Progress::silent("planning").lines(Duration::from_millis(1), written.clone());
+        let progress = Progress::hidden("planning").lines(Duration::from_millis(1), written.clone());
         for what in ["ring 1 of 30", "ring 2 of 30"] {
             progress.say(&what);
             let line = format!("planning: {what} (");

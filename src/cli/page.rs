@@ -104,7 +104,7 @@ pub struct ServeArguments {
 
 impl ServeArguments {
     /// Name of the first of these options that is given.
-    pub fn given(&self) -> Option<&'static str> {
+    pub fn first_given_option(&self) -> Option<&'static str> {
         let given = [
             (self.port.is_some(), "--port"),
             (self.bind.is_some(), "--bind"),
@@ -205,7 +205,7 @@ impl LiveArguments {
     /// Takes the port and finds the bundle, before any long work. `None` where the run is not to be shown, or there is no bundle.
     pub fn prepare(&self, options: &Options, scenario: &Scenario) -> Result<Option<Stage<'_>>> {
         if !self.live {
-            return match self.serve.given() {
+            return match self.serve.first_given_option() {
                 Some(name) => bail!("{name}: is for --live, which is not given"),
                 None => Ok(None),
             };

@@ -89,7 +89,7 @@ fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>
         refuse_other(wanted, &ArmId::of(&arm))?;
         return Ok(Arc::new(arm));
     }
-    let is_it = |arm: &&Arc<RobotModel>| is_one(wanted, &ArmId::of(arm));
+    let is_it = |arm: &&Arc<RobotModel>| is_same_arm(wanted, &ArmId::of(arm));
     if let Some(arm) = besides.filter(is_it) {
         return Ok(arm.clone());
     }
@@ -108,7 +108,7 @@ fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>
     );
 }
 
-fn is_one(wanted: &ArmId, given: &ArmId) -> bool {
+fn is_same_arm(wanted: &ArmId, given: &ArmId) -> bool {
     (&wanted.urdf_sha256, &wanted.srdf_sha256) == (&given.urdf_sha256, &given.srdf_sha256)
 }
 

@@ -17,7 +17,7 @@ use platewash::scenario::{Program, Remedies};
 use platewash::simulator::simulate::table;
 use platewash::viewer::view::ExecutedMotion;
 use platewash::workcell::layout::Finding;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::count_with_noun;
 use platewash::{Failure, Layout, PaperReport, PaperRun, RobotModel, Scenario, Verdict, WashReport};
 use serde::Serialize;
 use std::fmt;
@@ -71,7 +71,7 @@ fn follow(options: &Options, scenario: &Scenario) -> Result<(PaperRun, PaperRepo
     let arm = options.arm(scenario)?;
     let layout = scenario.layout(&arm)?;
     let run = run_with(&scenario.paper_job_on(&arm, layout)?, &options.cancel)?;
-    let plates = counted(run.job.layout.plates.len(), "plate");
+    let plates = count_with_noun(run.job.layout.plates.len(), "plate");
     tracing::info!("planned {} waypoints on {plates}", run.tool_path.len());
     let report = run.report_with(&options.cancel)?;
     tracing::info!("checked {} violations", report.executed.violations.len());

@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::scenario::{Note, SHIPPED, source};
 use platewash::simulator::simulate::PayloadCheck;
 use platewash::workcell::layout::{Finding, LayoutError, LayoutSource};
-use platewash::workcell::words::counted;
+use platewash::workcell::words::count_with_noun;
 use platewash::{Failure, Layout, Scenario};
 use serde::Serialize;
 use std::fmt::Write;
@@ -79,13 +79,13 @@ struct Sampling {
 /// Checks the scenario, its arm and its plates: given ones are looked over, sampled ones placed with the scenario's seed.
 pub fn validate(options: &Options) -> Result<ExitCode> {
     let scenario = options.scenario()?;
-    let answer = valid(options, &scenario).or_else(|error| told(options, &scenario, error))?;
+    let answer = valid(options, &scenario).or_else(|error| report_invalid(options, &scenario, error))?;
     options.print(&answer, || answer.text())?;
     Ok(ExitCode::Done)
 }
 
 /// The error, once `--json` has told what stands against the scenario.
-fn told<T>(options: &Options, scenario: &Scenario, error: Error) -> Result<T> {
+fn report_invalid<T>(options: &Options, scenario: &Scenario, error: Error) -> Result<T> {
     infeasible::answer(options, scenario, &error)?;
     Err(error)
 }
@@ -122,7 +122,10 @@ impl Sampling {
     /// layout exists is an error.
     fn of(scenario: &Scenario, placed: &Result<Layout, LayoutError>) -> Result<Self, Failure> {
         let outcome = match placed {
-            Ok(layout) => format!("a layout of {} was found", counted(layout.plates.len(), "plate")),
+            Ok(layout) => format!(
+                "a layout of {} was found",
+                count_with_noun(layout.plates.len(), "plate")
+            ),
             Err(error) if error.is_proven() => return Err(error.clone().into()),
             Err(error) => Failure::from(error.clone()).to_string(),
         };
@@ -151,17 +154,20 @@ pub fn layout(options: &Options) -> Result<ExitCode> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let placed = scenario.layout(&robot).map_err(Failure::from);
-    let layout = placed.or_else(|failure| told(options, &scenario, failure.into()))?;
+    let layout = placed.or_else(|failure| report_invalid(options, &scenario, failure.into()))?;
     let mut files = Files::new(options.out.clone(), &["layout.json"]);
     files.add("layout.json", super::output::json(&layout)?);
     files.answer(options, &layout, || layout_text(&layout))?;
-    Ok(ExitCode::Infeasible.unless(!scenario.forbids(&layout)))
+    Ok(ExitCode::Infeasible.unless(!scenario.has_forbidden_overlap(&layout)))
 }
 
 fn layout_text(layout: &Layout) -> String {
     let mut text = match layout.source {
         LayoutSource::Sampled { restarts, draws } => {
-            let (restarts, draws) = (counted(restarts as usize, "restart"), counted(draws as usize, "draw"));
+            let (restarts, draws) = (
+                count_with_noun(restarts as usize, "restart"),
+                count_with_noun(draws as usize, "draw"),
+            );
             format!("sampled, {restarts}, {draws}\n")
         }
         LayoutSource::Explicit => "given\n".to_owned(),

@@ -64,7 +64,7 @@ pub fn run(options: &Options, arguments: &StudyArguments) -> Result<ExitCode> {
         StudyVerb::Run { file } => return work(options, file),
         StudyVerb::Show { folder } => {
             let summary = study::summary(folder)?;
-            options.print(&summary, || shown(&summary, folder))?;
+            options.print(&summary, || summary_text(&summary, folder))?;
         }
         StudyVerb::Export { folder, to, partial } => export(folder, to.as_deref(), *partial)?,
         StudyVerb::Scenario { file, row } => {
@@ -111,7 +111,7 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode> {
 }
 
 fn export(folder: &Path, to: Option<&Path>, partial: bool) -> Result<()> {
-    let (done, rows) = study::counted(folder)?;
+    let (done, rows) = study::count_rows(folder)?;
     if done < rows && !partial {
         bail!(
             "{}: the study is not finished: {done} of {rows} rows; go on with it, or take what is there: --partial",
@@ -150,7 +150,7 @@ fn outcomes(of: &Summary) -> String {
 }
 
 /// All of what the rows in a folder come to.
-fn shown(of: &Summary, folder: &Path) -> String {
+fn summary_text(of: &Summary, folder: &Path) -> String {
     let mut text = outcomes(of);
     for (axis, values) in &of.by_axis {
         let _ = writeln!(text, "\n{axis}");

@@ -65,7 +65,7 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode> {
     options.say(&format!(
         "{proved} of {total} proved, {not_proved} planned but not proved, {infeasible} infeasible, {not_found} not found, {failed} with an error"
     ));
-    if let Some(worst) = worst(&rows) {
+    if let Some(worst) = worst_row_text(&rows) {
         options.say(&worst);
     }
     let code = match infeasible + not_found + failed {
@@ -76,7 +76,7 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode> {
 }
 
 /// The row to look at first, in words: one that is not proved, or else the one of the least clearance; and the slowest of those proved.
-fn worst(rows: &[SweepRow]) -> Option<String> {
+fn worst_row_text(rows: &[SweepRow]) -> Option<String> {
     let others = rows.iter().filter(|row| row.outcome != Outcome::Proved);
     if let Some(row) = others.max_by_key(|row| row.outcome) {
         let reason = row.reason.as_ref().map(|reason| format!(": {reason}"));

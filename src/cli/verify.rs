@@ -13,7 +13,7 @@ use platewash::planner::Watch;
 use platewash::scenario::Program;
 use platewash::workcell::dry_run::{DryRunError, dry_run_terms};
 use platewash::workcell::plan::Process;
-use platewash::workcell::words::{counted, quoted};
+use platewash::workcell::words::{count_with_noun, quoted};
 use platewash::{Certificate, Failure, JobTerms, Plan, RobotModel, Scenario};
 use serde::Serialize;
 use serde_json::json;
@@ -87,7 +87,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
         bail!("--seed: {PLAN_STATES}");
     }
     if !arguments.program.is_empty() {
-        return export::handed_over(options, &arguments.plan, &arguments.program);
+        return export::verify_program(options, &arguments.plan, &arguments.program);
     }
     let plan = plan_file::read(&arguments.plan)?;
     let asked = arguments.against.as_ref();
@@ -121,7 +121,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
     };
     options.print(&answer, || arguments.details.printed(&answer))?;
     let passes = matches!(&answer.judgement, Judgement::Washing(certificate) if certificate.passes());
-    Ok(ExitCode::NotVerified.unless(passes && answer.others().all(PlanComparison::agrees)))
+    Ok(ExitCode::NotVerified.unless(passes && answer.comparisons().all(PlanComparison::agrees)))
 }
 
 /// Compares every field of a job with what a scenario asks for, by its name or file, with the seed of `--seed`, otherwise the plan's; and
@@ -195,14 +195,15 @@ fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<PlanComparison> {
 }
 
 impl Answer {
-    fn others(&self) -> impl Iterator<Item = &PlanComparison> {
+    fn comparisons(&self) -> impl Iterator<Item = &PlanComparison> {
         [&self.parent, &self.against].into_iter().flatten()
     }
 }
 
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.others().try_for_each(|other| f.write_str(&other.first_words()))?;
+        self.comparisons()
+            .try_for_each(|other| f.write_str(&other.first_words()))?;
         match &self.judgement {
             Judgement::Washing(certificate) => certificate.fmt(f)?,
             Judgement::Paper {
@@ -292,6 +293,6 @@ pub fn fields_differ(count: usize) -> String {
     match count {
         0 => "no field differs".to_owned(),
         1 => "1 field differs".to_owned(),
-        several => format!("{} differ", counted(several, "field")),
+        several => format!("{} differ", count_with_noun(several, "field")),
     }
 }

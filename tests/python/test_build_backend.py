@@ -36,7 +36,7 @@ def say(monkeypatch: pytest.MonkeyPatch, backend: Any, code: int = 0, stdout: st
     monkeypatch.setattr(backend.subprocess, "run", lambda line, **_: subprocess.CompletedProcess(line, code, stdout, stderr))
 
 
-def test_node_is_asked_for_only_where_the_bundle_is_missing(backend: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_needs_node_only_where_the_bundle_is_missing(backend: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     assert backend._node() == [backend.NODE]
     for version, asked in [("v20.19.0", [backend.NODE]), ("v22.17.0", []), ("v24.1.0", []), ("", [backend.NODE])]:
         say(monkeypatch, backend, stdout=version)
@@ -45,17 +45,17 @@ def test_node_is_asked_for_only_where_the_bundle_is_missing(backend: Any, monkey
     assert backend._node() == []
 
 
-def test_a_source_package_asks_for_nothing(backend: Any) -> None:
+def test_a_source_package_needs_no_node(backend: Any) -> None:
     backend.CHORES.unlink()
     assert backend._node() == []
 
 
-def test_where_no_node_is_published_none_is_asked_for(backend: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_needs_no_node_where_none_is_published(backend: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(backend.platform, "machine", lambda: "riscv64")
     assert backend._node() == []
 
 
-def test_a_page_that_cannot_be_made_is_a_line_and_no_failure(
+def test_a_failed_page_is_reported_without_failing(
     backend: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     backend._make_page()
@@ -77,7 +77,7 @@ def test_a_source_package_without_the_page_says_so(backend: Any, capsys: pytest.
     assert capsys.readouterr().err == ""
 
 
-def test_the_switch_makes_nothing(backend: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_switch_disables_building_the_page(backend: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setenv(backend.SWITCH, "0")
     assert backend._node() == []
     backend._make_page()

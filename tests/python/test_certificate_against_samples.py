@@ -148,7 +148,7 @@ def test_the_tip_follows_the_wash_curve(plan, checks, motion, tip):
     assert worst <= checks["path_deviation"]["measure"]["limit"] == 2e-4
 
 
-def test_nothing_comes_closer_than_proved(run, plan, checks, motion, irb120_urdf):
+def test_no_sample_is_closer_than_proved(run, plan, checks, motion, irb120_urdf):
     held, lying = plan["job"]["workcell"]["tool"], plan["job"]["plates"]
     handle = held["bodies"][0]["shape"]["cylinder"]["radius_m"]
     sponge = held["sponge"]

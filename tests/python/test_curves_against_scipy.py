@@ -39,7 +39,7 @@ def waypoints(start, end, arc):
 
 
 @pytest.mark.parametrize("interpolation", ["zero_velocity", "c2_spline"])
-def test_transits_are_scipys_curves(platewash, tmp_path, interpolation):
+def test_transits_agree_with_scipy(platewash, tmp_path, interpolation):
     text = (ROOT / "scenarios/paper-appendix.toml").read_text()
     # Plates well within reach, so that the commanded tip is on its waypoint to the solver's tolerance.
     edited = text.replace('interpolation = "zero_velocity"', f'interpolation = "{interpolation}"')

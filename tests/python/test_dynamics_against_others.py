@@ -35,7 +35,7 @@ def off(found: np.ndarray, wanted: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("name", list(generate_dynamics.cases()))
-def test_ten_thousand_states_are_pinocchios_and_mujocos(name):
+def test_ten_thousand_states_agree_with_pinocchio_and_mujoco(name):
     _, urdf, tool, _ = generate_dynamics.cases()[name]
     robot = pw.Robot.from_urdf(urdf)
     model = pw.DynamicsModel(robot, pw.Tool(**tool) if tool else None)
@@ -66,7 +66,7 @@ def test_a_wrong_arm_would_be_noticed():
 
 
 @pytest.mark.parametrize("law", ["pd", "pd_gravity", "computed_torque"])
-def test_a_whole_wash_is_mujocos(kitchen, law):
+def test_a_whole_wash_agrees_with_mujoco(kitchen, law):
     settings = pw.SimulationSettings.of(kitchen).replace(law=law, plant=NO_PUSH)
     if law == "computed_torque":
         frequency, damping = settings.control.frequency_rad_s, settings.control.damping_ratio
@@ -89,7 +89,7 @@ def test_a_whole_wash_is_mujocos(kitchen, law):
 
 
 @pytest.mark.parametrize(("law", "stiffness_pa", "end"), [("computed_torque", 11e3, "landing"), ("computed_torque", 44e3, "lifting"), ("pd_gravity", 20e3, "lifting")])
-def test_the_force_on_a_plate_is_mujocos(kitchen, law, stiffness_pa, end):
+def test_the_force_on_a_plate_agrees_with_mujoco(kitchen, law, stiffness_pa, end):
     """An end of the first plate's wash by MuJoCo's arm, with the foam's law written down once more: one at the rim, one in the middle."""
     settings = pw.SimulationSettings.of(kitchen).replace(law=law, plant=NO_PUSH | {"contact_stiffness_pa": stiffness_pa})
     if law == "computed_torque":

@@ -42,7 +42,7 @@ def nanoseconds(span: dict) -> int:
     return span["sec"] * NS + span["nanosec"]
 
 
-def test_the_message_is_the_plan(plan: pw.Plan, share: float, message: dict, files: dict[str, str]) -> None:
+def test_the_message_equals_the_plan(plan: pw.Plan, share: float, message: dict, files: dict[str, str]) -> None:
     trajectory = plan.trajectory
     assert list(files) == ["joint_trajectory.yaml", "joint_trajectory.json", "follow_joint_trajectory.yaml", "follow_joint_trajectory.json", "play.py"]
     assert message == json.loads(files["joint_trajectory.json"]) == json.loads(files["follow_joint_trajectory.json"])["trajectory"]
@@ -58,7 +58,7 @@ def test_the_message_is_the_plan(plan: pw.Plan, share: float, message: dict, fil
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_yaml_says_what_json_says_to_both_versions_of_yaml(name: str) -> None:
+def test_yaml_1_1_and_1_2_read_the_values_of_json(name: str) -> None:
     one_plate = pw.Scenario.load("kitchen").replace(layout={"count": 1})
     files = planned(one_plate).export("ros2", speed_share=0.7)
     stated = json.loads(files[f"{name}.json"])
@@ -96,7 +96,7 @@ def controllers_cubic(message: dict, time_ns: int) -> tuple[np.ndarray, np.ndarr
     return p + v * t + square * t**2 + cube * t**3, v + 2 * square * t + 3 * cube * t**2
 
 
-def test_the_controllers_cubic_is_the_plans_motion(plan: pw.Plan, share: float, message: dict) -> None:
+def test_the_cubic_of_the_controller_gives_the_motion_of_the_plan(plan: pw.Plan, share: float, message: dict) -> None:
     trajectory = plan.trajectory
     last_ns = nanoseconds(message["points"][-1]["time_from_start"])
     times_ns = np.random.default_rng(13).integers(LEAD_IN_NS, last_ns, 3000).tolist() + [LEAD_IN_NS, last_ns]
@@ -174,7 +174,7 @@ def changed(**point: object) -> dict:
         changed(time_from_start={"sec": 3.0, "nanosec": 0}), changed(time_from_start={"sec": 2**31, "nanosec": 0}), changed(time_from_start={}),
     ],
 )  # fmt: skip
-def test_what_is_no_message_is_refused(message: dict, tmp_path: Path) -> None:
+def test_rejects_invalid_messages(message: dict, tmp_path: Path) -> None:
     for call in (lambda: ros.write_bag(message, tmp_path / "bag"), lambda: ros.sample(message, [0.0]), lambda: ros.to_message(message)):
         with pytest.raises(pw.InputError, match="^plan: no JointTrajectory: ") as caught:
             call()
@@ -254,7 +254,7 @@ def test_files_are_written_all_or_none(plan: pw.Plan, tmp_path: Path) -> None:
     assert {file.name: file.read_bytes() for file in out.iterdir() if file.is_file()} == {k: v for k, v in before.items() if k != "play.py"}
 
 
-def test_what_is_not_handed_over_says_why(plan: pw.Plan) -> None:
+def test_states_why_a_program_is_not_exported(plan: pw.Plan) -> None:
     start = plan.trajectory.q_rad[0]
     assert plan.export("ros2", stands_rad=start + np.radians(0.4)) == plan.export("ros2")
     away = start.copy()

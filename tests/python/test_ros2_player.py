@@ -56,14 +56,14 @@ def dry(script):
     return subprocess.run([sys.executable, str(script), "--dry"], capture_output=True, text=True)
 
 
-def test_a_module_beside_it_is_not_taken_for_pythons_own(player, tmp_path):
+def test_ignores_a_module_beside_the_script(player, tmp_path):
     for name in ("json", "argparse", "rclpy"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit('taken')\n")
     done = dry(player.__file__)
     assert "3 points" in done.stdout and "taken" not in done.stdout + done.stderr, done
 
 
-def test_a_link_to_it_sends_the_goal_beside_the_link(player, tmp_path):
+def test_a_link_to_the_script_sends_the_goal_beside_the_link(player, tmp_path):
     other = tmp_path / "other"
     other.mkdir()
     (other / "play.py").symlink_to(player.__file__)
@@ -73,13 +73,13 @@ def test_a_link_to_it_sends_the_goal_beside_the_link(player, tmp_path):
     assert "2 points" in dry(other / "play.py").stdout
 
 
-def test_it_compiles_for_humbles_python_and_imports_without_ros(script, player):
+def test_the_script_compiles_for_humble_and_imports_without_ros(script, player):
     compile(script.read_text(), "play.py", "exec", dont_inherit=True)
     done = subprocess.run([sys.executable, "-I", str(player.__file__), "--help"], capture_output=True, text=True, check=True)
     assert "--dry" in done.stdout and "--action" in done.stdout
 
 
-def test_a_goal_is_sent_as_it_is_stated(player, stand, capsys):
+def test_sends_the_stated_goal(player, stand, capsys):
     stand.feedback = [[0.0, 0.001, 0.0, 0.0, -0.02, 0.0]]
     assert player.main(["--action", "/arm/follow"]) == 0
     [sent] = stand.goals
@@ -112,17 +112,17 @@ def test_the_start_is_compared_joint_by_joint(player, stand, capsys, joint, off_
     assert (f"joint_{joint + 1} is {off_deg:+.3f} deg" in said) == refused
 
 
-def test_a_position_that_is_no_number_is_not_near(player, stand, capsys):
+def test_nan_positions_are_not_near_the_start(player, stand, capsys):
     stand.states = [(NAMES, [float("nan")] * 6)]
     assert player.main([]) == 1 and stand.goals == []
 
 
-def test_joint_states_that_come_in_parts_are_put_together(player, stand):
+def test_combines_joint_states_that_come_in_parts(player, stand):
     stand.states = [(NAMES[:3], START[:3]), (["gripper"], [1.0]), (NAMES[3:], START[3:])]
     assert player.main([]) == 0
 
 
-def test_what_is_not_heard_is_said(player, stand, capsys):
+def test_reports_missing_joint_states(player, stand, capsys):
     stand.states = [(["joint_a"], [0.0])]
     assert player.main([]) == 1
     assert "heard of: joint_a" in capsys.readouterr().err
@@ -140,14 +140,14 @@ def test_what_is_not_heard_is_said(player, stand, capsys):
         ({"interrupts": [3, 4]}, "interrupted"),
     ],
 )
-def test_every_other_ending_is_a_failure(player, stand, capsys, change, words):
+def test_every_other_end_of_a_goal_is_a_failure(player, stand, capsys, change, words):
     vars(stand).update(change)
     assert player.main([]) == 1
     assert words in capsys.readouterr().err
     assert stand.cancelled == bool(stand.interrupts) and not stand.alive
 
 
-def test_without_ros_nothing_is_taken_for_checked(player, monkeypatch, capsys):
+def test_without_ros_nothing_counts_as_checked(player, monkeypatch, capsys):
     without_ros(monkeypatch)
     assert player.main(["--dry"]) == 1
     assert "not checked" in capsys.readouterr().err
@@ -187,7 +187,7 @@ def test_files_without_a_goal_are_refused_before_anything_else(player, stand, tm
     assert str(file) in capsys.readouterr().err and stand.goals == [] and not stand.alive
 
 
-def test_yaml_is_read_too_and_a_missing_file_is_said(player, stand, tmp_path, capsys):
+def test_reads_yaml_and_reports_a_missing_file(player, stand, tmp_path, capsys):
     file = tmp_path / "goal.yaml"
     file.write_text(json.dumps(goal()))
     assert player.main([str(file)]) == 0

@@ -47,7 +47,7 @@ def test_frames_at_zero(irb120):
     assert frame(irb120, np.zeros(6), "base").isIdentity(1e-15)
 
 
-def test_shapes_are_all_there(irb120, irb120_urdf):
+def test_reads_all_shapes(irb120, irb120_urdf):
     for kind, wanted in ((pin.GeometryType.COLLISION, COLLISION), (pin.GeometryType.VISUAL, VISUAL)):
         geometry = pin.buildGeomFromUrdf(irb120, str(irb120_urdf), kind)
         owners = [irb120.frames[shape.parentFrame].name for shape in geometry.geometryObjects]

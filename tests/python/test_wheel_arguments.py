@@ -227,7 +227,7 @@ LISTED: list[tuple[Callable[[], Any], type[Exception], str]] = [
 
 
 @pytest.mark.parametrize("case", range(len(LISTED)))
-def test_exceptions_are_ours_and_pythons(case: int) -> None:
+def test_exceptions_derive_from_ours_and_pythons(case: int) -> None:
     call, builtin, words = LISTED[case]
     with pytest.raises(pw.PlatewashError, match=words) as caught:
         call()
@@ -240,7 +240,7 @@ def test_exceptions_are_ours_and_pythons(case: int) -> None:
         assert error.errno == (None if error.filename == "/" else 2)
 
 
-def test_a_missing_file_stays_what_it_was_of() -> None:
+def test_a_missing_file_raises_the_error_of_its_kind() -> None:
     with pytest.raises(pw.PlanFileError):
         pw.Plan.load("none.json")
     with pytest.raises(pw.UrdfError):
@@ -272,7 +272,7 @@ def test_masked_values_are_refused_by_name(call: Callable[[Any], Any]) -> None:
         pw.Tool(length_m=np.ma.masked)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
 
-def test_what_a_callers_own_object_raises_is_passed_on() -> None:
+def test_passes_on_exceptions_of_the_callers_objects() -> None:
     def seeds() -> Iterator[int]:
         yield 1
         raise RuntimeError("mine")

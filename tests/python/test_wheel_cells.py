@@ -33,7 +33,7 @@ def test_distances_of_a_jobs_cell_are_those_of_the_command(name: str, jobs: dict
         np.testing.assert_array_equal(row, [pair["distance_m"] for pair in one["clearance"]])
 
 
-def test_bodies_are_those_of_the_cell(jobs: dict[str, pw.WashJob]) -> None:
+def test_body_names_are_those_of_the_cell(jobs: dict[str, pw.WashJob]) -> None:
     for job in jobs.values():
         model, workcell = pw.ClearanceModel.of(job), job.workcell
         around = [obstacle.name for obstacle in workcell.obstacles]
@@ -45,7 +45,7 @@ def test_bodies_are_those_of_the_cell(jobs: dict[str, pw.WashJob]) -> None:
 
 
 @pytest.mark.parametrize("name", ["pedestal", "ceiling", "wall"])
-def test_places_are_in_the_world(name: str, jobs: dict[str, pw.WashJob]) -> None:
+def test_positions_are_in_the_world_frame(name: str, jobs: dict[str, pw.WashJob]) -> None:
     """Half-way between a body and the floor is half its height over it."""
     job = jobs[name]
     floor = next(obstacle for obstacle in job.workcell.obstacles if obstacle.name == "floor")
@@ -56,7 +56,7 @@ def test_places_are_in_the_world(name: str, jobs: dict[str, pw.WashJob]) -> None
         assert pair.place_m[2] == pytest.approx(height + pair.distance_m / 2, abs=1e-9)
 
 
-def test_a_plain_cell_is_that_of_its_arm_tool_and_plates() -> None:
+def test_a_plain_model_has_arm_tool_and_plates() -> None:
     """To the last pair: what a job leaves out is what a model of its arm, tool and plates leaves out."""
     run = paper_run("paper-appendix")
     plain = pw.ClearanceModel(pw.Robot.irb120(), plates=run.job.layout.plates)
@@ -74,7 +74,7 @@ def test_models_of_jobs_are_copied_pickled_and_compared(jobs: dict[str, pw.WashJ
     assert rack != pw.ClearanceModel.of(jobs["sink"]) and rack != pw.ClearanceModel(pw.Robot.irb120())
 
 
-def test_what_is_no_job_is_refused_by_name(tmp_path: Path) -> None:
+def test_rejects_invalid_jobs_by_name(tmp_path: Path) -> None:
     for wrong in (3, pw.Robot.irb120(), None):
         with pytest.raises(pw.InputTypeError, match="job: a WashJob, a PaperJob, a Plan, what plan\(\) returns, or the path of a plan file is needed"):
             pw.ClearanceModel.of(wrong)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
@@ -82,7 +82,7 @@ def test_what_is_no_job_is_refused_by_name(tmp_path: Path) -> None:
         pw.ClearanceModel.of(tmp_path / "none.json")
 
 
-def test_a_plan_whose_obstacle_is_none_is_no_cell(jobs: dict[str, pw.WashJob]) -> None:
+def test_rejects_a_plan_with_an_invalid_obstacle(jobs: dict[str, pw.WashJob]) -> None:
     plan = pw.plan(jobs["kitchen"]).plan.to_json()
     broken = plan.replace('"name":"floor",', '"margin_m":7.5,"name":"floor",')
     assert broken != plan

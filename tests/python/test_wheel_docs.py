@@ -49,7 +49,7 @@ def test_the_pages_blocks_run_from_top_to_bottom(page: str, tmp_path: Path, monk
         np.testing.assert_allclose(after["eul2quat"]([0.3, 0.2, 0.1]), [0.98334744, 0.0342708, 0.10602051, 0.14357218], atol=1e-8)
 
 
-def test_the_papers_program_call_by_call_is_the_papers_run() -> None:
+def test_the_papers_program_call_by_call_equals_its_run() -> None:
     source = next(path for path in EXAMPLES if path.stem == "paper_program")
     assert len(source.read_text().splitlines()) < 60
     after: dict[str, Any] = {"__name__": "example"}

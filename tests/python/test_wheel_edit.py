@@ -132,7 +132,7 @@ def test_a_cell_begins_with_its_scenario_and_nothing_planned(root: Path) -> None
     cell.close()
 
 
-def test_what_is_planned_on_the_page_is_what_the_cell_says(front: Front) -> None:
+def test_the_cell_returns_the_plan_of_the_page(front: Front) -> None:
     cell, seen = front.cell, []
     cell.observe(lambda change: seen.append((change["name"], threading.current_thread() is threading.main_thread(), *state(cell))))
     front.ask(1)
@@ -145,7 +145,7 @@ def test_what_is_planned_on_the_page_is_what_the_cell_says(front: Front) -> None
     assert cell.certificate is not None and cell.certificate == pw.prove(cell.plan) and cell.headline == cell.certificate.headline
 
 
-def test_a_change_keeps_comments_and_moves_the_plan(front: Front) -> None:
+def test_a_change_keeps_comments_and_replans(front: Front) -> None:
     cell, heard = front.cell, queue.Queue[pw.Plan | None]()
     cell.observe(lambda change: heard.put(change["new"]), names="plan")
     before = cell.text
@@ -169,7 +169,7 @@ def test_a_newer_question_ends_an_older_one(front: Front) -> None:
     assert front.cell.plan == plan("kitchen", 20)
 
 
-def test_a_guess_ends_no_planning_and_changes_nothing(front: Front) -> None:
+def test_a_preview_does_not_cancel_planning(front: Front) -> None:
     before = state(front.cell)
     front.ask("guess", OUT_OF_REACH, want="preview")
     assert front.kinds("guess")[-1] in ("preview", "unplanned") and state(front.cell) == before
@@ -189,7 +189,7 @@ def test_a_plate_out_of_reach_leaves_no_plan(front: Front) -> None:
     assert cell.scenario.layout.positions_m == [[0.9, 0.0]]
 
 
-def test_what_is_refused_harms_nothing(front: Front) -> None:
+def test_a_refused_change_has_no_effect(front: Front) -> None:
     cell = front.cell
     front.ask(1)
     front.lines(1)
@@ -215,7 +215,7 @@ def test_what_is_refused_harms_nothing(front: Front) -> None:
     assert state(cell)[:4] == before
 
 
-def test_a_question_is_given_up(front: Front) -> None:
+def test_a_question_can_be_cancelled(front: Front) -> None:
     before = state(front.cell)
     front.ask(1, {"key": "seed", "value": 7})
     front.send({"view": front.view, "platewash": 1, "abort": True})
@@ -224,7 +224,7 @@ def test_a_question_is_given_up(front: Front) -> None:
     assert state(front.cell) == before
 
 
-def test_what_is_set_in_python_is_shown_on_the_page(front: Front) -> None:
+def test_the_page_shows_values_set_in_python(front: Front) -> None:
     cell = front.cell
     front.ask(1)
     front.lines(1)
@@ -250,7 +250,7 @@ def test_what_is_set_in_python_is_shown_on_the_page(front: Front) -> None:
     assert cell.plan == plan("kitchen", 3)
 
 
-def test_what_is_no_scenario_is_not_set(front: Front) -> None:
+def test_never_sets_an_invalid_scenario(front: Front) -> None:
     cell, before = front.cell, state(front.cell)
     for text in ("seed = 'x'", "[wash", "", "\x00", cell.text.replace("lift_m = 0.03", "lift_m = -1")):
         with pytest.raises(pw.ScenarioError):
@@ -261,7 +261,7 @@ def test_what_is_no_scenario_is_not_set(front: Front) -> None:
     assert state(cell) == before
 
 
-def test_of_two_pages_the_newer_one_counts(front: Front) -> None:
+def test_the_newer_of_two_pages_counts(front: Front) -> None:
     first, second = front, Front(front.cell, "v2")
     begun_with = first.cell.text
     first.ask(1, {"key": "seed", "value": 4})
@@ -277,7 +277,7 @@ def test_of_two_pages_the_newer_one_counts(front: Front) -> None:
     assert not [told for told in second.told if told["view"] == "v1" and told.get("say", {}).get("platewash") == 2]
 
 
-def test_whatever_a_page_says_is_survived(front: Front, caplog: pytest.LogCaptureFixture) -> None:
+def test_survives_any_message_of_a_page(front: Front, caplog: pytest.LogCaptureFixture) -> None:
     view = front.view
     hostile: list[Any] = [
         None, 3, [], "x", {}, {"view": 3}, {"view": "x" * 1000, "open": True}, {"view": view}, {"view": view, "open": "yes"},
@@ -290,7 +290,7 @@ def test_whatever_a_page_says_is_survived(front: Front, caplog: pytest.LogCaptur
     assert front.kinds("then")[-1] == "proof" and not caplog.records
 
 
-def test_a_closed_cell_does_nothing_any_more() -> None:
+def test_a_closed_cell_does_nothing() -> None:
     cell = pw.edit(KITCHEN)
     assert cell.text == KITCHEN.to_toml()
     front = Front(cell)
@@ -365,7 +365,7 @@ def test_a_scenario_is_saved_whole_or_not_at_all(front: Front, tmp_path: Path) -
     assert {path.name for path in tmp_path.iterdir()} == {place.name, "link.toml"}
 
 
-def test_what_cannot_be_edited_is_refused() -> None:
+def test_rejects_cells_that_cannot_be_edited() -> None:
     for wrong, error in [("no-such-scenario", pw.ScenarioError), (3, pw.InputTypeError), (None, pw.InputTypeError), ([], pw.InputTypeError)]:
         with pytest.raises(error):
             pw.edit(wrong)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
@@ -374,7 +374,7 @@ def test_what_cannot_be_edited_is_refused() -> None:
             pw.edit("kitchen", height=height)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
 
 
-def test_without_anywidget_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_anywidget_names_the_package_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in [name for name in sys.modules if name == "pyplatewash._cell" or name.split(".")[0] == "anywidget"]:
         monkeypatch.delitem(sys.modules, module)
     monkeypatch.setitem(sys.modules, "anywidget", None)
@@ -383,7 +383,7 @@ def test_without_anywidget_it_says_what_to_install(monkeypatch: pytest.MonkeyPat
     assert isinstance(caught.value, pw.MissingError) and caught.value.name == "anywidget"
 
 
-def test_the_front_end_asks_no_network_and_locks_the_page_in() -> None:
+def test_the_front_end_uses_no_network_and_sandboxes_the_page() -> None:
     front_end = Path(pw.__file__).with_name("_cell.js").read_text(encoding="utf-8")
     shown: Any = pw.edit("kitchen")
     assert shown._esm == front_end
@@ -391,7 +391,7 @@ def test_the_front_end_asks_no_network_and_locks_the_page_in() -> None:
     assert '"sandbox", "allow-scripts allow-downloads"' in front_end and not re.search(r"https?:|\bimport\b|innerHTML|eval\(", front_end)
 
 
-def test_it_does_so_in_a_kernel(tmp_path: Path) -> None:
+def test_does_so_in_a_kernel(tmp_path: Path) -> None:
     manager, client = start_new_kernel(kernel_name="python3", cwd=str(tmp_path))
     try:
         client.execute("import pyplatewash as pw\ncell = pw.edit('kitchen')\ncell")

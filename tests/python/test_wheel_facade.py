@@ -99,7 +99,7 @@ def rust_names(root: Path) -> set[str]:
     return names
 
 
-def test_every_name_of_rusts_facade_is_accounted_for(root: Path) -> None:
+def test_every_name_of_the_rust_facade_is_listed(root: Path) -> None:
     assert rust_names(root) == set(PYTHON), "name what is new in PYTHON, and bind it"
     for there in filter(None, PYTHON.values()):
         thing = pw
@@ -107,7 +107,7 @@ def test_every_name_of_rusts_facade_is_accounted_for(root: Path) -> None:
             thing = getattr(thing, part)
 
 
-def test_the_scenarios_and_verbs_are_the_commands(platewash: Path) -> None:
+def test_scenarios_and_verbs_are_those_of_the_command(platewash: Path) -> None:
     assert pw.__version__ in subprocess.run([platewash, "--version"], capture_output=True, text=True).stdout
     assert sorted(pw.__all__) == pw.__all__
     for name in pw.__all__:
@@ -134,7 +134,7 @@ def users(root: Path) -> list[Path]:
     return tests + examples
 
 
-def test_stubs_are_what_runs(tmp_path: Path) -> None:
+def test_stubs_match_the_module(tmp_path: Path) -> None:
     check(tmp_path, "mypy.stubtest", "pyplatewash")
 
 
@@ -144,13 +144,13 @@ def mypy_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("mypy")
 
 
-def test_mypy_is_content(root: Path, tmp_path: Path, mypy_cache: Path) -> None:
+def test_mypy_finds_no_error(root: Path, tmp_path: Path, mypy_cache: Path) -> None:
     strict: list[str | Path] = ["mypy", "--strict", "--config-file", root / "pyproject.toml", "--cache-dir", mypy_cache]
     check(tmp_path, *strict, "-p", "pyplatewash")
     check(tmp_path, *strict, *users(root))
 
 
-def test_pyright_is_content(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pyright_finds_no_error(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYRIGHT_PYTHON_IGNORE_WARNINGS", "1")  # It would ask for a newer version of itself.
     check(root, "pyright", "--pythonpath", sys.executable, Path(pw.__file__).parent, *users(root))
 

@@ -105,7 +105,7 @@ CALLS = {
 
 
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS.keys())
-def test_no_call_does_worse_than_an_exception(call: Any) -> None:
+def test_no_call_crashes(call: Any) -> None:
     @settings(**FINITE)
     @given(ANYTHING, ANYTHING, ANYTHING)
     def check(a: Any, b: Any, c: Any) -> None:
@@ -120,7 +120,7 @@ def test_no_call_does_worse_than_an_exception(call: Any) -> None:
 
 @settings(**FINITE)
 @given(hnp.arrays(float, (6,), elements=st.floats(-1e3, 1e3)), hnp.arrays(float, (3,), elements=st.floats(-2, 2)))
-def test_ik_answers_or_says_how_near_it_came(q: npt.NDArray[np.float64], shift: npt.NDArray[np.float64]) -> None:
+def test_ik_answers_or_states_its_error(q: npt.NDArray[np.float64], shift: npt.NDArray[np.float64]) -> None:
     target = ROBOT.fk(q)
     target[:3, 3] += shift
     try:
@@ -143,7 +143,7 @@ def test_dictionaries_are_scenarios_or_refused(table: Any) -> None:
         assert str(error)
 
 
-def test_what_contains_itself_ends() -> None:
+def test_rejects_values_that_contain_themselves() -> None:
     endless: list[Any] = []
     endless.append(endless)
     with pytest.raises(pw.InputError, match="nested too deep"):

@@ -26,7 +26,7 @@ def run() -> pw.PaperRun:
     return paper_run("paper-appendix")
 
 
-def test_plans_are_the_commands_to_the_byte(platewash: Path, tmp_path: Path, kitchen: pw.Planned, run: pw.PaperRun) -> None:
+def test_plans_equal_those_of_the_command_to_the_byte(platewash: Path, tmp_path: Path, kitchen: pw.Planned, run: pw.PaperRun) -> None:
     for scenario, plan in {"kitchen": kitchen.plan, "paper-appendix": run.plan()}.items():
         subprocess.run([platewash, "plan", "--quiet", "--scenario", scenario, "--out", tmp_path], check=True, capture_output=True)
         assert (tmp_path / "plan.json").read_text() == plan.to_json()
@@ -53,7 +53,7 @@ def test_the_kitchen_is_proved(kitchen: pw.Planned) -> None:
     np.testing.assert_array_equal(kitchen.largest_jerk_rad_s3, report.jerk_rad_s3)
 
 
-def test_what_is_unambiguous_is_taken(tmp_path: Path, kitchen: pw.Planned, run: pw.PaperRun) -> None:
+def test_accepts_unambiguous_values(tmp_path: Path, kitchen: pw.Planned, run: pw.PaperRun) -> None:
     scenario = pw.Scenario.load("kitchen").replace(layout={"count": 1})
     one = pw.plan(scenario, seed=3)
     assert one == pw.plan(scenario.replace(seed=3).job()) != pw.plan(scenario)
@@ -80,7 +80,7 @@ def test_what_is_unambiguous_is_taken(tmp_path: Path, kitchen: pw.Planned, run: 
         pw.plan("kitchn")
 
 
-def test_a_changed_plan_is_found_out(kitchen: pw.Planned) -> None:
+def test_finds_a_changed_plan(kitchen: pw.Planned) -> None:
     table = kitchen.plan.to_dict()
     table["knots"]["q_rad"][100][0] += 0.5
     changed = pw.Plan.from_json(json.dumps(table))
@@ -103,7 +103,7 @@ def test_a_plate_out_of_reach_is_named_with_what_could_be_done() -> None:
     assert pw.prove(plan(moved)).proved
 
 
-def test_what_was_only_not_found_is_told_from_what_cannot_be(root: Path) -> None:
+def test_distinguishes_searches_without_result_from_impossible(root: Path) -> None:
     arm = root / "crates" / "kinematics" / "tests" / "fixtures" / "ur5_lengths.urdf"
     cell = pw.Scenario.load("kitchen").replace(
         robot={"urdf": str(arm), "start_deg": [0.0, -90.0, 90.0, -90.0, -90.0, 0.0]},
@@ -117,14 +117,14 @@ def test_what_was_only_not_found_is_told_from_what_cannot_be(root: Path) -> None
         assert ("cannot" in str(caught.value)) == (cause == "unwashable"), caught.value
 
 
-def test_eight_threads_plan_what_one_does() -> None:
+def test_eight_threads_give_the_plan_of_one() -> None:
     seeds = list(range(1, 9))
     alone = [plan("kitchen", seed).hash for seed in seeds]
     with ThreadPoolExecutor(8) as threads:
         assert list(threads.map(lambda seed: plan("kitchen", seed).hash, seeds)) == alone
 
 
-def test_a_sweep_is_its_plans() -> None:
+def test_a_sweep_equals_its_plans() -> None:
     rows = pw.sweep("kitchen", [3, 1])
     assert [row.seed for row in rows] == [3, 1] and {row.outcome for row in rows} == {"proved"}
     assert rows[1].duration_s == plan("kitchen", 1).duration_s > rows[1].transits_s
@@ -226,7 +226,7 @@ def test_outside_its_time_a_motion_rests_at_its_end(kitchen: pw.Planned, run: pw
         np.testing.assert_allclose(motion.at([0.0, motion.duration_s])[1], motion.qd_rad_s[[0, -1]], atol=1e-9)
 
 
-def test_a_plan_knows_its_arm_and_a_file_asks_for_it(tmp_path: Path) -> None:
+def test_plan_files_need_their_arm(tmp_path: Path) -> None:
     builtin = pw.Robot.irb120()
     (tmp_path / "own.urdf").write_text(builtin.urdf + "<!-- mine -->")
     (tmp_path / "own.srdf").write_text(builtin.srdf or "")
@@ -265,7 +265,7 @@ def test_a_plan_knows_its_arm_and_a_file_asks_for_it(tmp_path: Path) -> None:
     assert kitchen.robot == builtin == pw.Plan.from_json(kitchen.to_json()).robot
 
 
-def test_jobs_are_what_their_scenario_asks_for() -> None:
+def test_jobs_equal_their_scenario() -> None:
     scenario = pw.Scenario.load("kitchen")
     job = scenario.job()
     assert (job.name, job.seed, job.robot) == ("kitchen", 1, pw.Robot.irb120())
@@ -287,7 +287,7 @@ def test_jobs_are_what_their_scenario_asks_for() -> None:
     assert paper.paper_job(other).layout == other
 
 
-def test_a_plan_of_another_job_is_told_field_by_field(kitchen: pw.Planned, tmp_path: Path) -> None:
+def test_reports_fields_of_a_plan_of_another_job(kitchen: pw.Planned, tmp_path: Path) -> None:
     scenario = pw.Scenario.load("kitchen")
     kitchen.plan.save(tmp_path / "plan.json")
     assert pw.differences(kitchen.plan, scenario.job()) == [] == pw.differences(tmp_path / "plan.json", kitchen.job)
@@ -301,7 +301,7 @@ def test_a_plan_of_another_job_is_told_field_by_field(kitchen: pw.Planned, tmp_p
     assert pw.differences(kitchen.plan, pw.Scenario.load("paper-appendix").paper_job())
 
 
-def test_clearance_in_a_stack_is_clearance_one_by_one(kitchen: pw.Planned) -> None:
+def test_stacked_clearances_equal_single_ones(kitchen: pw.Planned) -> None:
     model = pw.ClearanceModel(pw.Robot.irb120(), pw.Tool(length_m=0.15), kitchen.plan.plates)
     q = kitchen.plan.trajectory.at(np.linspace(0, kitchen.plan.duration_s, 40))[0]
     distances = model.distances(q)
@@ -334,7 +334,7 @@ def test_the_raster_keeps_the_bounds() -> None:
     assert exact.lower <= exact.fraction <= exact.upper
 
 
-def test_curves_are_what_they_say() -> None:
+def test_curves_have_their_stated_properties() -> None:
     spiral = pw.PaperSpiral().waypoints((0.25, -0.25))
     np.testing.assert_allclose(np.linalg.norm(spiral - (0.25, -0.25), axis=1), np.linspace(0, 0.145, 55), atol=1e-15)
     through = pw.transit_waypoints((0.3, 0.0, 0.08), (0.0, 0.3, 0.08), radius_m=0.4, height_m=0.3)
@@ -357,7 +357,7 @@ def test_curves_are_what_they_say() -> None:
             call()
 
 
-def test_reproduce_is_the_commands(platewash: Path) -> None:
+def test_reproduce_equals_that_of_the_command(platewash: Path) -> None:
     ours = pw.reproduce(layouts=4, draws=200, seed=2)
     theirs = subprocess.run(
         [platewash, "reproduce", "--quiet", "--json", "--layouts", "4", "--draws", "200", "--seed", "2"],
@@ -391,7 +391,7 @@ def test_seeds_are_whole_numbers_that_a_plan_file_can_tell_apart() -> None:
         pw.sweep(scenario, [1, largest + 1])
 
 
-def test_what_is_waived_is_said_first() -> None:
+def test_states_waived_requirements_first() -> None:
     layout = {"positions_m": [[0.36, -0.1], [0.36, 0.11]], "overlap": "report"}
     certificate = pw.prove(plan(pw.Scenario.load("kitchen").replace(layout=layout)))
     assert certificate.proved and certificate.waived == ["every_plate_once", "plates_apart"]
@@ -411,7 +411,7 @@ def test_a_plan_file_is_read_strictly(kitchen: pw.Planned) -> None:
         pw.Plan.from_json('{"format": "platewash-plan/1"}')
 
 
-def test_a_dry_run_is_the_commands_and_says_so(platewash: Path, tmp_path: Path, kitchen: pw.Planned) -> None:
+def test_a_dry_run_equals_that_of_the_command(platewash: Path, tmp_path: Path, kitchen: pw.Planned) -> None:
     dry = kitchen.plan.dry_run(height_m=0.03, speed_m_s=0.2)
     (tmp_path / "plan.json").write_text(kitchen.plan.to_json(), encoding="utf-8", newline="")
     asked = ["dry-run", "plan.json", "--height", "0.03", "--speed", "0.2", "--quiet"]
@@ -430,7 +430,7 @@ def test_a_dry_run_is_the_commands_and_says_so(platewash: Path, tmp_path: Path, 
     assert pickle.loads(pickle.dumps(dry)) == dry
 
 
-def test_what_has_no_dry_run_is_refused_by_what_is_wrong(kitchen: pw.Planned, run: pw.PaperRun) -> None:
+def test_states_why_there_is_no_dry_run(kitchen: pw.Planned, run: pw.PaperRun) -> None:
     plan = kitchen.plan
     for height_m in (0.0, -1.0, 0.01, math.nan, math.inf, 1e4):
         with pytest.raises(pw.InputError) as refused:

@@ -28,7 +28,7 @@ def configurations(robot: pw.Robot, n: int, seed: int = 1) -> Floats:
     return np.random.default_rng(seed).uniform(robot.lower, robot.upper, (n, 6))
 
 
-def test_poses_and_jacobians_are_pinocchios(robot: pw.Robot, irb120: Any, random_configurations: Floats) -> None:
+def test_poses_and_jacobians_agree_with_pinocchio(robot: pw.Robot, irb120: Any, random_configurations: Floats) -> None:
     data = irb120.createData()
     frame = irb120.getFrameId("tool0")
     poses, jacobians = robot.fk(random_configurations), robot.jacobian(random_configurations)
@@ -44,7 +44,7 @@ def test_poses_and_jacobians_are_pinocchios(robot: pw.Robot, irb120: Any, random
         np.testing.assert_allclose(robot.jacobian(q), jacobians[k], atol=1e-12)
 
 
-def test_shapes_in_are_shapes_out(robot: pw.Robot) -> None:
+def test_results_keep_the_shape_of_arguments(robot: pw.Robot) -> None:
     for n in (0, 1, 5, 600):
         q = np.zeros((n, 6))
         assert robot.fk(q).shape == (n, 4, 4)
@@ -69,7 +69,7 @@ def test_shapes_in_are_shapes_out(robot: pw.Robot) -> None:
         lambda q: np.ascontiguousarray(np.hstack([q, q]))[:, :6],
     ],
 )
-def test_anything_array_like_is_the_same(robot: pw.Robot, make: Callable[[Floats], Any]) -> None:
+def test_accepts_any_array_like(robot: pw.Robot, make: Callable[[Floats], Any]) -> None:
     q = configurations(robot, 20)
     np.testing.assert_array_equal(robot.fk(make(q)), robot.fk(q))
     assert robot.fk(np.zeros(6, int)).tolist() == robot.fk([0] * 6).tolist() == robot.fk(range(1)[:0] or [0.0] * 6).tolist()
@@ -96,12 +96,12 @@ def test_a_wrong_shape_is_named_with_the_shape_wanted(robot: pw.Robot, shape: tu
     "value",
     ["abc", b"123456", [None] * 6, [1j] * 6, object(), [[1, 2], [3]], {}, {1: 2}, np.zeros(6, "M8[s]"), [True] * 6, None],
 )
-def test_what_holds_no_numbers_is_a_type_error(robot: pw.Robot, value: Any) -> None:
+def test_arrays_without_numbers_raise_type_error(robot: pw.Robot, value: Any) -> None:
     with pytest.raises(TypeError):
         robot.fk(value)
 
 
-def test_nan_goes_through_fk_and_is_refused_by_ik(robot: pw.Robot) -> None:
+def test_fk_passes_nan_on_and_ik_refuses_it(robot: pw.Robot) -> None:
     assert np.isnan(robot.fk([np.nan] * 6)[:3]).all()
     target = robot.fk([0.1] * 6)
     for bad in (np.full((4, 4), np.nan), np.full((4, 4), np.inf), np.zeros((4, 4)), 2 * target, np.diag([1.0, 1, -1, 1])):
@@ -116,7 +116,7 @@ def test_nan_goes_through_fk_and_is_refused_by_ik(robot: pw.Robot) -> None:
 
 
 @pytest.mark.parametrize("place", [0, 5, 511, 512, 1299])
-def test_a_row_that_is_no_pose_costs_no_other_row(robot: pw.Robot, place: int) -> None:
+def test_an_invalid_pose_affects_only_its_row(robot: pw.Robot, place: int) -> None:
     q = configurations(robot, 1300)
     targets, seeds = robot.fk(q), np.clip(q + 1e-3, robot.lower, robot.upper)
     whole = robot.ik_batch(targets, seeds)
@@ -164,7 +164,7 @@ def test_ik_answers_within_tolerance_and_limits(robot: pw.Robot) -> None:
         )
 
 
-def test_a_batch_is_its_rows(robot: pw.Robot) -> None:
+def test_a_batch_equals_its_rows(robot: pw.Robot) -> None:
     q = configurations(robot, 3000)
     targets, seeds = robot.fk(q), robot.lower + (robot.upper - robot.lower) * 0.5
     targets[7, :3, 3] += 3.0
@@ -180,7 +180,7 @@ def test_a_batch_is_its_rows(robot: pw.Robot) -> None:
         robot.ik_batch(targets, np.zeros((3, 6)))
 
 
-def test_every_rotation_is_read_as_it_is(robot: pw.Robot) -> None:
+def test_reads_every_rotation(robot: pw.Robot) -> None:
     # Half turns and nearly half turns about each axis and between, where three of a quaternion's four formulas break.
     for axis in [*np.eye(3), [1, 1, 0], [0, 1, -1], [1, -1, 1], [1, 2, 3]]:
         for angle in (0, 1e-9, 1e-4, np.pi / 2, np.pi - 1e-4, np.pi - 1e-9, np.pi, -2.0):
@@ -191,7 +191,7 @@ def test_every_rotation_is_read_as_it_is(robot: pw.Robot) -> None:
             assert batch.solved.all() == (len(branches) > 0)
 
 
-def test_an_unsolved_target_says_why_and_how_near(robot: pw.Robot) -> None:
+def test_an_unsolved_target_states_cause_and_error(robot: pw.Robot) -> None:
     target = np.eye(4)
     target[0, 3] = 3.0
     with pytest.raises(pw.IkError) as caught:
@@ -201,7 +201,7 @@ def test_an_unsolved_target_says_why_and_how_near(robot: pw.Robot) -> None:
     assert np.linalg.norm(robot.fk(error.q)[:3, 3] - target[:3, 3]) == pytest.approx(error.position_error_m)
 
 
-def test_a_path_breaks_off_where_it_leaves(robot: pw.Robot) -> None:
+def test_a_path_fails_at_its_first_unreachable_waypoint(robot: pw.Robot) -> None:
     start = robot.fk([0.1, 0.3, 0.1, 0.2, 1.0, 0.0])
     targets = np.repeat(start[None], 200, axis=0)
     targets[:, 0, 3] += np.linspace(0, 0.8, 200)

@@ -178,7 +178,7 @@ def test_a_certificate_says_what_is_proved_of_contact() -> None:
     assert pw.prove(pw.plan(spiral.job()).plan).contact == []
 
 
-def test_a_plan_that_presses_too_little_is_refused_by_name() -> None:
+def test_refuses_a_plan_that_presses_too_little() -> None:
     plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
     table = plan.to_dict()
     table["job"]["requirements"]["contact"]["share"] = 0.99999

@@ -34,7 +34,7 @@ def test_samples_are_within_their_ranges_distinct_and_the_same_again(ranges: dic
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_every_kind_of_value_is_drawn_as_a_study_states_it(method: Any) -> None:
+def test_samples_every_kind_of_value(method: Any) -> None:
     rows = pw.samples(RANGES, 64, method, seed=2)
     assert rows != pw.samples(RANGES, 64, method, seed=3)
     assert {row["wash.pattern"] for row in rows} == {"rings", "spiral"} and len({row["seed"] for row in rows}) > 20
@@ -53,7 +53,7 @@ def test_each_range_is_filled_evenly(method: Any, strata: int) -> None:
     assert [sum(row["c"] == value for row in rows) for value in (1, 2, 3, 4)] == 4 * [strata // 4]
 
 
-def test_a_range_by_its_logarithm() -> None:
+def test_samples_a_range_by_its_logarithm() -> None:
     rows = pw.samples({"a": (1e-6, 1.0), "b": (0.0, 1.0)}, 64, seed=1, log=["a"])
     assert sorted(math.floor(math.log10(row["a"]) / 6 * 64 + 64) for row in rows) == list(range(64))
     assert np.median([row["a"] for row in rows]) == pytest.approx(1e-3, rel=0.2)
@@ -110,7 +110,7 @@ BAD: list[tuple[Any, dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize(("ranges", "others", "words"), BAD, ids=[words for _, _, words in BAD])
-def test_what_can_be_no_range_is_named(ranges: Any, others: dict[str, Any], words: str) -> None:
+def test_names_values_that_form_no_range(ranges: Any, others: dict[str, Any], words: str) -> None:
     with pytest.raises((pw.InputError, pw.InputTypeError), match=words):
         pw.samples(ranges, **{"count": 2, **others})
 

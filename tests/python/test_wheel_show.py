@@ -115,7 +115,7 @@ def test_a_page_needs_nothing_else(page: pw.Page) -> None:
     assert len(page.html) < 2.5e6
 
 
-def test_a_cell_holds_the_page_and_lets_it_do_nothing_but_run(page: pw.Page) -> None:
+def test_a_cell_holds_the_page_in_a_sandbox(page: pw.Page) -> None:
     elements = Elements(page._repr_html_())
     [(tag, attributes)] = elements.found
     assert tag == "iframe" and not elements.open
@@ -138,13 +138,13 @@ def test_show_proves_and_simulates_as_the_command_does(kitchen: pw.Plan, page: p
     assert circle == pw.Scenario.load("kitchen").layout.base_radius_m
 
 
-def test_what_is_given_is_shown(kitchen: pw.Plan) -> None:
+def test_shows_the_given_results(kitchen: pw.Plan) -> None:
     execution = pw.simulate(kitchen, settings=pw.SimulationSettings.of(kitchen).replace(law="pd_gravity"))
     shown = document(kitchen.show(execution, pw.prove(kitchen), prove=False, simulate=False))
     assert shown["execution"]["law"] == "pd_gravity" and shown["certificate"]["passes"] is True
 
 
-def test_what_is_of_another_plan_is_refused(kitchen: pw.Plan) -> None:
+def test_rejects_results_of_another_plan(kitchen: pw.Plan) -> None:
     other = plan("kitchen", 2)
     with pytest.raises(pw.InputError, match="certificate: is one of another plan"):
         kitchen.show(certificate=pw.prove(other))
@@ -219,7 +219,7 @@ def test_a_robot_shows_one_configuration() -> None:
         robot.show(np.zeros((2, 6)))
 
 
-def test_a_name_that_is_html_is_text(hostile: pw.Plan, page: pw.Page) -> None:
+def test_escapes_a_name_that_is_html(hostile: pw.Plan, page: pw.Page) -> None:
     bad = hostile.show(simulate=False)
     assert document(bad)["heading"]["scenario"] == HOSTILE
     tags = [[tag for tag, _ in Elements(one.html).found] for one in (bad, page)]
@@ -249,7 +249,7 @@ def test_figures_are_those_of_the_command(kind: Any, kitchen: pw.Plan, executed:
     assert any("proved for every moment" in text for text in texts(figure))
 
 
-def test_a_figure_says_what_is_not_known(kitchen: pw.Plan) -> None:
+def test_figures_state_missing_results(kitchen: pw.Plan) -> None:
     assert any(text.endswith("planned, not proved") for text in texts(kitchen.figure()))
     assert "base circle" not in kitchen.figure().svg and "base circle" in kitchen.figure(scenario="kitchen").svg
     assert any("Nothing was simulated." in text for text in texts(kitchen.figure("coverage")))
@@ -269,7 +269,7 @@ def test_figures_of_hostile_names(hostile: pw.Plan) -> None:
     assert len(title) < 90 and title.startswith('Layout: "</script>') and title.isprintable()
 
 
-def test_figures_say_what_is_wrong(kitchen: pw.Plan, root: Path) -> None:
+def test_figures_report_errors(kitchen: pw.Plan, root: Path) -> None:
     with pytest.raises(pw.InputError, match='kind: there is no figure "pie"; there are layout, joints, coverage, spiral'):
         kitchen.figure("pie")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     with pytest.raises(pw.InputError, match='kind: .* "tip" is gone: it is a part of the figure "joints"'):
@@ -292,7 +292,7 @@ def order(plan: pw.Plan) -> str:
     return ", ".join(map(str, plan.order))
 
 
-def test_every_table_is_whole_and_says_what_its_noun_says(kitchen: pw.Plan, executed: pw.Execution, paper: pw.PaperRun) -> None:
+def test_every_table_is_complete_and_matches_its_title(kitchen: pw.Plan, executed: pw.Execution, paper: pw.PaperRun) -> None:
     whole, certificate = planned("kitchen"), pw.prove(kitchen)
     nearest = next(check for check in certificate.checks if check.requirement == "clearance")
     nouns: list[tuple[Any, list[str]]] = [
@@ -354,7 +354,7 @@ def test_a_table_of_many_plates_stays_small(kitchen: pw.Plan) -> None:
     assert len(html) < 60_000 and html.count("<circle") == 100
 
 
-def test_a_file_that_makes_no_picture_has_a_table(kitchen: pw.Plan) -> None:
+def test_an_unusable_file_shows_a_table(kitchen: pw.Plan) -> None:
     table = kitchen.to_dict()
     table["wash_paths"][0]["plate"] = 99
     table["wash_paths"][1]["curve"]["turns"] = -4.0

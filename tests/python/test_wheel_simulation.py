@@ -81,7 +81,7 @@ def test_the_equation_of_motion_holds(model: pw.DynamicsModel) -> None:
     np.testing.assert_allclose((higher - lower) / 2e-6, model.gravity_torque(q[0]), atol=1e-6)
 
 
-def test_a_row_beside_many_counts_for_all(model: pw.DynamicsModel) -> None:
+def test_one_row_broadcasts_to_many(model: pw.DynamicsModel) -> None:
     q, qd, qdd = states(5)
     each = model.inverse_dynamics(q, np.tile(qd[0], (5, 1)), qdd)
     np.testing.assert_array_equal(model.inverse_dynamics(q, qd[0], qdd), each)
@@ -93,7 +93,7 @@ def test_a_row_beside_many_counts_for_all(model: pw.DynamicsModel) -> None:
     assert np.isnan(model.gravity_torque([np.nan] + [0.0] * 5)).any()
 
 
-def test_tool_and_gravity_count() -> None:
+def test_dynamics_depend_on_tool_and_gravity() -> None:
     bare, q = pw.DynamicsModel(ROBOT), np.array([0.1, 0.5, 0.2, 0.3, 0.8, 0.1])
     heavy = pw.DynamicsModel(ROBOT, pw.Tool(length_m=0.2, mass_kg=1.5))
     assert heavy.moving_mass_kg == pytest.approx(bare.moving_mass_kg + 1.5)
@@ -121,7 +121,7 @@ def test_an_arm_without_masses_is_refused_by_name() -> None:
     assert pickle.loads(pickle.dumps(caught.value)).link == "link_3"
 
 
-def test_an_execution_is_what_the_command_writes(platewash: Path, tmp_path: Path, plan: pw.Plan, execution: pw.Execution) -> None:
+def test_an_execution_equals_the_files_of_the_command(platewash: Path, tmp_path: Path, plan: pw.Plan, execution: pw.Execution) -> None:
     plan.save(tmp_path / "plan.json")
     subprocess.run([platewash, "simulate", tmp_path / "plan.json", "--quiet", "--out", tmp_path], check=True, capture_output=True)
     report = execution.report()
@@ -147,7 +147,7 @@ def tips(q: Floats) -> Floats:
     return ROBOT.fk(q, tool=pw.Tool(length_m=TOOL_M))[:, :3, 3]
 
 
-def test_each_step_is_the_plants() -> None:
+def test_each_step_agrees_with_the_plant() -> None:
     plan = planned("kitchen-spiral")  # its plates do not push back
     execution = pw.simulate(plan)
     model = pw.DynamicsModel(ROBOT, pw.Tool(length_m=TOOL_M, mass_kg=plan.job.workcell.tool.mass.mass_kg))
@@ -156,7 +156,7 @@ def test_each_step_is_the_plants() -> None:
     np.testing.assert_allclose(execution.qd_rad_s[1:], qd + qdd * execution.period_s, rtol=1e-12, atol=1e-15)
 
 
-def test_laws_differ_as_they_should(plan: pw.Plan) -> None:
+def test_control_laws_differ_as_expected(plan: pw.Plan) -> None:
     rms = {}
     for law in ("pd", "pd_gravity", "computed_torque"):
         settings = pw.SimulationSettings.of(plan).replace(law=law, control={"frequency_rad_s": 15.0}, plant={"contact_stiffness_pa": None})
@@ -191,7 +191,7 @@ def test_settings_are_read_changed_and_refused(plan: pw.Plan) -> None:
         settings.replace(payload_kg=-1.0)
 
 
-def test_what_cannot_be_simulated_says_why(plan: pw.Plan) -> None:
+def test_states_why_a_plan_cannot_be_simulated(plan: pw.Plan) -> None:
     settings = pw.SimulationSettings.of(plan)
     with pytest.raises(pw.SimulationError) as caught:
         pw.simulate(plan, settings=settings.replace(law="pd_gravity", control={"frequency_rad_s": 900.0}))
@@ -210,7 +210,7 @@ def test_what_cannot_be_simulated_says_why(plan: pw.Plan) -> None:
         pw.simulate(plan).to_csv(0.0)
 
 
-def test_a_tune_is_its_simulations(plan: pw.Plan) -> None:
+def test_tune_equals_its_simulations(plan: pw.Plan) -> None:
     settings = pw.SimulationSettings.of(plan).replace(law="pd_gravity")
     rows = pw.tune(plan, [15.0, 900.0], [0.7, 1.0], settings=settings)
     assert [(row.frequency_rad_s, row.damping_ratio) for row in rows] == [(15, 0.7), (15, 1), (900, 0.7), (900, 1)]
@@ -224,7 +224,7 @@ def test_a_tune_is_its_simulations(plan: pw.Plan) -> None:
     assert pw.tune(plan, []) == []
 
 
-def test_all_of_it_pickles_copies_and_compares(model: pw.DynamicsModel, execution: pw.Execution) -> None:
+def test_all_objects_pickle_copy_and_compare(model: pw.DynamicsModel, execution: pw.Execution) -> None:
     for thing in (model, execution, execution.settings, execution.settings.replace(law="pd", plant={"torque_limit_n_m": [9.0] * 6}), model.energy([0.0] * 6, [1.0] * 6)):
         again = pickle.loads(pickle.dumps(thing))
         assert again == thing and copy.copy(thing) == copy.deepcopy(thing) == thing
@@ -233,7 +233,7 @@ def test_all_of_it_pickles_copies_and_compares(model: pw.DynamicsModel, executio
     assert execution.settings != execution.settings.replace(law="pd")
 
 
-def test_threads_simulate_what_one_does(plan: pw.Plan, execution: pw.Execution) -> None:
+def test_threads_give_the_simulation_of_one(plan: pw.Plan, execution: pw.Execution) -> None:
     with ThreadPoolExecutor(4) as threads:
         assert all(again == execution for again in threads.map(lambda _: pw.simulate(plan), range(4)))
 
@@ -246,7 +246,7 @@ def test_the_papers_job_runs_under_its_own_law() -> None:
     assert report.verdict == "not_swept" and report.effort is None and str(report).startswith("NOT SWEPT")
 
 
-def test_plates_push_back_where_it_is_stated(plan: pw.Plan) -> None:
+def test_plates_push_back_with_stated_stiffness(plan: pw.Plan) -> None:
     none = pw.SimulationSettings.of(plan).replace(plant={"contact_stiffness_pa": None, "contact_damping_pa_s": None, "contact_force_n": None})
     free = pw.simulate(plan, settings=none)
     assert free.force_n is None and free.compression_m is None and free.report().plates[0].pressing is None

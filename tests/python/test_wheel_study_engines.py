@@ -83,7 +83,7 @@ def test_every_engine_gives_the_same_bytes(engine: Any, study: pw.Study, by_thre
 
 
 @pytest.mark.parametrize("by", ["client", "address"])
-def test_a_dask_cluster_that_is_there_is_used_and_stays(by: str, study: pw.Study, by_threads: Path, tmp_path: Path) -> None:
+def test_uses_an_existing_dask_cluster_and_leaves_it_running(by: str, study: pw.Study, by_threads: Path, tmp_path: Path) -> None:
     distributed: Any = importlib.import_module("distributed")
     with distributed.Client(processes=False, n_workers=1, threads_per_worker=2, dashboard_address=None) as client:
         cluster: dict[str, Any] = {"client": client} if by == "client" else {"address": client.scheduler.address}
@@ -93,7 +93,7 @@ def test_a_dask_cluster_that_is_there_is_used_and_stays(by: str, study: pw.Study
 
 
 @pytest.mark.parametrize("moment", ["before", "meanwhile"])
-def test_a_dask_cluster_that_goes_away_is_told(moment: str, study: pw.Study, tmp_path: Path) -> None:
+def test_reports_a_lost_dask_cluster(moment: str, study: pw.Study, tmp_path: Path) -> None:
     distributed: Any = importlib.import_module("distributed")
     cluster = distributed.LocalCluster(processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None)
     client = distributed.Client(cluster)
@@ -114,7 +114,7 @@ def test_a_dask_cluster_that_goes_away_is_told(moment: str, study: pw.Study, tmp
 
 
 @pytest.mark.parametrize("moment", ["before", "meanwhile"])
-def test_a_ray_cluster_that_goes_away_is_told(moment: str, study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_a_lost_ray_cluster(moment: str, study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ray: Any = importlib.import_module("ray")
     monkeypatch.setattr(driven, "LAST_S", 0.5)
     if moment == "before":
@@ -125,7 +125,7 @@ def test_a_ray_cluster_that_goes_away_is_told(moment: str, study: pw.Study, tmp_
     assert study.run(tmp_path / "out", progress=False).finished  # The folder was let go.
 
 
-def test_an_address_where_nobody_answers_is_told_soon(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_an_unreachable_address_soon(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))  # Nobody listens.
         port = taken.getsockname()[1]
@@ -142,7 +142,7 @@ def test_an_address_where_nobody_answers_is_told_soon(study: pw.Study, tmp_path:
 
 
 @pytest.mark.parametrize("given", [{"address": "127.0.0.1:6379"}, {"workers": 2}])
-def test_what_a_ray_session_that_is_there_does_not_heed_is_refused(given: dict[str, Any], study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rejects_options_that_an_existing_ray_session_ignores(given: dict[str, Any], study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.import_module("ray"), "is_initialized", lambda: True)
     with pytest.raises(pw.InputError, match=f"{next(iter(given))}: this process has a Ray session already"):
         study.run(tmp_path / "out", engine="ray", progress=False, **given)
@@ -157,7 +157,7 @@ def test_an_engine_that_is_not_installed_is_named(study: pw.Study, tmp_path: Pat
     assert study.run(tmp_path / "out", progress=False).finished  # The folder was let go.
 
 
-def test_a_dask_cluster_that_does_not_begin_is_told(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_a_dask_cluster_that_does_not_start(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def unguarded(**_: Any) -> None:
         raise RuntimeError("Nanny failed to start.")
 
@@ -172,14 +172,14 @@ def test_workers_of_another_version_are_refused(study: pw.Study, tmp_path: Path,
         study.run(tmp_path / "out", engine="processes", workers=1, progress=False)
 
 
-def test_a_study_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
+def test_a_missing_study_raises_file_not_found(tmp_path: Path) -> None:
     for place in (tmp_path / "none.toml", tmp_path):
         with pytest.raises(FileNotFoundError) as caught:
             pw.Study.load(place)
         assert isinstance(caught.value, pw.StudyError) and str(tmp_path) in str(caught.value)
 
 
-def test_what_does_not_go_together_is_refused(study: pw.Study, tmp_path: Path) -> None:
+def test_rejects_incompatible_arguments(study: pw.Study, tmp_path: Path) -> None:
     wrong: list[tuple[dict[str, Any], str]] = [
         ({"address": "tcp://nowhere:1"}, "address: is of a cluster"),
         ({"engine": "dask", "client": 3}, "client: a distributed.Client is needed"),
@@ -197,7 +197,7 @@ def test_what_does_not_go_together_is_refused(study: pw.Study, tmp_path: Path) -
     assert not (tmp_path / "none").exists()
 
 
-def test_values_that_have_no_order_or_no_end_are_refused() -> None:
+def test_rejects_unordered_and_endless_values() -> None:
     wrong: list[tuple[Any, str]] = [
         ({"tool.length_m": {0.1, 0.2}}, r"axes\[tool.length_m\]: a list of values is needed; found a value of type (set|dict)"),
         ({"tool.length_m": frozenset({0.1})}, r"axes\[tool.length_m\]: a list of values is needed; found a value of type frozenset"),
@@ -243,7 +243,7 @@ def test_a_row_that_kills_its_workers_is_recorded(engine: Any, tmp_path: Path, m
     assert "died twice" in crashed[0]["reason"]
 
 
-def test_workers_that_cannot_begin_are_told_and_no_row_is_blamed(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_workers_that_cannot_start_without_blaming_rows(study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for begin, executable, words in (
         ("import sys; sys.exit(7)", sys.executable, "ended 3 times before it was ready, with 7"),
         ("print('hello')", sys.executable, "ended 3 times before it was ready"),
@@ -257,7 +257,7 @@ def test_workers_that_cannot_begin_are_told_and_no_row_is_blamed(study: pw.Study
 
 
 @pytest.mark.parametrize("engine", ["dask", "ray"])
-def test_what_a_clusters_worker_lacks_is_told_as_the_clusters(engine: Any, study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_packages_that_workers_of_a_cluster_lack(engine: Any, study: pw.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     name = {"dask": "_packed", "ray": "work"}[engine]
     monkeypatch.setattr(importlib.import_module(f"pyplatewash._studies.engines.{engine}"), name, study_killers.lacking)
     if engine == "ray":
@@ -314,7 +314,7 @@ class Fake:
 
 
 @pytest.mark.parametrize("exactly", [True, False])
-def test_a_row_is_blamed_alone_and_the_others_are_done(exactly: bool, tmp_path: Path) -> None:
+def test_a_failing_row_is_recorded_alone(exactly: bool, tmp_path: Path) -> None:
     study = pw.Study("kitchen", {"seed": range(1, 301)})
 
     def fate(share: Share) -> list[int]:
@@ -335,7 +335,7 @@ def test_a_row_is_blamed_alone_and_the_others_are_done(exactly: bool, tmp_path: 
         assert all(at_once == 1 for indices, at_once in sent if indices in {(index,) for index in with_it[0]})
 
 
-def test_rows_that_come_back_undone_are_sent_again_and_none_twice(tmp_path: Path) -> None:
+def test_sends_undone_rows_again_and_none_twice(tmp_path: Path) -> None:
     study = pw.Study("kitchen", {"seed": range(1, 501)})
     dice = random.Random(3)
     engine = Fake(study, lambda share: list(share.indices[: dice.randint(0, len(share.indices))]))
@@ -345,7 +345,7 @@ def test_rows_that_come_back_undone_are_sent_again_and_none_twice(tmp_path: Path
     assert sorted(json.loads(line)["index"] for line in lines) == list(range(500))
 
 
-def test_a_fault_keeps_what_was_made(tmp_path: Path) -> None:
+def test_an_error_keeps_finished_rows(tmp_path: Path) -> None:
     study = pw.Study("kitchen", {"seed": range(1, 501)})
     count = iter(range(1000))
 
@@ -360,7 +360,7 @@ def test_a_fault_keeps_what_was_made(tmp_path: Path) -> None:
     assert 0 < journal.done < 500
 
 
-def test_a_cluster_without_workers_is_waited_for_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_waits_for_a_cluster_without_workers_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(driven, "LACKING_S", 0.5)
     study = pw.Study("kitchen", {"seed": range(1, 4)})
     come = threading.Event()
@@ -376,7 +376,7 @@ def test_a_cluster_without_workers_is_waited_for_and_that_is_said(tmp_path: Path
     assert len(said) == 1 and journal.done == 3
 
 
-def test_shares_grow_with_what_rows_take_and_shrink_towards_the_end() -> None:
+def test_shares_of_rows_adapt_to_their_duration() -> None:
     rows = iter(range(200))
     shares = driven.Shares(lambda most: [next(rows) for _ in range(most)], 200)
     first = shares.next(2)

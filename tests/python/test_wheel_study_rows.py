@@ -135,7 +135,7 @@ DAMAGED = {
 
 
 @pytest.mark.parametrize("damaged", DAMAGED, ids=list(DAMAGED.values()))
-def test_a_damaged_line_is_told_by_its_file_and_number(damaged: bytes, tmp_path: Path) -> None:
+def test_names_file_and_number_of_a_damaged_line(damaged: bytes, tmp_path: Path) -> None:
     at = folder(tmp_path / "s", AXES, mixed()[:1], 7, torn=damaged + line(mixed()[2]))
     with pytest.raises(pw.StudyError, match=rf"rows\.jsonl: line 2: {re.escape(DAMAGED[damaged])}") as caught:
         list(pw.StudyRows(at))
@@ -162,7 +162,7 @@ def test_a_damaged_folder_is_read_or_refused(file: str, at: int, cut: int, put: 
         assert str(where / file) in str(error) or (file == "manifest.json" and "manifest.json" in str(error))
 
 
-def test_what_is_no_studys_folder_is_refused(tmp_path: Path) -> None:
+def test_rejects_folders_without_a_study(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"manifest\.json: cannot be read, so that this is no study's folder") as caught:
         pw.StudyRows(tmp_path)
     assert isinstance(caught.value, pw.StudyError) and isinstance(caught.value, pw.FileError) and caught.value.errno == 2
@@ -218,7 +218,7 @@ def flat(of: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in out.items() if name != "schema"}
 
 
-def test_a_frame_has_every_row_as_it_is(rows: pw.StudyRows) -> None:
+def test_a_data_frame_has_every_row(rows: pw.StudyRows) -> None:
     frame = rows.to_frame()
     assert frame.index.tolist() == list(range(7)) and frame.attrs["manifest"] == rows.manifest
     for index, of in enumerate(mixed()):
@@ -231,7 +231,7 @@ def test_a_frame_has_every_row_as_it_is(rows: pw.StudyRows) -> None:
     assert frame.groupby("clearance_pair.0").size().to_dict() == {"handle": 2, "base_link": 1}
 
 
-def test_a_frame_is_made_in_parts(rows: pw.StudyRows, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_data_frame_is_built_in_parts(rows: pw.StudyRows, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = rows.to_frame()
     monkeypatch.setattr(frames, "BATCH_ROWS", 2)
     monkeypatch.setattr(frames, "MOST_TEXTS", 3)
@@ -264,7 +264,7 @@ def test_axes_of_every_kind_have_columns(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["rows.parquet", "rows"])
-def test_a_data_set_has_every_row_as_it_is(name: str, rows: pw.StudyRows, tmp_path: Path) -> None:
+def test_a_data_set_has_every_row(name: str, rows: pw.StudyRows, tmp_path: Path) -> None:
     (tmp_path / "rows").mkdir()  # An empty one is taken.
     rows.to_parquet(tmp_path / name)
     table = pq.read_table(tmp_path / name)
@@ -288,7 +288,7 @@ def test_a_data_set_is_written_in_files_and_groups(rows: pw.StudyRows, tmp_path:
     assert pq.read_metadata(tmp_path / "one.parquet").num_row_groups == 4
 
 
-def test_a_file_is_there_whole_or_not_at_all(rows: pw.StudyRows, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_are_written_whole_or_not_at_all(rows: pw.StudyRows, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").touch()
     (tmp_path / "old.parquet").write_text("old")
@@ -313,7 +313,7 @@ def test_a_file_is_there_whole_or_not_at_all(rows: pw.StudyRows, tmp_path: Path,
     assert [file.name for file in (tmp_path / "full").iterdir()] == ["mine"]
 
 
-def test_what_is_not_finished_is_written_where_that_is_allowed(tmp_path: Path) -> None:
+def test_writes_unfinished_studies_on_request(tmp_path: Path) -> None:
     rows = pw.StudyRows(folder(tmp_path / "s", AXES, mixed()[:3], 7))
     for write, name in ((rows.export, "a.jsonl"), (rows.to_parquet, "a.parquet")):
         with pytest.raises(pw.StudyError, match="is not finished: 3 of 7 rows; .*partial=True"):
@@ -323,7 +323,7 @@ def test_what_is_not_finished_is_written_where_that_is_allowed(tmp_path: Path) -
     assert pq.read_metadata(tmp_path / "a.parquet").num_rows == 3 and len(rows.to_frame()) == 3
 
 
-def test_nothing_is_written_into_the_folder(tmp_path: Path) -> None:
+def test_reading_writes_nothing_into_the_folder(tmp_path: Path) -> None:
     rows = pw.StudyRows(folder(tmp_path / "s", AXES, mixed(), 7))
     before = {file: file.read_bytes() for file in (tmp_path / "s").iterdir()}
     for write, name in ((rows.export, "rows.jsonl"), (rows.export, "../s/new"), (rows.to_parquet, "manifest.json"), (rows.to_parquet, "a/new.parquet")):
@@ -343,7 +343,7 @@ def test_a_rows_scenario_needs_no_file_of_its_arm(tmp_path: Path, root: Path) ->
     assert pw.plan(pw.StudyRows(tmp_path / "out").scenario(0).job()).plan.hash == rows.row(0)["plan"] != None
 
 
-def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:
+def test_refuses_rows_that_were_changed(tmp_path: Path) -> None:
     sha256 = hashlib.sha256(b"".join(map(line, mixed()))).hexdigest()
     rows = pw.StudyRows(folder(tmp_path / "good", AXES, reversed(mixed()), 7, rows_sha256=sha256))
     rows.export(tmp_path / "good.jsonl")
@@ -360,7 +360,7 @@ def test_rows_that_were_changed_since_are_no_evidence(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("wrong", ["--1", "1e999", "nan", "-1.0", "1e400", "1."])
-def test_a_timing_that_is_none_is_told_by_its_line(wrong: str, tmp_path: Path) -> None:
+def test_names_the_line_of_an_invalid_timing(wrong: str, tmp_path: Path) -> None:
     at = folder(tmp_path / "s", AXES, mixed(), 7)
     (at / "timings.jsonl").write_text(f'{{"index":0,"wall_s":1.5e-7}}\n{{"index":1,"wall_s":{wrong}}}\n')
     with pytest.raises(pw.StudyError, match=r"timings\.jsonl: line 2: is no timing"):
@@ -368,7 +368,7 @@ def test_a_timing_that_is_none_is_told_by_its_line(wrong: str, tmp_path: Path) -
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no FIFO on this system")
-def test_what_is_no_file_is_not_replaced(rows: pw.StudyRows, tmp_path: Path) -> None:
+def test_never_replaces_what_is_no_file(rows: pw.StudyRows, tmp_path: Path) -> None:
     place = tmp_path / "pipe.parquet"
     os.mkfifo(place)
     for write in (rows.export, rows.to_parquet):
@@ -380,7 +380,7 @@ def test_what_is_no_file_is_not_replaced(rows: pw.StudyRows, tmp_path: Path) -> 
 # The command's, and what a row is made of.
 
 
-def test_the_export_and_the_summary_are_the_commands(real: pw.StudyRows, tmp_path: Path) -> None:
+def test_export_and_summary_equal_those_of_the_command(real: pw.StudyRows, tmp_path: Path) -> None:
     assert real.finished and real.done == 8
     real.export(tmp_path / "rows.jsonl")
     assert (tmp_path / "rows.jsonl").read_text(encoding="utf-8") == command("export", real.folder).stdout
@@ -390,7 +390,7 @@ def test_the_export_and_the_summary_are_the_commands(real: pw.StudyRows, tmp_pat
     assert "two tools: 8 of 8 rows" in said and "tool.length_m" in said
 
 
-def test_a_rows_scenario_is_the_commands(real: pw.StudyRows) -> None:
+def test_the_scenario_of_a_row_equals_that_of_the_command(real: pw.StudyRows) -> None:
     study = real.folder.parent / "study.toml"
     for index in (0, 3, 5):
         said = pw.Scenario.parse(command("scenario", study, "--row", str(index)).stdout)
@@ -417,7 +417,7 @@ def test_a_rows_scenario_needs_the_folder_alone(tmp_path: Path) -> None:
         pw.StudyRows(folder(tmp_path / "s", ["seed"], [row(0, {"seed": 1})], 2)).scenario(1)
 
 
-def test_a_plan_is_given_where_it_is_kept(tmp_path: Path) -> None:
+def test_returns_a_plan_where_the_study_keeps_it(tmp_path: Path) -> None:
     plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
     proved = [row(seed, {"seed": seed}, plan=plan.hash) for seed in range(2)]
     rows = pw.StudyRows(folder(tmp_path / "s", ["seed"], [*proved, row(2, {"seed": 2}, "error"), row(3, {"seed": 3}, plan=64 * "a")], 4))
@@ -478,7 +478,7 @@ def labels(ax: Axes) -> set[str]:
     return {text.get_text() for legend in ax.figure.legends for text in legend.get_texts()}
 
 
-def test_a_map_shows_what_the_rows_come_to(tmp_path: Path) -> None:
+def test_a_map_shows_the_results_of_rows(tmp_path: Path) -> None:
     rows = table(tmp_path)
     ax = rows.map("plate[0].at_m")
     assert isinstance(ax, Axes) and (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]")
@@ -505,7 +505,7 @@ def test_maps_of_axes_share_a_scale_and_stand_in_the_studys_order(tmp_path: Path
     assert isinstance(both, list) and both[1].get_title() == "scenario kitchen\ntool.length 0.1 m"
 
 
-def test_what_was_not_found_is_told_from_what_is_impossible(tmp_path: Path) -> None:
+def test_distinguishes_not_found_from_impossible(tmp_path: Path) -> None:
     rows = table(tmp_path)
     short = rows.map("plate[0].at_m", "outcome", by=["tool.length_m"])
     assert isinstance(short, list)
@@ -531,7 +531,7 @@ def test_a_region_is_where_plates_are_drawn(tmp_path: Path) -> None:
     assert (drawn.min(axis=0) < corners.min(axis=0) + 0.1).all()
 
 
-def test_places_on_no_grid_are_dots(tmp_path: Path) -> None:
+def test_positions_off_a_grid_are_dots(tmp_path: Path) -> None:
     rng = np.random.default_rng(3)
     done = [row(k, {"plate[0].at_m": [*place, 0.03]}, clearance_m=0.01) for k, place in enumerate(rng.uniform(0, 1, (20, 2)).tolist())]
     ax = pw.StudyRows(folder(tmp_path / "s", ["plate[0].at_m"], done, 20)).map("plate[0].at_m", "clearance")
@@ -539,7 +539,7 @@ def test_places_on_no_grid_are_dots(tmp_path: Path) -> None:
     ax.figure.canvas.draw()
 
 
-def test_maps_say_what_is_wrong(tmp_path: Path, rows: pw.StudyRows) -> None:
+def test_maps_report_errors(tmp_path: Path, rows: pw.StudyRows) -> None:
     with pytest.raises(pw.InputError, match='at: one of "plate.0..at_m", "robot.model", "tool.length_m" is needed; found .seed.'):
         rows.map("seed")
     with pytest.raises(pw.InputError, match="at: an axis of places is needed, .* tool.length_m, whose value in row 0 is 0.1"):
@@ -571,7 +571,7 @@ def test_without_a_package_the_message_says_how_to_get_it(name: str, ask: str, r
     assert not os.path.exists(tmp_path / "a.parquet")
 
 
-def test_none_of_them_is_needed_to_read(rows: pw.StudyRows) -> None:
+def test_reading_needs_no_optional_package(rows: pw.StudyRows) -> None:
     code = "import sys, pyplatewash as pw; list(pw.StudyRows(sys.argv[1])); print({'pandas', 'pyarrow', 'scipy', 'matplotlib'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code, rows.folder], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"
@@ -580,7 +580,7 @@ def test_none_of_them_is_needed_to_read(rows: pw.StudyRows) -> None:
 # What is shipped, and what the pages say.
 
 
-def test_the_studies_that_are_shipped_are_studies(root: Path, tmp_path: Path) -> None:
+def test_shipped_studies_are_valid(root: Path, tmp_path: Path) -> None:
     studies = root / "examples" / "studies"
     (tmp_path / "tools.py").write_bytes((studies / "tools.py").read_bytes())
     subprocess.run([sys.executable, tmp_path / "tools.py"], check=True)

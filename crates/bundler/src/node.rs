@@ -59,9 +59,9 @@ impl Node {
             // Windows finds programs that are scripts only by their whole names.
             npm: (if cfg!(windows) { "npm.cmd" } else { "npm" }.into(), None),
         };
-        match on_path.unfit(oldest) {
+        match on_path.reason_unusable(oldest) {
             None => Ok(on_path),
-            Some(why) => carried().map_err(|error| {
+            Some(why) => packaged_node().map_err(|error| {
                 let (major, minor) = oldest;
                 anyhow!(
                     "the page is made with Node.js {major}.{minor} or later and npm, but {why}, and Python 3 cannot fetch it: \
@@ -99,7 +99,7 @@ impl Node {
     }
 
     /// Reason why this Node cannot be used: it is missing, too old or without npm. `None` where it can be used.
-    fn unfit(&self, oldest: (u32, u32)) -> Option<String> {
+    fn reason_unusable(&self, oldest: (u32, u32)) -> Option<String> {
         let Some(found) = version(Command::new(&self.node)) else {
             return Some("there is no `node` on the PATH".to_owned());
         };
@@ -129,7 +129,7 @@ fn numbers(version: &str) -> Option<(u32, u32)> {
 }
 
 /// Node and npm of the Python package, fetched where they are not there yet.
-fn carried() -> Result<Node> {
+fn packaged_node() -> Result<Node> {
     let environment = target().join("node");
     let interpreter = python::interpreter(&environment);
     // Written last, so that an interrupted installation is not taken for a finished one.
@@ -195,7 +195,7 @@ mod tests {
         };
         assert!(
             nowhere
-                .unfit(OLDEST_TO_BUNDLE)
+                .reason_unusable(OLDEST_TO_BUNDLE)
                 .is_some_and(|why| why.contains("`node`"))
         );
     }

@@ -1,12 +1,12 @@
 //! Reasons that a plan cannot be judged.
 
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::ClearanceError;
 use platewash_workcell::coverage::CoverageError;
 use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
-use platewash_workcell::words::{counted, printable};
+use platewash_workcell::words::{count_with_noun, printable};
 
 /// Reason that a plan cannot be judged. A plan that breaks a requirement is no error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -31,7 +31,7 @@ pub enum ProveError {
     #[error("{0}")]
     Knots(KnotError),
     /// The motion has fewer than two knots.
-    #[error("{}; a motion has at least 2", counted(*.found, "knot"))]
+    #[error("{}; a motion has at least 2", count_with_noun(*.found, "knot"))]
     NoMotion {
         /// Number of knots found.
         found: usize,
@@ -57,7 +57,7 @@ pub enum ProveError {
         most_rad: f64,
     },
     /// The plan has more of something than any plan for that many plates needs.
-    #[error("{found} {what} for {}; there are {most} at most", counted(*.plates, "plate"))]
+    #[error("{found} {what} for {}; there are {most} at most", count_with_noun(*.plates, "plate"))]
     TooMany {
         /// Kind of thing: segments, wash paths, or entries of the order.
         what: &'static str,
@@ -80,7 +80,7 @@ pub enum ProveError {
 fn far(position_rad: f64, most_rad: f64) -> String {
     const WRITTEN_OUT: f64 = 1e6;
     if position_rad < WRITTEN_OUT {
-        let [far, _] = told_apart(position_rad, most_rad, 1);
+        let [far, _] = distinct_decimals(position_rad, most_rad, 1);
         return far;
     }
     format!("{position_rad:.3e}")

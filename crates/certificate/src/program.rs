@@ -136,7 +136,7 @@ pub fn prove_program(
     // A tip is where it should be at any tilt, and the sponge is not.
     checks.extend(tilt);
     cancel.check()?;
-    world.tell_checks(&mut checks);
+    world.checks_to_world(&mut checks);
     world.tell_pairs(&mut clearance);
     let is_implied = |check: &Check| matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
     Ok(ProgramProof {
@@ -171,7 +171,7 @@ fn in_program_time(mut check: Check, speed_share: f64) -> Check {
 /// [`CONTACT_M`] more. Beyond that the swept area would not be touched.
 fn contact(tips: &Tips, pieces: &[Piece], schedule: &Schedule, deviation_m: f64) -> Check {
     let height = tip_limits::greatest(&tips.height);
-    let worst = tip_limits::worst(&height, pieces, Some(schedule));
+    let worst = tip_limits::worst_case(&height, pieces, Some(schedule));
     let limit_m = PATH_TOLERANCE_M + deviation_m.min(CONTACT_M);
     let check = tip_limits::check(Requirement::ContactHeight, &height, limit_m, Unit::Metre, worst);
     if tips.height.is_empty() {
@@ -211,7 +211,7 @@ pub(crate) fn check(arm: &Arm<'_>, motion: &[Piece], schedule: &Schedule, plan: 
         }
     }
     stretches.iter().for_each(|both| refine(arm, both, &mut tracker, 0));
-    let worst = tip_limits::worst(&tracker, motion, Some(schedule));
+    let worst = tip_limits::worst_case(&tracker, motion, Some(schedule));
     tip_limits::check(Requirement::PlanDeviation, &tracker, tolerance_m, Unit::Metre, worst)
 }
 

@@ -78,7 +78,7 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     let mut proof = judged.proof(Check::stated(Requirement::Segments, gaps))?;
     cancel.check()?;
     let world = World::of(&plan.job.workcell.mount);
-    world.tell_checks(&mut proof.checks);
+    world.checks_to_world(&mut proof.checks);
     world.tell_pairs(&mut proof.clearance);
     world.tell_contact(&mut proof.contact);
     Ok(certificate(plan, arm, proof))
@@ -108,7 +108,7 @@ pub fn prove_motion(
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
     checks.push(pairs::check(subject.limits.clearance_m, &clearance));
-    world.tell_checks(&mut checks);
+    world.checks_to_world(&mut checks);
     world.tell_pairs(&mut clearance);
     Ok(MotionProof { checks, clearance })
 }
@@ -208,7 +208,7 @@ impl PlanUnderProof<'_> {
             tips,
             path_deviation_m,
         };
-        reach::settle(subject, &mut washes, &inputs);
+        reach::fill_in_reach(subject, &mut washes, &inputs);
         Ok(washes)
     }
 }
@@ -279,11 +279,11 @@ fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
 /// Returns the timeline of a motion. Refuses joint positions too large for accurate sines.
 pub(crate) fn timeline(pieces: &[Piece], knots: usize) -> Result<Timeline<'_>, ProveError> {
     let timeline = Timeline::new(pieces);
-    let Some(whole) = timeline.whole() else {
+    let Some(whole) = timeline.whole_extent() else {
         return Err(ProveError::NoMotion { found: knots });
     };
     let far = whole.most.abs().sup(&whole.least.abs());
-    let too_far = |joint: usize| far[joint] > MOST_TURN_RAD || !pieces.iter().all(|p| p.is_sane(joint));
+    let too_far = |joint: usize| far[joint] > MOST_TURN_RAD || !pieces.iter().all(|p| p.has_finite_squares(joint));
     match (0..AXES).find(|&joint| too_far(joint)) {
         Some(joint) => Err(ProveError::TurnsTooFar {
             joint,

@@ -128,7 +128,7 @@ pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
     let sponge = "sponge".to_owned();
     let tip = "tip of the tool".to_owned();
     let frames = [(&sponge, None, &world.tool.sponge.pose), (&tip, None, &world.tool.tip)];
-    let is_sound = |shape: Option<&Shape>, pose: &Pose| shape.is_none_or(is_shape) && is_place(pose);
+    let is_sound = |shape: Option<&Shape>, pose: &Pose| shape.is_none_or(is_shape) && is_valid_pose(pose);
     let mut all = tool.chain(obstacles).chain(frames);
     match all.find(|(_, shape, pose)| !is_sound(*shape, pose)) {
         Some((name, ..)) => Err(ProveError::Body { name: name.clone() }),
@@ -171,7 +171,7 @@ fn is_shape(shape: &Shape) -> bool {
 }
 
 /// Checks that a pose is not too far away and that its rotation is normalised.
-fn is_place(pose: &Pose) -> bool {
+fn is_valid_pose(pose: &Pose) -> bool {
     let near = pose.translation.vector.iter().all(|c| c.abs() <= GREATEST_M);
     near && (pose.rotation.quaternion().norm() - 1.0).abs() <= 1e-9
 }

@@ -8,11 +8,11 @@ use crate::protocol::{
     PlateProof, UnwashableReport,
 };
 use crate::refusal::plain;
-use crate::subject::{LastResult, PlacedJob, Subject, changed, placed};
+use crate::subject::{LastResult, PlacedJob, Subject, changed, place_job};
 use platewash_certificate::{Certificate, prove_with};
 use platewash_planner::{
     Chance, InfeasibleReport, MapArea, MapPatch, PlanError, PlannedJob, PlateOutlook, SEARCHED_M, UnwashablePlate,
-    Watch, nearest_place, outlook, plan_here, unwashable_plates, washable_map,
+    Watch, nearest_place, plan_here, plate_outlooks, unwashable_plates, washable_map,
 };
 use platewash_scenario::Failure;
 use platewash_viewer::view::{self, View, ViewExtras};
@@ -28,13 +28,13 @@ const MEANING: &str = "Where a plate of this size could lie, the others as they 
 
 /// Answers a question for a cell.
 pub fn answer(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>, deadline: &Deadline) {
-    if let Err(end) = told_cell(subject, question, answer) {
+    if let Err(end) = answer_cell(subject, question, answer) {
         let too_long = "this cell takes longer than a minute to plan and prove; `platewash run` takes its time";
         answer.end(&end, deadline, too_long);
     }
 }
 
-fn told_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+fn answer_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
     let changed = changed(subject, &question.text, &question.edits, &answer.gone)?;
     answer.step("read");
     answer.line(&CellLine::Scenario {
@@ -43,7 +43,7 @@ fn told_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWrit
         values: &changed.values,
         ms: answer.ms(),
     });
-    let placed = placed(subject, changed.scenario?, &answer.gone)?;
+    let placed = place_job(subject, changed.scenario?, &answer.gone)?;
     answer.step("place");
     tell_parts(&placed, question.arm.as_deref(), answer);
     if question.want == LastStage::Preview {
@@ -106,7 +106,7 @@ fn tell_parts(placed: &PlacedJob, arm: Option<&str>, answer: &mut AnswerWriter<'
 
 /// Tells a guess; why none can be made, where that is so.
 fn tell_preview(placed: &PlacedJob, answer: &mut AnswerWriter<'_>) -> Option<PlanError> {
-    let found = outlook(&placed.job, &Watch::silent(&answer.gone));
+    let found = plate_outlooks(&placed.job, &Watch::silent(&answer.gone));
     answer.step("preview");
     let plates = match found {
         Ok(found) => found.iter().map(PlateChance::from).collect(),
@@ -185,7 +185,10 @@ fn tell_unplanned(
     let mut shown: Vec<_> = plates.iter().map(UnwashableReport::from).collect();
     for of_report in &report.plates {
         if shown.iter().all(|plate| plate.plate != of_report.plate) {
-            shown.push(UnwashableReport::reached_in_vain(of_report.plate, &report.reason));
+            shown.push(UnwashableReport::unreachable_by_transit(
+                of_report.plate,
+                &report.reason,
+            ));
         }
     }
     shown.sort_by_key(|plate| plate.plate);
@@ -211,7 +214,7 @@ fn tell_unplanned(
 
 /// Answers a question for a map: places at which a plate could be washed, sent as they are found.
 pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>, deadline: &Deadline) {
-    let answered = told_map(subject, question, answer);
+    let answered = answer_map(subject, question, answer);
     answer.step("map");
     match answered {
         Ok(()) => answer.line(&MapLine::MapDone {
@@ -225,10 +228,10 @@ pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<
     }
 }
 
-fn told_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+fn answer_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
     let gone = answer.gone.clone();
     let scenario = changed(subject, &question.text, &[], &gone)?.scenario?;
-    let placed = placed(subject, scenario, &gone)?;
+    let placed = place_job(subject, scenario, &gone)?;
     let (plate, count) = (question.plate, placed.layout.plates.len());
     if plate >= count {
         return Err(plain(format!(
@@ -253,7 +256,7 @@ fn told_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter
 /// Reason that there is no plan, without another place for a plate: that follows in a line of its own.
 fn reason(error: PlanError) -> String {
     match error {
-        PlanError::Unwashable(plate) => plate.why().to_string(),
+        PlanError::Unwashable(plate) => plate.reason_text().to_string(),
         other => Failure::from(other).to_string(),
     }
 }
@@ -263,7 +266,7 @@ impl From<&UnwashablePlate> for UnwashableReport {
         Self {
             plate: plate.plate,
             proved: plate.conclusion.is_proved(),
-            words: plate.why().to_string(),
+            words: plate.reason_text().to_string(),
             causes: plate.causes.iter().map(|cause| cause.words(plate.conclusion)).collect(),
             share: plate.share,
             free_m: plate.free_m.clone(),
@@ -274,7 +277,7 @@ impl From<&UnwashablePlate> for UnwashableReport {
 
 impl UnwashableReport {
     /// A plate that could be washed if the arm got there and away.
-    fn reached_in_vain(plate: usize, reason: &str) -> Self {
+    fn unreachable_by_transit(plate: usize, reason: &str) -> Self {
         Self {
             plate,
             proved: false,

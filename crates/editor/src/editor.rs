@@ -72,7 +72,7 @@ impl Editor {
 
     /// The same editor, saved by a keeper. The file on disk is read again for each page.
     #[must_use]
-    pub fn kept_by(self, keeper: Box<dyn Keeper>) -> Self {
+    pub fn with_keeper(self, keeper: Box<dyn Keeper>) -> Self {
         Self {
             saved_file: Some(SavedFile::new(keeper)),
             ..self
@@ -88,7 +88,7 @@ impl Editor {
 
     /// The same editor, which remembers its latest answer.
     #[must_use]
-    pub fn remembering(mut self) -> Self {
+    pub fn with_memory(mut self) -> Self {
         self.subject.remembers = true;
         self
     }
@@ -111,7 +111,7 @@ impl Editor {
         &self.subject.text
     }
 
-    /// Latest answer of an editor that is [`Editor::remembering`].
+    /// Latest answer of an editor that is [`Editor::with_memory`].
     #[must_use]
     pub fn latest(&self) -> Option<LastResult> {
         self.subject.latest()
@@ -194,7 +194,7 @@ impl Editor {
             ("/disk", Some(kept)) => {
                 let question: DiskQuestion = read(question)?;
                 named(&question.session)?;
-                kept.look(&question, answer);
+                kept.report_changes(&question, answer);
             }
             _ => return Err(format!("there is no question {path}")),
         }
@@ -264,7 +264,7 @@ struct EditDocument<'a> {
 impl<'a> EditDocument<'a> {
     /// Document of a scenario, with the file that it is saved in.
     fn new(channel: Channel, text: &'a str, saved_file: Option<&SavedFile>) -> Self {
-        let standing = saved_file.and_then(|kept| kept.standing().ok());
+        let standing = saved_file.and_then(|kept| kept.read_disk().ok());
         Self {
             format: FORMAT,
             channel,

@@ -105,30 +105,30 @@ impl SavedFile {
 
     /// SHA-256 of the file on disk; `None` where there is none, or it cannot be read.
     pub fn hash(&self) -> Option<String> {
-        self.standing().ok()?.hash()
+        self.read_disk().ok()?.hash()
     }
 
     /// The scenario that is edited, if it stands there as text.
     pub fn scenario(&self) -> Option<String> {
-        let standing = self.keeper.is_scenario().then(|| self.standing().ok())?;
+        let standing = self.keeper.is_scenario().then(|| self.read_disk().ok())?;
         standing?.into_text()
     }
 
     /// Reads the file on disk.
-    pub fn standing(&self) -> Result<DiskContents, String> {
+    pub fn read_disk(&self) -> Result<DiskContents, String> {
         self.keeper.on_disk().map(|bytes| DiskContents { bytes })
     }
 
     /// Reads the file until two reads, 0.2 s apart, agree: an editor that empties a file before it writes it is waited for, for up to 4 s.
-    fn settled(&self, known: Option<&str>) -> Result<DiskContents, String> {
-        let mut standing = self.standing()?;
+    fn read_stable(&self, known: Option<&str>) -> Result<DiskContents, String> {
+        let mut standing = self.read_disk()?;
         for _ in 0..20 {
             let hash = standing.hash();
             if hash.as_deref() == known {
                 break;
             }
             std::thread::sleep(Duration::from_millis(200));
-            standing = self.standing()?;
+            standing = self.read_disk()?;
             if standing.hash() == hash {
                 break;
             }
@@ -137,8 +137,8 @@ impl SavedFile {
     }
 
     /// Answers if the file on disk has changed.
-    pub fn look(&self, question: &DiskQuestion, answer: &mut AnswerWriter<'_>) {
-        let standing = match self.settled(question.disk.as_deref()) {
+    pub fn report_changes(&self, question: &DiskQuestion, answer: &mut AnswerWriter<'_>) {
+        let standing = match self.read_stable(question.disk.as_deref()) {
             Ok(standing) => standing,
             Err(words) => {
                 let disk = question.disk.as_deref();
@@ -169,7 +169,7 @@ impl SavedFile {
         cancel: &CancelToken,
     ) {
         let _one = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
-        let standing = match self.standing() {
+        let standing = match self.read_disk() {
             Ok(standing) => standing,
             Err(words) => return answer.failed(&words),
         };
@@ -179,7 +179,7 @@ impl SavedFile {
         if !question.force && hash != question.disk && !is_same {
             return told_conflict(&standing, answer);
         }
-        let still = || self.standing().is_ok_and(|now| now.hash() == hash);
+        let still = || self.read_disk().is_ok_and(|now| now.hash() == hash);
         let text = question.text.as_str();
         match self.keeper.write(&Save { text, scenario }, &still, cancel) {
             Ok(written) => answer.line(&SaveLine::Saved {
@@ -188,7 +188,7 @@ impl SavedFile {
                 files: &written.files,
                 words: &written.words,
             }),
-            Err(SaveError::Changed) => match self.standing() {
+            Err(SaveError::Changed) => match self.read_disk() {
                 Ok(now) => told_conflict(&now, answer),
                 Err(words) => answer.failed(&words),
             },
@@ -254,7 +254,7 @@ mod tests {
     fn waits_for_a_file_that_is_being_written() {
         let read = |reads: &[&'static str], known| {
             let kept = SavedFile::new(Box::new(HalfWrittenFile(Mutex::new(reads.to_vec()))));
-            kept.settled(known).unwrap().into_text().unwrap()
+            kept.read_stable(known).unwrap().into_text().unwrap()
         };
         let before = sha256_hex(b"before");
         assert_eq!(read(&["", "half", "whole"], Some(&before)), "whole");

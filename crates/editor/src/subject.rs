@@ -12,7 +12,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::WashJob;
 use platewash_workcell::layout::Layout;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -41,7 +41,7 @@ pub fn too_much(scenario: &Scenario) -> Option<String> {
         format!(
             "layout.count or positions_m, wash.turns, wash.path_radius_m: {} have {points} contact points in all; up to \
              {MOST_CONTACT_POINTS} are planned while you wait (`platewash run` plans more)",
-            counted(scenario.plates(), "plate")
+            count_with_noun(scenario.plates(), "plate")
         )
     })
 }
@@ -266,7 +266,7 @@ pub struct PlacedJob {
 }
 
 /// The job of a scenario.
-pub fn placed(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<PlacedJob, End> {
+pub fn place_job(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<PlacedJob, End> {
     let loaded = subject.arms.of(&scenario)?;
     let layout = scenario.place(&loaded.arm, &Watch::silent(cancel))?;
     let job = scenario.job_on(&loaded.arm, &layout)?;

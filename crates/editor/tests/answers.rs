@@ -58,7 +58,7 @@ fn with_plate(editor: &Editor, plate: usize, at: Value) -> Vec<Value> {
 
 #[test]
 fn answers_a_scenario_from_its_text_to_its_proof() {
-    let editor = kitchen().remembering();
+    let editor = kitchen().with_memory();
     let lines = ask(&editor, "/cell", &cell(KITCHEN, &json!([])));
     assert_eq!(kinds(&lines), ["scenario", "cell", "preview", "plan", "proof"]);
     assert_eq!(lines[0]["text"], KITCHEN);
@@ -95,7 +95,7 @@ fn an_arm_that_the_page_has_is_not_sent_again() {
 
 #[test]
 fn a_plate_out_of_reach_is_explained_and_proved_at_the_place_that_is_shown() {
-    let editor = kitchen().remembering();
+    let editor = kitchen().with_memory();
     let lines = with_plate(&editor, 1, json!([0.62, 0.12]));
     assert_eq!(kinds(&lines), ["scenario", "cell", "preview", "unplanned", "place"]);
     assert_eq!(line(&lines, "preview")["plates"][1]["chance"], "unwashable");
@@ -380,7 +380,7 @@ fn a_page_that_others_reach_names_no_files() {
     let named = Editor::of_text("cell", &text, None).unwrap().open_to_others();
     assert!(other(&named, &text).contains("other machines"));
     let folder = tempfile::tempdir().unwrap();
-    let kept = |editor: Editor| editor.kept_by(Box::new(FolderFile(folder.path().join("cell.toml"))));
+    let kept = |editor: Editor| editor.with_keeper(Box::new(FolderFile(folder.path().join("cell.toml"))));
     let save =
         json!({"session": "sessionofthistest", "disk": null, "force": true, "text": text.replace(urdf, "/etc/passwd")});
     let lines = ask(&kept(kitchen().open_to_others()), "/save", &save);
@@ -436,7 +436,7 @@ impl Keeper for FolderFile {
 fn never_overwrites_changes_of_others() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("cell.toml");
-    let editor = kitchen().kept_by(Box::new(FolderFile(file.clone())));
+    let editor = kitchen().with_keeper(Box::new(FolderFile(file.clone())));
     let save = |text: &str, disk: &Value, force: bool| {
         let lines = ask(
             &editor,

@@ -14,7 +14,7 @@ use crate::reading::{ReadPoint, Reading, number_length};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_certificate::{Certified, ProveError};
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
@@ -454,7 +454,7 @@ impl Step<'_> {
         let mut all = Vec::new();
         let mut tell = |what: String, [a, b]: [f64; 2], most: f64, (decimals, unit): (usize, &str)| {
             if a.is_nan() || (a - b).abs() > most {
-                let [a, b] = told_apart(a, b, decimals);
+                let [a, b] = distinct_decimals(a, b, decimals);
                 all.push((what, format!("{a} {unit}"), format!("{b} {unit}")));
             }
         };

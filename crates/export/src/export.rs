@@ -8,7 +8,7 @@ use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use crate::{header, tool_frame};
 use platewash_certificate::{Certified, ProveError};
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
@@ -176,7 +176,7 @@ fn differs(program: &Program<'_>, reading: &Reading) -> Option<String> {
         .speed_share
         .filter(|stated| (program.speed_share - stated).abs() > 1e-6)
     {
-        let [share, stated] = told_apart(program.speed_share, stated, 6);
+        let [share, stated] = distinct_decimals(program.speed_share, stated, 6);
         return Some(format!("the speed share is {share}, read as {stated}"));
     }
     let share = program.speed_share;

@@ -13,7 +13,7 @@ use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::words::{counted, quoted};
+use platewash_workcell::words::{count_with_noun, quoted};
 
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -177,7 +177,7 @@ fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> V
     vec![
         format!(
             "{}, {:.3} s at a share of {share} of the plan's speed (the plan: {plan_s:.3} s); {} points, the nearest {:.1} ms apart",
-            counted(source.plan.order.len(), "plate"),
+            count_with_noun(source.plan.order.len(), "plate"),
             plan_s / share,
             points.len(),
             1e3 * steps.fold(f64::INFINITY, f64::min)
@@ -199,7 +199,7 @@ fn verdict(judgement: &ProgramJudgement, settings: &ExportSettings) -> Vec<Strin
     let held = if judgement.holds() { "HOLDS" } else { "DOES NOT HOLD" };
     let share = settings.speed_share;
     let mut lines = vec![format!("Judged: the motion of this text, interpreted{how}: {held}")];
-    lines.extend(judgement.worst().iter().map(|check| told(check, "limit", 1.0)));
+    lines.extend(judgement.worst().iter().map(|check| measure_text(check, "limit", 1.0)));
     lines.push(format!(
         "That is at a share of {share} of the plan's speed; at a lower one the path, as assumed below, is the same and every speed lower."
     ));
@@ -212,9 +212,9 @@ fn verdict(judgement: &ProgramJudgement, settings: &ExportSettings) -> Vec<Strin
         let is_speed = check
             .measure
             .is_some_and(|measure| measure.unit == Unit::MetrePerSecond);
-        told(check, "plan", if is_speed { share } else { 1.0 })
+        measure_text(check, "plan", if is_speed { share } else { 1.0 })
     }));
-    lines.extend(judgement.cases.iter().filter_map(|case| asked(case, share)));
+    lines.extend(judgement.cases.iter().filter_map(|case| demands_text(case, share)));
     lines
 }
 
@@ -235,7 +235,7 @@ pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
 }
 
 /// A measure with its limit, both times a factor.
-fn told(check: &Check, beside: &str, factor: f64) -> String {
+fn measure_text(check: &Check, beside: &str, factor: f64) -> String {
     let name = match check.requirement {
         Requirement::JointPosition => "distance from the joints' limits".to_owned(),
         requirement => requirement.words(),
@@ -264,7 +264,7 @@ fn told(check: &Check, beside: &str, factor: f64) -> String {
 }
 
 /// Describes the demands of corners of one size on the controller; `None` where the motion is as smooth as the plan.
-fn asked(case: &Case, speed_share: f64) -> Option<String> {
+fn demands_text(case: &Case, speed_share: f64) -> Option<String> {
     let scale = case.corner_scale?;
     let share = |v: Option<f64>| v.map(|v| decimals_up(v * speed_share * speed_share, 2));
     let step = decimals_up((case.demands.speed_step_rad_s * speed_share).to_degrees(), 1);

@@ -174,7 +174,7 @@ fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
     for check in cases.flatten() {
         match worst.iter_mut().find(|w| w.requirement == check.requirement) {
             None => worst.push(check.clone()),
-            Some(w) if badness(check) > badness(w) => *w = check.clone(),
+            Some(w) if severity(check) > severity(w) => *w = check.clone(),
             Some(_) => {}
         }
     }
@@ -182,7 +182,7 @@ fn worst_of<'a>(cases: impl Iterator<Item = &'a Vec<Check>>) -> Vec<Check> {
 }
 
 /// Sort key of a check: one that is not kept ranks above one that is kept, then the nearer to its limit.
-fn badness(check: &Check) -> (bool, f64) {
+fn severity(check: &Check) -> (bool, f64) {
     let beyond = |measure: &Measure| {
         let bound = measure.bound.unwrap_or(f64::INFINITY);
         match measure.sense {

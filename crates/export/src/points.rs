@@ -94,7 +94,7 @@ impl<'a> Source<'a> {
     }
 
     fn at_times(&self, times_s: impl Iterator<Item = f64>) -> Vec<Point> {
-        let rests = self.rests();
+        let rests = self.rest_times_s();
         times_s.filter_map(|t_s| self.point(t_s, &rests)).collect()
     }
 
@@ -112,7 +112,7 @@ impl<'a> Source<'a> {
     }
 
     /// Times at which the plan rests, in ascending order: at its ends, and where a wash begins and ends \[s\].
-    fn rests(&self) -> Vec<f64> {
+    fn rest_times_s(&self) -> Vec<f64> {
         let washes = self
             .plan
             .segments
@@ -128,7 +128,7 @@ impl<'a> Source<'a> {
     fn chords(&self, least_s: f64, settings: &ExportSettings) -> Result<Vec<Point>, Refusal> {
         // Points keep their distance in the program's time.
         let least_s = least_s * settings.speed_share;
-        let rests = self.rests();
+        let rests = self.rest_times_s();
         let allowed_m = allowed_m(settings);
         let mut density = Density::new(self, allowed_m);
         // Programs state times in whole microseconds, so points are chosen at these times of the plan. Where the plan rests it

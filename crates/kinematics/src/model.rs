@@ -200,7 +200,7 @@ impl Frame {
 
     /// Returns an invalid frame: its coordinates are NaN, so that nothing can be proved of it.
     #[must_use]
-    pub fn nowhere() -> Self {
+    pub fn invalid() -> Self {
         let rotation = Matrix3::repeat(f64::NAN);
         let translation = Vector3::repeat(f64::NAN);
         Self::new(0, RigidTransform { rotation, translation })

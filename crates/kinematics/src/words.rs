@@ -9,7 +9,7 @@ const MOST_DECIMALS: usize = 17;
 
 /// Formats two numbers with `decimals` decimals, or with as many more as they need to read differently if they differ.
 #[must_use]
-pub fn told_apart(a: f64, b: f64, decimals: usize) -> [String; 2] {
+pub fn distinct_decimals(a: f64, b: f64, decimals: usize) -> [String; 2] {
     let told = |digits: usize| [a, b].map(|v| format!("{v:.digits$}"));
     let differ = |[a, b]: &[String; 2]| a != b;
     if a == b || a.is_nan() || b.is_nan() {
@@ -22,8 +22,8 @@ pub fn told_apart(a: f64, b: f64, decimals: usize) -> [String; 2] {
 
 /// Formats a number with `decimals` decimals, or with as many more as show that it is not zero if it is not.
 #[must_use]
-pub fn not_as_zero(value: f64, decimals: usize) -> String {
-    let [told, _] = told_apart(value.abs(), 0.0, decimals);
+pub fn nonzero_decimals(value: f64, decimals: usize) -> String {
+    let [told, _] = distinct_decimals(value.abs(), 0.0, decimals);
     if value < 0.0 { format!("-{told}") } else { told }
 }
 
@@ -37,15 +37,15 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Formats two angles \[rad\] in degrees with their unit, told apart as by [`told_apart`]; in radians if their degrees round to the same
+/// Formats two angles \[rad\] in degrees with their unit, distinguished as by [`distinct_decimals`]; in radians if their degrees round to the same
 /// number.
 #[must_use]
 pub fn angles_told_apart(a_rad: f64, b_rad: f64, decimals: usize) -> [String; 2] {
     let (a, b) = (a_rad.to_degrees(), b_rad.to_degrees());
     if a == b && a_rad != b_rad {
-        return told_apart(a_rad, b_rad, decimals).map(|v| format!("{v} rad"));
+        return distinct_decimals(a_rad, b_rad, decimals).map(|v| format!("{v} rad"));
     }
-    told_apart(a, b, decimals).map(|v| format!("{v}°"))
+    distinct_decimals(a, b, decimals).map(|v| format!("{v}°"))
 }
 
 /// Rounds a number to at most `digits` significant digits.
@@ -223,11 +223,11 @@ mod tests {
 
     #[test]
     fn numbers_have_as_many_digits_as_needed() {
-        assert_eq!(told_apart(-90.000_02, -90.0, 2), ["-90.00002", "-90.00000"]);
-        assert_eq!(told_apart(12.0, 70.0, 1), ["12.0", "70.0"]);
-        assert_eq!(told_apart(1e-300, 0.0, 2), ["1e-300", "0e0"]);
-        assert_eq!(not_as_zero(-1.2e-7, 2), "-0.0000001");
-        assert_eq!(not_as_zero(0.0, 1), "0.0");
+        assert_eq!(distinct_decimals(-90.000_02, -90.0, 2), ["-90.00002", "-90.00000"]);
+        assert_eq!(distinct_decimals(12.0, 70.0, 1), ["12.0", "70.0"]);
+        assert_eq!(distinct_decimals(1e-300, 0.0, 2), ["1e-300", "0e0"]);
+        assert_eq!(nonzero_decimals(-1.2e-7, 2), "-0.0000001");
+        assert_eq!(nonzero_decimals(0.0, 1), "0.0");
         assert_eq!(
             [-0.0, -4e-5, -6e-5, f64::NEG_INFINITY].map(|v| fixed(v, 4)),
             ["0.0000", "0.0000", "-0.0001", "-inf"]
@@ -261,7 +261,7 @@ mod tests {
         #[test]
         fn numbers_that_differ_read_differently(a in -1e3..1e3_f64, steps in 0_u64..4, decimals in 0_usize..6) {
             let b = f64::from_bits(a.to_bits() + steps);
-            let [told_a, told_b] = told_apart(a, b, decimals);
+            let [told_a, told_b] = distinct_decimals(a, b, decimals);
             prop_assert_eq!(told_a == told_b, a == b, "{} {}", told_a, told_b);
             let [told_a, told_b] = angles_told_apart(a, b, decimals);
             prop_assert_eq!(told_a == told_b, a == b, "{} {}", told_a, told_b);

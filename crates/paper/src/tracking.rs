@@ -56,7 +56,7 @@ pub struct Step {
 impl Step {
     /// Returns true where the inverse kinematics solved this waypoint.
     #[must_use]
-    pub fn reached(&self) -> bool {
+    pub fn is_reached(&self) -> bool {
         matches!(self.outcome, IkOutcome::Solved { .. })
     }
 

@@ -1,7 +1,7 @@
 //! How much work a run is, known before any of it is done.
 
 use crate::settings::PaperSettings;
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 
 /// Most waypoints of a run: tens of seconds of planning.
 pub const MAX_WAYPOINTS: usize = 200_000;
@@ -14,7 +14,7 @@ pub const MAX_PLATE_CHECKS: usize = 5_000_000;
 #[non_exhaustive]
 pub enum WorkError {
     /// Too many waypoints.
-    #[error("{} would have up to {waypoints} waypoints; at most {MAX_WAYPOINTS} are planned", counted(*.plates, "plate"))]
+    #[error("{} would have up to {waypoints} waypoints; at most {MAX_WAYPOINTS} are planned", count_with_noun(*.plates, "plate"))]
     Waypoints {
         /// Plates.
         plates: usize,
@@ -24,7 +24,7 @@ pub enum WorkError {
     /// Too many plates, each of which is checked at every waypoint.
     #[error(
         "{} and up to {waypoints} waypoints are too much work: their product must be at most {MAX_PLATE_CHECKS}; give fewer plates \
-         or waypoints", counted(*.plates, "plate")
+         or waypoints", count_with_noun(*.plates, "plate")
     )]
     PlateChecks {
         /// Plates.

@@ -53,7 +53,7 @@ pub enum PlanError {
     #[error(transparent)]
     Job(#[from] JobError),
     /// Plates share a place where the job allows none to.
-    #[error("{}", few(.0))]
+    #[error("{}", first_overlaps(.0))]
     Overlap(Vec<PlateOverlap>),
     /// No layout could be drawn.
     #[error("layout: {0}")]
@@ -77,7 +77,7 @@ pub enum PlanError {
     /// No end configuration was stated, and none was found that is clear.
     #[error(
         "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything{}",
-        most_often(.in_the_way.as_ref())
+        most_frequent_pair(.in_the_way.as_ref())
     )]
     NoHome {
         /// Configurations that were tried.
@@ -227,7 +227,7 @@ impl From<TransitError> for PlanError {
 }
 
 /// Names the pair that is in the way most often; empty where there is none.
-fn most_often(in_the_way: Option<&([String; 2], usize)>) -> String {
+fn most_frequent_pair(in_the_way: Option<&([String; 2], usize)>) -> String {
     in_the_way.map_or_else(String::new, |([a, b], count)| {
         let [a, b] = [a, b].map(|name| printable(name));
         format!("; most often too near are {a} and {b}, in {count} of them")
@@ -235,7 +235,7 @@ fn most_often(in_the_way: Option<&([String; 2], usize)>) -> String {
 }
 
 /// The first of some overlaps, and how many more there are.
-fn few(overlaps: &[PlateOverlap]) -> String {
+fn first_overlaps(overlaps: &[PlateOverlap]) -> String {
     const FEW: usize = 3;
     let told: Vec<_> = overlaps.iter().take(FEW).map(ToString::to_string).collect();
     let more = match overlaps.len().saturating_sub(FEW) {

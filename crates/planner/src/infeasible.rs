@@ -99,7 +99,7 @@ impl InfeasibleReport {
 
     /// The same report with further plates that stand in the way.
     #[must_use]
-    pub fn besides(mut self, others: &[UnwashablePlate]) -> Self {
+    pub fn with_plates(mut self, others: &[UnwashablePlate]) -> Self {
         for other in others {
             if other.conclusion.is_proved() {
                 self.verdict = Verdict::Infeasible;
@@ -150,17 +150,21 @@ fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
                 .collect();
             plates.sort_unstable();
             plates.dedup();
-            plates.into_iter().map(InfeasiblePlate::reached_in_vain).collect()
+            plates
+                .into_iter()
+                .map(InfeasiblePlate::unreachable_by_transit)
+                .collect()
         }
         PlanError::Line { plate, .. }
         | PlanError::Promise { plate, .. }
         | PlanError::Tilt { plate, .. }
         | PlanError::Transit(TransitError::Line { plate, .. }) => {
-            vec![InfeasiblePlate::reached_in_vain(*plate)]
+            vec![InfeasiblePlate::unreachable_by_transit(*plate)]
         }
         PlanError::Transit(TransitError::NotFound { from, to, .. }) => {
             let ends = from.iter().chain(to);
-            ends.map(|plate| InfeasiblePlate::reached_in_vain(*plate)).collect()
+            ends.map(|plate| InfeasiblePlate::unreachable_by_transit(*plate))
+                .collect()
         }
         _ => Vec::new(),
     }
@@ -168,7 +172,7 @@ fn plates(error: &PlanError) -> Vec<InfeasiblePlate> {
 
 impl InfeasiblePlate {
     /// A plate that could be washed if the arm got there and away, or if nothing else lay there.
-    fn reached_in_vain(plate: usize) -> Self {
+    fn unreachable_by_transit(plate: usize) -> Self {
         Self {
             plate,
             centre_m: None,
@@ -275,7 +279,7 @@ struct UnwashableReason<'a>(&'a UnwashablePlate);
 impl UnwashablePlate {
     /// Returns the reason in words that it cannot be washed, or that no way was found; without another place for it.
     #[must_use]
-    pub fn why(&self) -> impl fmt::Display + '_ {
+    pub fn reason_text(&self) -> impl fmt::Display + '_ {
         UnwashableReason(self)
     }
 }
@@ -310,7 +314,7 @@ impl fmt::Display for UnwashableReason<'_> {
 
 impl fmt::Display for UnwashablePlate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.why().fmt(f)?;
+        self.reason_text().fmt(f)?;
         match (self.nearest_m, self.place_search) {
             (Some([x, y]), _) => write!(
                 f,

@@ -207,11 +207,11 @@ fn slopes(u: &[f64], q: &[JointVector], ends: &Ends) -> Vec<JointVector> {
     let step = |k: usize| u[k + 1] - u[k];
     let chord = |k: usize| (q[k + 1] - q[k]) / step(k);
     if let (Ends::NotAKnot, 1 | 2) = (ends, last) {
-        return few(last, step, chord);
+        return slopes_of_few_samples(last, step, chord);
     }
     let row = |k: usize| match (ends, k) {
-        (Ends::Clamped([first, _]), 0) => given(first),
-        (Ends::Clamped([_, end]), k) if k == last => given(end),
+        (Ends::Clamped([first, _]), 0) => fixed_slope(first),
+        (Ends::Clamped([_, end]), k) if k == last => fixed_slope(end),
         (Ends::NotAKnot, 0) => {
             let (diagonal, upper, right) = not_a_knot([step(0), step(1)], [chord(0), chord(1)]);
             Row {
@@ -251,7 +251,7 @@ fn slopes(u: &[f64], q: &[JointVector], ends: &Ends) -> Vec<JointVector> {
     slopes
 }
 
-fn given(slope: &JointVector) -> Row {
+fn fixed_slope(slope: &JointVector) -> Row {
     Row {
         lower: 0.0,
         diagonal: 1.0,
@@ -281,7 +281,11 @@ fn not_a_knot([near, next]: [f64; 2], [chord, beyond]: [JointVector; 2]) -> (f64
 }
 
 /// A straight line through two samples, a parabola through three.
-fn few(last: usize, step: impl Fn(usize) -> f64, chord: impl Fn(usize) -> JointVector) -> Vec<JointVector> {
+fn slopes_of_few_samples(
+    last: usize,
+    step: impl Fn(usize) -> f64,
+    chord: impl Fn(usize) -> JointVector,
+) -> Vec<JointVector> {
     if last == 1 {
         return vec![chord(0); 2];
     }

@@ -28,8 +28,8 @@ pub use crate::order::{EXACT_UP_TO, Optimality};
 pub use crate::outlook::PlateOutlook;
 pub use crate::pattern::{ContactPromise, Shortfall};
 pub use crate::pipeline::{
-    check, draw_washable_layout, nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_in_order,
-    plan_unexplained, plan_with, unwashable_plates, washable_map,
+    check, draw_washable_layout, nearest_place, other_unwashable_plates, plan, plan_here, plan_in_order,
+    plan_unexplained, plan_with, plate_outlooks, unwashable_plates, washable_map,
 };
 pub use crate::planned_job::{Pace, PlannedJob, TourSummary, TransitSummary, VisitSummary};
 pub use crate::redundancy::Chance;

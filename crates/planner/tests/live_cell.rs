@@ -3,7 +3,8 @@
 use crate::jobs::{job, on};
 use platewash_planner::{
     Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
-    nearest_place, other_unwashable_plates, outlook, plan, plan_here, plan_with, unwashable_plates, washable_map,
+    nearest_place, other_unwashable_plates, plan, plan_here, plan_with, plate_outlooks, unwashable_plates,
+    washable_map,
 };
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
@@ -155,7 +156,7 @@ fn planning_fails_for_plates_reported_unwashable() {
     let mut told = [0; 3];
     for seed in 0..14 {
         let job = scattered(seed, false);
-        let Ok(outlooks) = silently(|watch| outlook(&job, watch)) else {
+        let Ok(outlooks) = silently(|watch| plate_outlooks(&job, watch)) else {
             assert!(plan(&job).is_err());
             continue;
         };
@@ -180,11 +181,11 @@ fn planning_fails_for_plates_reported_unwashable() {
 #[test]
 fn plans_overlapping_plates_where_the_job_allows_it() {
     let job = on(&[[0.40, 0.0], [0.40, 0.1]], false);
-    let outlooks = silently(|watch| outlook(&job, watch)).unwrap();
+    let outlooks = silently(|watch| plate_outlooks(&job, watch)).unwrap();
     assert!(outlooks.iter().all(|outlook| outlook.chance == Chance::Washable));
     assert!(plan(&job).is_ok());
     let strict = self::job(|terms, _| terms.plates = job.terms().plates.clone());
-    assert_eq!(silently(|watch| outlook(&strict, watch)).unwrap(), outlooks);
+    assert_eq!(silently(|watch| plate_outlooks(&strict, watch)).unwrap(), outlooks);
     let error = plan(&strict).unwrap_err();
     let PlanError::Overlap(overlaps) = &error else {
         panic!("{error}")
@@ -247,7 +248,7 @@ fn the_nearest_place_of_a_plate_that_was_searched_for_is_the_one_that_planning_r
                 })
             };
             let asks = given(true);
-            let outlooks = silently(|watch| outlook(&asks, watch)).unwrap();
+            let outlooks = silently(|watch| plate_outlooks(&asks, watch)).unwrap();
             if outlooks.iter().any(|outlook| outlook.chance == Chance::Unwashable) {
                 continue;
             }
@@ -297,7 +298,7 @@ fn answers_do_not_depend_on_the_number_of_threads() {
         ..MapArea::within_reach(&job, 1).unwrap()
     };
     let all = || {
-        let answers = silently(|watch| (outlook(&job, watch), unwashable_plates(&job, watch)));
+        let answers = silently(|watch| (plate_outlooks(&job, watch), unwashable_plates(&job, watch)));
         (answers, patches(&job, 1, &area))
     };
     let with = |threads: usize| {
@@ -407,7 +408,7 @@ fn rejects_invalid_numbers() {
     }
     let paper = job_of_the_paper();
     assert_eq!(
-        silently(|watch| outlook(&paper, watch)).unwrap_err(),
+        silently(|watch| plate_outlooks(&paper, watch)).unwrap_err(),
         PlanError::PaperJob
     );
 }
@@ -425,7 +426,7 @@ fn refuses_an_outlook_from_a_home_in_collision() {
     let low = job(|terms, _| terms.home_rad[1] = [0.0, 90.0, 0.0, 0.0, 0.0, 0.0].map(f64::to_radians).into());
     let error = plan(&low).unwrap_err();
     assert!(matches!(error, PlanError::HomeNotClear { .. }), "{error}");
-    assert_eq!(silently(|watch| outlook(&low, watch)), Err(error.clone()));
+    assert_eq!(silently(|watch| plate_outlooks(&low, watch)), Err(error.clone()));
     assert_eq!(silently(|watch| unwashable_plates(&low, watch)), Err(error));
     let area = MapArea {
         step_m: 0.03,
@@ -445,7 +446,7 @@ fn cancelled_work_ends_at_once() {
     let area = MapArea::within_reach(&job, 1).unwrap();
     let start = Instant::now();
     ended(plan_here(&job, &watch).err());
-    ended(outlook(&job, &watch).err());
+    ended(plate_outlooks(&job, &watch).err());
     ended(unwashable_plates(&job, &watch).err());
     ended(nearest_place(&job, 1, &watch).err());
     ended(washable_map(&job, 1, &area, &mut |patch| panic!("{patch:?}"), &watch).err());

@@ -157,7 +157,7 @@ pub fn _edit_arguments(scenario: &Bound<'_, PyAny>, height: &Bound<'_, PyAny>) -
         Ok(given) => Editor::of_text(&given.get().inner().name, &given.get().to_toml(py)?, None),
         Err(_) => Editor::open(&named(scenario)?),
     };
-    let inner = Arc::new(opened.map_err(|error| refused(py, &error))?.remembering());
+    let inner = Arc::new(opened.map_err(|error| refused(py, &error))?.with_memory());
     Ok((CellEditorObject { inner }, height_px))
 }
 

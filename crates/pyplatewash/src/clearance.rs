@@ -12,7 +12,7 @@ use crate::work::{STRETCH, alone, released};
 use nalgebra::Point3;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::workcell::tool::StraightTool;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::count_with_noun;
 use platewash::{ClearanceModel, Failure, JobTerms, JointVector, PairClearance, Pose, RobotModel, Tool, Workcell};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
@@ -235,7 +235,7 @@ impl ClearanceObject {
         };
         format!(
             "ClearanceModel({bodies}, {})",
-            counted(self.inner.pair_names().len(), "pair")
+            count_with_noun(self.inner.pair_names().len(), "pair")
         )
     }
 

@@ -7,7 +7,7 @@ use crate::simulation::SettingsObject;
 use crate::value::{to_python, to_record};
 use crate::{argument, arrays, errors};
 use numpy::PyArrayDyn;
-use platewash::workcell::words::{counted, quoted};
+use platewash::workcell::words::{count_with_noun, quoted};
 use platewash::{Failure, JobTerms, Layout, PaperJob, WashJob};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
@@ -171,7 +171,7 @@ impl WashJobObject {
 
     fn __repr__(&self) -> String {
         let terms = self.inner.terms();
-        let plates = counted(terms.plates.len(), "plate");
+        let plates = count_with_noun(terms.plates.len(), "plate");
         format!("WashJob({}, seed={}, {plates})", quoted(self.inner.name()), terms.seed)
     }
 
@@ -295,7 +295,7 @@ impl PaperJobObject {
     }
 
     fn __repr__(&self) -> String {
-        let plates = counted(self.inner.layout.plates.len(), "plate");
+        let plates = count_with_noun(self.inner.layout.plates.len(), "plate");
         format!(
             "PaperJob({}, seed={}, {plates})",
             quoted(&self.inner.name),

@@ -4,7 +4,7 @@ use crate::plate::plates;
 use crate::value::to_record;
 use crate::{argument, arrays, errors};
 use numpy::PyArrayDyn;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::count_with_noun;
 use platewash::{Layout, Plate};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
@@ -75,8 +75,11 @@ impl LayoutObject {
     }
 
     fn __repr__(&self) -> String {
-        let plates = counted(self.inner.plates.len(), "plate");
-        format!("Layout({plates}, {})", counted(self.inner.findings.len(), "finding"))
+        let plates = count_with_noun(self.inner.plates.len(), "plate");
+        format!(
+            "Layout({plates}, {})",
+            count_with_noun(self.inner.findings.len(), "finding")
+        )
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

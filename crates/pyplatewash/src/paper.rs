@@ -17,7 +17,7 @@ use platewash::paper::tool_path::Segment;
 use platewash::paper::tracking::Step;
 use platewash::workcell::csv;
 use platewash::workcell::trajectory::SegmentKind;
-use platewash::workcell::words::counted;
+use platewash::workcell::words::count_with_noun;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::Arc;
@@ -104,7 +104,7 @@ impl PaperRunObject {
     /// Whether the inverse kinematics solved each waypoint, shape (N,).
     #[getter]
     fn reached<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        arrays::line(py, self.inner.steps.iter().map(|s| s.reached()).collect())
+        arrays::line(py, self.inner.steps.iter().map(|s| s.is_reached()).collect())
     }
 
     /// Plate of each waypoint (the one washed, or the one a transit leads to), shape (N,).
@@ -161,8 +161,8 @@ impl PaperRunObject {
     }
 
     fn __repr__(&self) -> String {
-        let plates = counted(self.inner.job.layout.plates.len(), "plate");
-        let steps = counted(self.inner.steps.len(), "waypoint");
+        let plates = count_with_noun(self.inner.job.layout.plates.len(), "plate");
+        let steps = count_with_noun(self.inner.steps.len(), "waypoint");
         format!("PaperRun('{}', {plates}, {steps})", self.inner.job.name)
     }
 

@@ -11,7 +11,7 @@ use numpy::PyArrayDyn;
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
 use platewash::scenario::Program;
-use platewash::workcell::words::{counted, quoted};
+use platewash::workcell::words::{count_with_noun, quoted};
 use platewash::{Failure, PlannedJob, SweepRow, WashReport, sweep_each};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
@@ -76,7 +76,10 @@ impl PlannedObject {
 
     fn __repr__(&self) -> String {
         let plan = &self.inner.plan;
-        let (name, plates) = (quoted(&plan.provenance.scenario), counted(plan.order.len(), "plate"));
+        let (name, plates) = (
+            quoted(&plan.provenance.scenario),
+            count_with_noun(plan.order.len(), "plate"),
+        );
         format!("Planned({name}, {plates}, {:.2} s)", plan.duration_s())
     }
 

@@ -363,7 +363,7 @@ pub static SHIPPED: &[ShippedScenario] = &[
 ];
 
 /// A path with U+FFFD in place of bytes that are not UTF-8.
-pub(crate) fn lossy<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn serialize_lossy<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
     path.as_ref().map(|p| p.to_string_lossy()).serialize(serializer)
 }
 

@@ -214,7 +214,7 @@ impl Scenario {
         watch: &Watch<'_>,
         search_time: Duration,
     ) -> Result<Remedies, Cancelled> {
-        self.try_each(arm, pointed_to(error), watch, search_time)
+        self.try_each(arm, keys_of_cause(error), watch, search_time)
     }
 
     /// Keys with which the plan would be proved, where it is not.
@@ -247,7 +247,7 @@ impl Scenario {
         let is_over = CancelToken::new();
         let deadline = Deadline::following(search_time, &is_over, watch.cancel);
         let silent = Watch::silent(&is_over);
-        let tried: Vec<TriedKey> = pointed_to.into_iter().filter(|tried| self.decides(*tried)).collect();
+        let tried: Vec<TriedKey> = pointed_to.into_iter().filter(|tried| self.has_effect(*tried)).collect();
         let found: Vec<_> = tried
             .par_iter()
             .with_max_len(1)
@@ -268,7 +268,7 @@ impl Scenario {
     }
 
     /// Returns true where a key has an effect in this scenario.
-    fn decides(&self, tried: TriedKey) -> bool {
+    fn has_effect(&self, tried: TriedKey) -> bool {
         match tried {
             TriedKey::Number(grid) => (grid.get)(self).is_some(),
             TriedKey::Home(End::Start) => self.robot.start_deg.is_some(),
@@ -367,7 +367,7 @@ fn least_steps(trial: impl Fn(i32) -> Trial) -> Option<(Trial, i32)> {
 }
 
 /// The keys that a cause points to, each once; that asks for less clearance comes last.
-fn pointed_to(error: &PlanError) -> Vec<TriedKey> {
+fn keys_of_cause(error: &PlanError) -> Vec<TriedKey> {
     use TriedKey::{Home, Number};
     let mut all: Vec<TriedKey> = match error {
         PlanError::Unwashable(plate) => {

@@ -93,10 +93,14 @@ fn the_force_on_an_upright_sponge_agrees_with_hand_calculation() {
     let by_hand = cell.model.torque_of_force(&q, &tip, &Vector3::new(0.0, 0.0, force));
     assert!((push.torque - by_hand).amax() < 1e-6, "{} {by_hand}", push.torque);
     // Half a plate's height error is half a millimetre times 1.57 N/mm.
-    let higher = cell.sponge.felt(&cell.model, &q, 0, 0.001).force_n;
+    let higher = cell.sponge.load_at_rest(&cell.model, &q, 0, 0.001).force_n;
     assert!((higher - force * 1.2).abs() < 1e-6);
-    assert_eq!(cell.sponge.felt(&cell.model, &q, 0, -0.0051).force_n, 0.0);
-    assert_eq!(cell.sponge.felt(&cell.model, &q, 7, 0.0).force_n, 0.0, "no such plate");
+    assert_eq!(cell.sponge.load_at_rest(&cell.model, &q, 0, -0.0051).force_n, 0.0);
+    assert_eq!(
+        cell.sponge.load_at_rest(&cell.model, &q, 7, 0.0).force_n,
+        0.0,
+        "no such plate"
+    );
 }
 
 #[test]

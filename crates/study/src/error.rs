@@ -94,7 +94,7 @@ impl StudyError {
     }
 
     /// A file of a study's folder that is not as this program writes it.
-    pub(crate) fn kept(file: &Path, line: Option<usize>, problem: String) -> Self {
+    pub(crate) fn damaged_file(file: &Path, line: Option<usize>, problem: String) -> Self {
         Self::Kept {
             file: file.to_owned(),
             line,

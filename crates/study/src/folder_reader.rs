@@ -30,7 +30,7 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
         &file,
         "cannot be read, so that this is no study's folder",
     ))?;
-    let wrong = |problem: String| Err(StudyError::kept(&file, None, problem));
+    let wrong = |problem: String| Err(StudyError::damaged_file(&file, None, problem));
     let manifest: Manifest = match json::read(&text) {
         Ok(manifest) => manifest,
         Err(error) => return wrong(format!("is no manifest: {error}")),
@@ -61,7 +61,7 @@ pub(crate) fn rows(folder: &Path, manifest: &Manifest, mut each: impl FnMut(u64,
 ///
 /// # Errors
 /// [`StudyError`]: no study, or rows that are none.
-pub fn counted(folder: &Path) -> Result<(u64, u64), StudyError> {
+pub fn count_rows(folder: &Path) -> Result<(u64, u64), StudyError> {
     let (manifest, mut done) = (read_manifest(folder)?, 0);
     if manifest.rows_sha256.is_some() {
         return Ok((manifest.rows, manifest.rows));
@@ -131,7 +131,7 @@ pub(crate) fn check_unchanged(folder: &Path, manifest: &Manifest) -> Result<Plac
         let problem = format!(
             "the rows were changed since the study was finished: their SHA-256 is {found}, {MANIFEST} states {stated}"
         );
-        return Err(StudyError::kept(&folder.join(ROWS), None, problem));
+        return Err(StudyError::damaged_file(&folder.join(ROWS), None, problem));
     }
     Ok(places)
 }
@@ -168,7 +168,7 @@ pub(crate) fn each_row(
     let (mut number, mut seen) = (0, vec![false; rows as usize]);
     let whole = lines::read(path, file, |at, line| {
         number += 1;
-        let wrong = |problem: String| Err(StudyError::kept(path, Some(number), problem));
+        let wrong = |problem: String| Err(StudyError::damaged_file(path, Some(number), problem));
         let row: Row = match serde_json::from_slice(line) {
             Ok(row) => row,
             Err(error) => return wrong(format!("is no row: {error}")),

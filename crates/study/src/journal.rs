@@ -78,7 +78,7 @@ impl Journal {
                 "line {line}: row {} with key {} is none of this study",
                 row.index, row.key
             );
-            Err(StudyError::kept(&path, Some(line), problem))
+            Err(StudyError::damaged_file(&path, Some(line), problem))
         })?;
         let timings = lines::open(&timed)?;
         let timings_whole = lines::read(&timed, &timings, |_, _| Ok(()))?;
@@ -160,7 +160,7 @@ impl Journal {
             let problem = format!(
                 "has {count} rows, though {written} were written: somebody else has changed it; the same command makes those that are gone"
             );
-            return Err(StudyError::kept(&self.folder.join(ROWS), None, problem));
+            return Err(StudyError::damaged_file(&self.folder.join(ROWS), None, problem));
         }
         self.manifest.rows_sha256 = Some(sha256);
         self.manifest.write(&self.folder)?;
@@ -215,7 +215,7 @@ fn kept_manifest(folder: &Path, study: &Study) -> Result<Option<Manifest>, Study
         let file = folder.join(name);
         if fs::read(&file).is_ok_and(|found| found != own.as_bytes()) {
             let problem = format!("is there, and no {MANIFEST} beside it says of which study; give another folder");
-            return Err(StudyError::kept(&file, None, problem));
+            return Err(StudyError::damaged_file(&file, None, problem));
         }
     }
     Ok(None)

@@ -19,7 +19,7 @@ mod summary;
 
 pub use axis::{Axis, AxisKind};
 pub use error::StudyError;
-pub use folder_reader::{Places, check, counted, export, read_manifest};
+pub use folder_reader::{Places, check, count_rows, export, read_manifest};
 pub use journal::Journal;
 pub use manifest::{Manifest, ManifestAxis, ManifestFile, ManifestScenario};
 pub use resolve::{Resolver, judged};

@@ -118,8 +118,8 @@ impl Manifest {
     /// Writes it to a folder, whole.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), StudyError> {
         let path = folder.join(MANIFEST);
-        let text =
-            serde_json::to_string_pretty(self).map_err(|error| StudyError::kept(&path, None, error.to_string()))?;
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|error| StudyError::damaged_file(&path, None, error.to_string()))?;
         write_whole(&path, format!("{text}\n").as_bytes())
     }
 

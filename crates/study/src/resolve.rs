@@ -88,15 +88,15 @@ impl Resolver {
             .arm(&scenario)
             .and_then(|arm| (self.judge)(&scenario, &arm, cancel));
         match judged {
-            Ok((planned, certificate)) => Some(self.made(row.planned(&planned, &certificate), &planned)),
+            Ok((planned, certificate)) => Some(self.row_with_plan(row.planned(&planned, &certificate), &planned)),
             Err(error) if error.is_cancelled() => None,
             Err(error) => Some(row.failed(&error).into()),
         }
     }
 
     /// A row with its plan, where the study keeps it.
-    fn made(&self, row: Row, planned: &PlannedJob) -> RowWithPlan {
-        if !self.study.plans.wants(&row) {
+    fn row_with_plan(&self, row: Row, planned: &PlannedJob) -> RowWithPlan {
+        if !self.study.plans.keeps_plan_of(&row) {
             return row.into();
         }
         match planned.plan.to_json() {

@@ -252,7 +252,7 @@ pub enum PlanChoice {
 impl PlanChoice {
     /// Checks that the plan of a row is kept; a row without a plan has none to keep.
     #[must_use]
-    pub fn wants(self, row: &Row) -> bool {
+    pub fn keeps_plan_of(self, row: &Row) -> bool {
         row.plan.is_some()
             && match self {
                 Self::None => false,
@@ -267,7 +267,7 @@ impl PlanChoice {
 pub struct RowWithPlan {
     /// Result of the scenario.
     pub row: Row,
-    /// The plan's file, as `run` writes `plan.json`; there exactly where [`PlanChoice::wants`](crate::PlanChoice::wants) it.
+    /// The plan's file, as `run` writes `plan.json`; there exactly where [`PlanChoice::keeps_plan_of`](crate::PlanChoice::keeps_plan_of) it.
     pub plan: Option<Vec<u8>>,
 }
 

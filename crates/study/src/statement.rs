@@ -102,16 +102,16 @@ impl Source<'_> {
         let stated: Statement = toml::from_str(self.text).map_err(|error| {
             let key = error.span().and_then(|span| self.key_at(span.start));
             let key = key.filter(|key| !error.message().contains(key)).unwrap_or_default();
-            self.wrong(error.span(), &message_in_words(key, error.message()))
+            self.error_at(error.span(), &message_in_words(key, error.message()))
         })?;
         let (format, name) = (stated.format.get_ref(), stated.name.get_ref());
         if format != FORMAT {
             let problem = format!("format must be \"{FORMAT}\"; found {format:?}");
-            return Err(self.wrong(Some(stated.format.span()), &problem));
+            return Err(self.error_at(Some(stated.format.span()), &problem));
         }
         if name.trim().is_empty() || name.chars().any(char::is_control) {
             let problem = format!("name must be a line of text; found {name:?}");
-            return Err(self.wrong(Some(stated.name.span()), &problem));
+            return Err(self.error_at(Some(stated.name.span()), &problem));
         }
         Ok(stated)
     }
@@ -123,7 +123,7 @@ impl Source<'_> {
     }
 
     /// An error at a stretch of the text; its words become one line.
-    pub fn wrong(&self, span: Option<Range<usize>>, problem: &str) -> StudyError {
+    pub fn error_at(&self, span: Option<Range<usize>>, problem: &str) -> StudyError {
         let line = span.map(|span| 1 + self.text.bytes().take(span.start).filter(|b| *b == b'\n').count());
         StudyError::File {
             file: self.file.to_owned(),
@@ -134,7 +134,7 @@ impl Source<'_> {
 
     /// The scenarios that rows begin from, read; those that are files are relative to the folder.
     pub fn bases(&self, stated: &Spanned<OneOrMore>, folder: &Path) -> Result<Vec<Base>, StudyError> {
-        let wrong = |problem: String| self.wrong(Some(stated.span()), &format!("scenario: {problem}"));
+        let wrong = |problem: String| self.error_at(Some(stated.span()), &format!("scenario: {problem}"));
         if stated.get_ref().all().is_empty() {
             return Err(wrong("the list is empty".to_owned()));
         }
@@ -161,7 +161,7 @@ impl Source<'_> {
     /// The study of these scenarios, without the files that its rows name.
     pub fn study(&self, stated: Statement, bases: Vec<Base>) -> Result<Study, StudyError> {
         if let Some(rows) = &stated.rows {
-            let wrong = |problem: &str| Err(self.wrong(Some(rows.span()), &format!("rows: {problem}")));
+            let wrong = |problem: &str| Err(self.error_at(Some(rows.span()), &format!("rows: {problem}")));
             if stated.axis.is_some() {
                 return wrong("a study has [[axis]] sections, which multiply, or [[rows]], which do not; found both");
             }
@@ -171,10 +171,10 @@ impl Source<'_> {
         }
         if let Some(axis) = stated.axis.as_ref().filter(|axis| axis.get_ref().is_empty()) {
             let problem = "axis: the list is empty; leave it out for a study of one row a scenario";
-            return Err(self.wrong(Some(axis.span()), problem));
+            return Err(self.error_at(Some(axis.span()), problem));
         }
         let axes = self.axes(stated.axis.map(Spanned::into_inner).unwrap_or_default(), &bases)?;
-        let listed = self.listed(stated.rows.map(Spanned::into_inner).unwrap_or_default(), &bases)?;
+        let listed = self.listed_rows(stated.rows.map(Spanned::into_inner).unwrap_or_default(), &bases)?;
         let mut study = Study {
             name: stated.name.into_inner(),
             file: self.file.to_owned(),
@@ -186,9 +186,9 @@ impl Source<'_> {
             listed,
             rows: 0,
         };
-        let Some(rows) = study.counted().filter(|rows| *rows <= MOST_ROWS) else {
+        let Some(rows) = study.row_count().filter(|rows| *rows <= MOST_ROWS) else {
             let problem = format!("axis: the study has more than {MOST_ROWS} rows, which is the most");
-            return Err(self.wrong(None, &problem));
+            return Err(self.error_at(None, &problem));
         };
         study.rows = rows;
         Ok(study)
@@ -199,7 +199,7 @@ impl Source<'_> {
         for axis in stated {
             let (whole, span) = (axis.span(), axis.get_ref().key.span());
             let axis = self.axis(whole, axis.into_inner())?;
-            let wrong = |problem: &str| self.wrong(Some(span.clone()), problem);
+            let wrong = |problem: &str| self.error_at(Some(span.clone()), problem);
             if axes.iter().any(|other| other.key == axis.key) {
                 return Err(wrong(&format!("key: there is an axis of {} before", axis.key)));
             }
@@ -221,7 +221,7 @@ impl Source<'_> {
         let key = stated.key.into_inner();
         let (span, listed) = match (stated.values, stated.range, stated.seeds) {
             (Some(values), None, None) => {
-                let wrong = |problem: &str| self.wrong(Some(values.span()), &format!("values of {key}: {problem}"));
+                let wrong = |problem: &str| self.error_at(Some(values.span()), &format!("values of {key}: {problem}"));
                 if values.get_ref().is_empty() || values.get_ref().len() > MOST_LISTED {
                     return Err(wrong(&format!("must be from 1 to {MOST_LISTED} of them")));
                 }
@@ -237,36 +237,37 @@ impl Source<'_> {
                         "range of {key}: must be [from, to, count], two finite numbers that differ and from 2 to {MOST_LISTED} values; found [{:.80}]",
                         found.join(", ")
                     );
-                    self.wrong(Some(range.span()), &problem)
+                    self.error_at(Some(range.span()), &problem)
                 })?;
                 (range.span(), listed)
             }
             (None, None, Some(seeds)) => {
                 let values = seeds_of(seeds.get_ref(), &key);
-                let values = values.map_err(|problem| self.wrong(Some(seeds.span()), &format!("seeds: {problem}")))?;
+                let values =
+                    values.map_err(|problem| self.error_at(Some(seeds.span()), &format!("seeds: {problem}")))?;
                 return Ok(Axis { key, values });
             }
             _ => {
                 let problem = format!("axis of {key}: needs one of values, range and seeds");
-                return Err(self.wrong(Some(whole), &problem));
+                return Err(self.error_at(Some(whole), &problem));
             }
         };
         let mut seen = BTreeSet::new();
         if let Some(twice) = listed.iter().find(|value| !seen.insert(canonical(value))) {
-            return Err(self.wrong(Some(span), &format!("values of {key}: {twice} is there twice")));
+            return Err(self.error_at(Some(span), &format!("values of {key}: {twice} is there twice")));
         }
         let values = Values::Listed(listed);
         Ok(Axis { key, values })
     }
 
-    fn listed(
+    fn listed_rows(
         &self,
         stated: Vec<Spanned<toml::Table>>,
         bases: &[Base],
     ) -> Result<Vec<BTreeMap<String, Value>>, StudyError> {
         let (mut listed, mut seen) = (Vec::new(), BTreeSet::new());
         for row in stated {
-            let wrong = |problem: &str| self.wrong(Some(row.span()), problem);
+            let wrong = |problem: &str| self.error_at(Some(row.span()), problem);
             let row = flat(row.get_ref()).map_err(|problem| wrong(&problem))?;
             let first: &BTreeMap<_, _> = listed.first().unwrap_or(&row);
             if row.is_empty() || !row.keys().eq(first.keys()) {

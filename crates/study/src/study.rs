@@ -161,10 +161,10 @@ impl Study {
         let file = folder.join(PARTS);
         let text = fs::read_to_string(&file).map_err(StudyError::disk(&file, "cannot be read"))?;
         let study = StudyParts::from_json(&text).and_then(Self::from_parts);
-        let study = study.map_err(|error| StudyError::kept(&file, None, error.to_string()))?;
+        let study = study.map_err(|error| StudyError::damaged_file(&file, None, error.to_string()))?;
         match manifest.difference(&Manifest::of(&study)) {
             None => Ok(study),
-            Some((what, stated, found)) => Err(StudyError::kept(
+            Some((what, stated, found)) => Err(StudyError::damaged_file(
                 &file,
                 None,
                 format!("is not the study that the manifest is of: {what} is {stated} there and {found} here"),
@@ -231,11 +231,11 @@ impl Study {
             let named = row.iter().filter(|(key, _)| Draft::names_files(key));
             seen.insert(named.map(|(_, value)| canonical(value)).collect::<Vec<_>>())
         });
-        few.rows = few.counted().unwrap_or(u64::MAX);
+        few.rows = few.row_count().unwrap_or(u64::MAX);
         if few.rows / few.bases.len() as u64 > MOST_COMBINATIONS {
             let problem =
                 format!("rows name more than {MOST_COMBINATIONS} combinations of files, which are read beforehand");
-            return Err(from.wrong(None, &problem));
+            return Err(from.error_at(None, &problem));
         }
         let files = Files::recording();
         for index in 0..few.rows {
@@ -248,12 +248,12 @@ impl Study {
         }
         files.recorded().map_err(|(path, why)| {
             let problem = format!("{}, which it names, cannot be read: {why}", path.display());
-            from.wrong(None, &problem)
+            from.error_at(None, &problem)
         })
     }
 
     /// Number of rows that its scenarios, axes and listed rows make; `None` where it overflows.
-    pub(crate) fn counted(&self) -> Option<u64> {
+    pub(crate) fn row_count(&self) -> Option<u64> {
         let counts = [self.bases.len() as u64, self.listed.len().max(1) as u64];
         let counts = counts.into_iter().chain(self.axes.iter().map(Axis::count));
         counts.into_iter().try_fold(1, u64::checked_mul)
@@ -304,7 +304,7 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError::Sent`]: it is no row of this study.
-    pub fn received(&self, line: &[u8]) -> Result<Row, StudyError> {
+    pub fn parse_row(&self, line: &[u8]) -> Result<Row, StudyError> {
         let row: Row = serde_json::from_slice(line).map_err(|error| StudyError::sent(&error))?;
         if !self.row(row.index).is_ok_and(|address| address.key == row.key) {
             let problem = format!("row {} with key {} is none of this study", row.index, row.key);

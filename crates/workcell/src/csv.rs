@@ -296,7 +296,7 @@ mod tests {
         format!("{}{torques}\n{}\n", HEADER, rows.join("\n"))
     }
 
-    fn said(text: &str) -> String {
+    fn error_text(text: &str) -> String {
         RecordedMotion::from_csv(text).unwrap_err().to_string()
     }
 
@@ -375,7 +375,7 @@ mod tests {
             (HEADER.to_owned() + TORQUES + ",more\n", "column \"more\" is unknown"),
         ];
         for (text, words) in cases {
-            assert!(said(&text).contains(words), "{words}: {}", said(&text));
+            assert!(error_text(&text).contains(words), "{words}: {}", error_text(&text));
         }
     }
 
@@ -385,7 +385,7 @@ mod tests {
             &[row("0", true).replace(",12,", &format!(",\u{1b}[2J{},", "x".repeat(10_000)))],
             true,
         );
-        let said = said(&text);
+        let said = error_text(&text);
         assert!(said.len() < 200 && !said.contains('\u{1b}'), "{said}");
     }
 

@@ -67,8 +67,8 @@ impl DifferenceList {
             _ if found == expected && !found.is_some_and(Value::is_number) => {}
             _ => self.all.push(Difference {
                 key: key.to_owned(),
-                found: said(found),
-                expected: said(expected),
+                found: value_text(found),
+                expected: value_text(expected),
             }),
         }
     }
@@ -123,7 +123,7 @@ fn same(found: &Number, expected: &Number) -> bool {
 }
 
 /// Returns the beginning of a value.
-fn said(value: Option<&Value>) -> String {
+fn value_text(value: Option<&Value>) -> String {
     shortened(&value.map_or_else(|| NOTHING.to_owned(), Value::to_string), LONGEST)
 }
 

@@ -99,7 +99,7 @@ impl DryRun {
 
     /// Returns a real plate as an obstacle.
     #[must_use]
-    pub fn standing(index: usize, real: &Plate) -> Obstacle {
+    pub fn plate_as_obstacle(index: usize, real: &Plate) -> Obstacle {
         let (shape, pose) = real.enclosure();
         Obstacle::new(&Self::real_name(index), ObstacleShape::Convex(shape), pose)
     }
@@ -288,7 +288,7 @@ fn workcell(job: &JobTerms, arm: &RobotModel) -> Result<Workcell, DryRunError> {
     }
     let mut obstacles = world.obstacles.clone();
     let standing = job.plates.iter().enumerate();
-    obstacles.extend(standing.map(|(i, plate)| DryRun::standing(i, plate)));
+    obstacles.extend(standing.map(|(i, plate)| DryRun::plate_as_obstacle(i, plate)));
     let before = clearance::exclusions(arm, &world.tool, &world.obstacles)?;
     let mut exclusions = clearance::exclusions(arm, &world.tool, &obstacles)?;
     let others = world.exclusions.iter().filter(|stated| !before.contains(stated));

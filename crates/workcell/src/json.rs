@@ -20,12 +20,12 @@ pub struct JsonError {
 pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     let text = without_mark(text);
     serde_json::from_str(text).map_err(|error| JsonError {
-        reason: words(text, &error),
+        reason: error_text(text, &error),
     })
 }
 
 /// Describes an error with its position.
-fn words(text: &str, error: &serde_json::Error) -> String {
+fn error_text(text: &str, error: &serde_json::Error) -> String {
     let at = format!("line {}, column {}", error.line(), error.column());
     let whole = error.to_string();
     let message = whole.split_once(" at line ").map_or(&*whole, |(message, _)| message);

@@ -1,6 +1,6 @@
 //! Tables of numbers as text: a header with a unit in each name, then a row a line, commas between columns.
 
-use crate::words::{counted, quoted, shortened, without_mark};
+use crate::words::{count_with_noun, quoted, shortened, without_mark};
 
 /// Longest text of a cell that a message repeats, in characters.
 const LONGEST: usize = 40;
@@ -152,7 +152,7 @@ impl<'a> NumberTable<'a> {
                 *line,
                 format!(
                     "it has more than {}, the most that are read",
-                    counted(shape.most_rows, "row")
+                    count_with_noun(shape.most_rows, "row")
                 ),
             ),
             None => Ok(Self {
@@ -187,7 +187,7 @@ impl<'a> NumberTable<'a> {
             let cells: Vec<&str> = text.split(',').map(str::trim).collect();
             let (found, expected) = (cells.len(), self.names.len());
             if found != expected {
-                let found = counted(found, "column");
+                let found = count_with_noun(found, "column");
                 let reason =
                     format!("found {found}; expected {expected}, as the header has; decimals take a point, as commas separate columns");
                 return refused(*line, reason);

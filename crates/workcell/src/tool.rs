@@ -230,12 +230,12 @@ impl Tool {
         robot.tool_mount(self.mounted_on.as_deref()).map(drop)
     }
 
-    /// Returns the frame that carries the tool, z out of the arm; [`Frame::nowhere`] on an arm that [`Self::check_mount`] refuses.
+    /// Returns the frame that carries the tool, z out of the arm; [`Frame::invalid`] on an arm that [`Self::check_mount`] refuses.
     #[must_use]
     pub fn mounting_frame(&self, robot: &RobotModel) -> Frame {
         robot
             .tool_mount(self.mounted_on.as_deref())
-            .unwrap_or_else(|_| Frame::nowhere())
+            .unwrap_or_else(|_| Frame::invalid())
     }
 
     /// Returns the frame of the tip on an arm.

@@ -125,7 +125,7 @@ mod tests {
         Shape::Hull { points }
     }
 
-    fn near(a: &UniformBody, b: &UniformBody, part: f64) -> bool {
+    fn are_close(a: &UniformBody, b: &UniformBody, part: f64) -> bool {
         let size = b.inertia_m5.norm();
         (a.volume_m3 - b.volume_m3).abs() <= part * b.volume_m3
             && (a.centre_m - b.centre_m).norm() <= part * b.volume_m3.cbrt()
@@ -142,7 +142,7 @@ mod tests {
             let points = (0..8).map(corner).collect();
             let hull = UniformBody::of(&Shape::Hull { points }).unwrap();
             let expected = UniformBody::of(&Shape::Box { half_m: half }).unwrap().placed(&pose);
-            prop_assert!(near(&hull, &expected, 1e-9), "{hull:?} {expected:?}");
+            prop_assert!(are_close(&hull, &expected, 1e-9), "{hull:?} {expected:?}");
         }
 
         /// Sums over a fine grid of points.
@@ -170,7 +170,7 @@ mod tests {
             }
             let expected = centred(volume, [across, across, along]);
             let found = UniformBody::of(&shape).unwrap();
-            prop_assert!(near(&found, &expected, 0.01), "{found:?} {expected:?}");
+            prop_assert!(are_close(&found, &expected, 0.01), "{found:?} {expected:?}");
         }
     }
 
@@ -181,7 +181,7 @@ mod tests {
             half_length_m: 0.07,
         };
         let [hull, round] = [prism(400, 0.02, 0.07), cylinder].map(|shape| UniformBody::of(&shape).unwrap());
-        assert!(near(&hull, &round, 1e-3), "{hull:?} {round:?}");
+        assert!(are_close(&hull, &round, 1e-3), "{hull:?} {round:?}");
     }
 
     #[test]

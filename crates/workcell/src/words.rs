@@ -10,7 +10,7 @@ pub fn without_mark(text: &str) -> &str {
 
 /// A number of things: `1 plate`, `4 plates`.
 #[must_use]
-pub fn counted(count: usize, noun: &str) -> String {
+pub fn count_with_noun(count: usize, noun: &str) -> String {
     let ending = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{ending}")
 }
@@ -18,7 +18,7 @@ pub fn counted(count: usize, noun: &str) -> String {
 /// A part of some things: `0 of 1 plate`, `1 of 4 plates`.
 #[must_use]
 pub fn part_of(part: usize, count: usize, noun: &str) -> String {
-    format!("{part} of {}", counted(count, noun))
+    format!("{part} of {}", count_with_noun(count, noun))
 }
 
 /// A length in millimetres, to a tenth: `-90.0 mm`.
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn one_is_singular_and_any_other_number_plural() {
         assert_eq!(
-            [0, 1, 2].map(|n| counted(n, "plate")),
+            [0, 1, 2].map(|n| count_with_noun(n, "plate")),
             ["0 plates", "1 plate", "2 plates"]
         );
         assert_eq!(part_of(1, 1, "plate"), "1 of 1 plate");

@@ -61,7 +61,7 @@ impl Exclusions {
         let stated = &subject.job.workcell.exclusions;
         let missing = self.own.iter().filter(|own| !stated.contains(own));
         wrong.extend(missing.map(|own| {
-            let what = format!("exclusion of {}", told(own));
+            let what = format!("exclusion of {}", exclusion_text(own));
             Discrepancy::new(
                 what,
                 "not stated",
@@ -71,7 +71,7 @@ impl Exclusions {
         let pairs = model.pair_names();
         let unknown = self.waived.iter().filter(|e| !pairs.iter().any(|pair| names(e, *pair)));
         wrong.extend(unknown.map(|other| {
-            let what = format!("exclusion of {}", told(other));
+            let what = format!("exclusion of {}", exclusion_text(other));
             Discrepancy::new(
                 what,
                 "stated",
@@ -138,7 +138,7 @@ fn names(exclusion: &Exclusion, (a, b): (&str, &str)) -> bool {
     (x, y) == (a, b) || (x, y) == (b, a)
 }
 
-fn told(exclusion: &Exclusion) -> String {
+fn exclusion_text(exclusion: &Exclusion) -> String {
     let [a, b] = &exclusion.pair;
     format!("{a:?} and {b:?}")
 }

@@ -38,7 +38,7 @@ pub(crate) fn far(
             };
             let all: Vec<_> = (0..part.obstacle_count()).collect();
             for interval in timeline.cover(&(0..timeline.count())) {
-                sweep.look(&interval, &all);
+                sweep.bound_obstacles(&interval, &all);
             }
             sweep.bounds
         })
@@ -69,7 +69,7 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// Bounds the distance of some obstacles over an interval.
-    fn look(&mut self, interval: &Interval, obstacles: &[usize]) {
+    fn bound_obstacles(&mut self, interval: &Interval, obstacles: &[usize]) {
         let (_, q) = self.timeline.middle(interval);
         let poses = self.robot.fk(&q);
         let displaced_m = self.part.displaced(&poses, &self.timeline.extent(interval).drift(&q));
@@ -92,7 +92,9 @@ impl Sweep<'_> {
             return;
         }
         match self.timeline.halves(interval) {
-            Some(halves) if !self.cancel.is_cancelled() => halves.iter().for_each(|half| self.look(half, &open)),
+            Some(halves) if !self.cancel.is_cancelled() => {
+                halves.iter().for_each(|half| self.bound_obstacles(half, &open))
+            }
             _ => open.into_iter().for_each(|obstacle| self.bounds[obstacle] = None),
         }
     }

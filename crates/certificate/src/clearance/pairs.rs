@@ -130,7 +130,7 @@ pub(crate) fn judge(
         .filter(|(_, task)| beside(task))
         .for_each(|(found, task)| {
             *found = match far.get(&task.pair) {
-                Some(at_least_m) => Some(PairDistance::never_nearer(*at_least_m)),
+                Some(at_least_m) => Some(PairDistance::with_bound(*at_least_m)),
                 None => searched(task),
             };
         });

@@ -58,7 +58,7 @@ pub(crate) struct PairDistance {
 
 impl PairDistance {
     /// Returns the result of a pair that is never nearer than `at_least_m` \[m\] and was not examined further.
-    pub fn never_nearer(at_least_m: f64) -> Self {
+    pub fn with_bound(at_least_m: f64) -> Self {
         Self {
             at_least_m,
             seen_m: f64::INFINITY,
@@ -192,18 +192,18 @@ impl<'a> Search<'a> {
             cancel,
             open: BinaryHeap::new(),
             looked_at: 0,
-            found: PairDistance::never_nearer(f64::INFINITY),
+            found: PairDistance::with_bound(f64::INFINITY),
         };
         for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
             for part in parts.outermost() {
-                search.look(part, interval, f64::NEG_INFINITY, NO_NORMAL);
+                search.bound_interval(part, interval, f64::NEG_INFINITY, NO_NORMAL);
             }
         }
-        search.settle();
+        search.refine();
         search.found
     }
 
-    fn settle(&mut self) {
+    fn refine(&mut self) {
         while let Some(worst) = self.open.pop() {
             if self.cancel.is_cancelled() {
                 self.found.at_least_m = f64::NEG_INFINITY;
@@ -223,7 +223,7 @@ impl<'a> Search<'a> {
                 return;
             };
             for half in halves {
-                self.look(worst.part, half, worst.bound, worst.normal);
+                self.bound_interval(worst.part, half, worst.bound, worst.normal);
             }
         }
     }
@@ -247,7 +247,7 @@ impl<'a> Search<'a> {
     }
 
     /// Bounds an interval. `inherited` and `normal` are the bound and the direction of an interval around it.
-    fn look(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
+    fn bound_interval(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
         self.looked_at += 1;
         let Some(pair) = self.parts.get(part) else { return };
         let (bound, normal) = self.bound(part, pair, &interval, normal);

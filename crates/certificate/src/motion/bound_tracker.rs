@@ -89,7 +89,7 @@ impl BoundTracker {
     }
 
     /// True if a bound is within the limit.
-    pub fn keeps(&self, bound: f64) -> bool {
+    pub fn is_within_limit(&self, bound: f64) -> bool {
         bound <= self.limit + ROUNDING * self.limit.abs()
     }
 

@@ -116,7 +116,7 @@ impl Piece {
     }
 
     /// Checks that a joint's coefficients are so small that their squares are finite.
-    pub fn is_sane(&self, joint: usize) -> bool {
+    pub fn has_finite_squares(&self, joint: usize) -> bool {
         self.c.iter().all(|c| c[joint].abs() < 1e100)
     }
 

@@ -52,7 +52,7 @@ impl<'a> Timeline<'a> {
     }
 
     /// Bounds over the whole motion.
-    pub fn whole(&self) -> Option<&Extent> {
+    pub fn whole_extent(&self) -> Option<&Extent> {
         self.groups.first()
     }
 

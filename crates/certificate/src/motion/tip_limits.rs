@@ -85,7 +85,7 @@ impl Tips {
             if !face.surface().is_flat() {
                 // No limit is asked of it.
                 let tracker = BoundTracker::new(1.0, TILT_RESOLUTION);
-                let upright = TiltNormal::Fixed(*face.upright());
+                let upright = TiltNormal::Fixed(*face.plate_axis());
                 tips.upright.push((i, tilted(arm, tracker, of(span), &face, upright)));
             }
             if span.kind == SegmentKind::Wash {
@@ -147,7 +147,7 @@ impl Tips {
     /// Checks speed and acceleration while the tip does not wash.
     pub fn moving_checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
         let (limits, [speed, acceleration]) = (&subject.limits, &self.moving);
-        let at = |tracker: &BoundTracker| worst(tracker, pieces, schedule);
+        let at = |tracker: &BoundTracker| worst_case(tracker, pieces, schedule);
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
         let (v, a) = (limits.tip_speed_m_s, limits.tip_acceleration_m_s2);
         [
@@ -160,7 +160,7 @@ impl Tips {
     pub fn checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Check> {
         let limits = &subject.limits;
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
-        let at = |tracker: &BoundTracker| worst(tracker, pieces, schedule);
+        let at = |tracker: &BoundTracker| worst_case(tracker, pieces, schedule);
         let mut all = Vec::from(self.moving_checks(subject, pieces, schedule));
         let rest = [
             Requirement::WashSpeed,
@@ -214,7 +214,7 @@ pub(crate) fn check(
 }
 
 /// Returns position and time of the worst value of a tracked quantity.
-pub(crate) fn worst(tracker: &BoundTracker, pieces: &[Piece], schedule: Option<&Schedule>) -> WorstCase {
+pub(crate) fn worst_case(tracker: &BoundTracker, pieces: &[Piece], schedule: Option<&Schedule>) -> WorstCase {
     match schedule {
         Some(schedule) => in_segment(tracker, pieces, schedule),
         None => WorstCase {
@@ -260,7 +260,7 @@ fn cosine(sine: f64) -> f64 {
 /// no line, and the face counts.
 fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
     if face.surface().is_flat() {
-        return TiltNormal::Fixed(*face.upright());
+        return TiltNormal::Fixed(*face.plate_axis());
     }
     let feet = || {
         let plate = subject.plates().get(span.plate)?;

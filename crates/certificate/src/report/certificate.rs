@@ -165,16 +165,16 @@ impl World {
     }
 
     /// Transforms the worst positions of checks to the world frame.
-    pub fn tell_checks(&self, checks: &mut [Check]) {
+    pub fn checks_to_world(&self, checks: &mut [Check]) {
         for check in checks {
-            self.tell(check.worst.place_m.as_mut());
+            self.place_to_world(check.worst.place_m.as_mut());
         }
     }
 
     /// Transforms the nearest positions of pairs to the world frame.
     pub fn tell_pairs(&self, pairs: &mut [PairBound]) {
         for pair in pairs {
-            self.tell(pair.place_m.as_mut());
+            self.place_to_world(pair.place_m.as_mut());
         }
     }
 
@@ -182,13 +182,13 @@ impl World {
     pub fn tell_contact(&self, plates: &mut [PlateContact]) {
         for plate in plates {
             for place in plate.places_mut() {
-                self.tell(Some(place));
+                self.place_to_world(Some(place));
             }
         }
     }
 
     /// Transforms a position from the base frame to the world frame \[m\].
-    fn tell(&self, place: Option<&mut [f64; 3]>) {
+    fn place_to_world(&self, place: Option<&mut [f64; 3]>) {
         if let (Some(mount), Some(place)) = (&self.0, place) {
             *place = (mount * Point3::from(*place)).into();
         }

@@ -152,7 +152,7 @@ pub(crate) const ROUNDING: f64 = 1e-9;
 
 impl Measure {
     /// Checks that a value is on the right side of the limit. False for NaN.
-    pub(crate) fn keeps(&self, value: f64) -> bool {
+    pub(crate) fn is_within_limit(&self, value: f64) -> bool {
         let slack = ROUNDING * self.limit.abs().max(1e-3);
         match self.sense {
             Sense::AtMost => value <= self.limit + slack,
@@ -185,7 +185,7 @@ impl Check {
     /// A requirement about a number. It is proved when the bound keeps the limit, violated when a value seen breaks it. A number
     /// that does not occur (no bound, nothing seen) breaks nothing.
     pub(crate) fn measured(requirement: Requirement, measure: Measure, worst: WorstCase) -> Self {
-        let keeps = |value: f64| measure.keeps(value);
+        let keeps = |value: f64| measure.is_within_limit(value);
         let status = match (measure.bound, measure.seen) {
             (Some(bound), _) if keeps(bound) => Status::Proved,
             (_, Some(seen)) if !keeps(seen) => Status::Violated,

@@ -6,11 +6,11 @@
 use crate::report::certificate::{Certificate, Verdict};
 use crate::report::check::{Check, Measure, Sense, Status};
 use crate::report::requirement::Requirement;
-use crate::report::words::{kept, number};
-use platewash_kinematics::words::told_apart;
+use crate::report::words::{number, rounded_bound};
+use platewash_kinematics::words::distinct_decimals;
 use platewash_workcell::job::{ContactRequirements, Requirements};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 
 /// Number of broken requirements that are shown with their numbers.
 const MOST_NUMBERS: usize = 3;
@@ -21,7 +21,7 @@ const NOT_COMPARED: &str = "; not checked: whether it follows the plan that it n
 /// Returns the first line of a plan that is not proved yet.
 #[must_use]
 pub fn planned_headline(plan: &Plan) -> String {
-    let [plates, duration_s] = [counted(plan.order.len(), "plate"), seconds(plan.duration_s())];
+    let [plates, duration_s] = [count_with_noun(plan.order.len(), "plate"), seconds(plan.duration_s())];
     format!("PLANNED, NOT PROVED: {plates} in {duration_s}, from home to home")
 }
 
@@ -36,17 +36,25 @@ pub fn paper_headline(plan: &Plan) -> String {
 
 /// Returns the first line: verdict, share of each plate, clearance, waived requirements and laxer ones.
 pub(crate) fn headline(certificate: &Certificate) -> String {
-    let plates = counted(certificate.rests_on.plates.len(), "plate");
+    let plates = count_with_noun(certificate.rests_on.plates.len(), "plate");
     let subject = format!("{plates} in {}", seconds(certificate.duration_s));
     let judged = match certificate.verdict {
-        Verdict::Pass => format!("PROVED{}: {subject}{}", certificate.but_for(), reached(certificate)),
+        Verdict::Pass => format!(
+            "PROVED{}: {subject}{}",
+            certificate.but_for(),
+            achieved_text(certificate)
+        ),
         Verdict::Fail => format!(
             "NOT PROVED: {subject}; {}{}",
             broken(certificate),
             certificate.and_waived()
         ),
     };
-    let judged = format!("{judged}{}{}", laxer(certificate), certificate.rests_on.without_floor());
+    let judged = format!(
+        "{judged}{}{}",
+        laxer_text(certificate),
+        certificate.rests_on.without_floor()
+    );
     match &certificate.rests_on.dry_run {
         // Before everything else: nobody shall take it for a washing.
         Some(dry_run) => {
@@ -63,7 +71,7 @@ fn seconds(duration_s: f64) -> String {
 }
 
 /// Returns the share of each plate that is pressed, or swept where contact is not required, and the clearance, in words.
-fn reached(certificate: &Certificate) -> String {
+fn achieved_text(certificate: &Certificate) -> String {
     let wanted = &certificate.rests_on.requirements;
     let in_air = certificate.rests_on.dry_run.is_some();
     let (verb, requirement) = match wanted.contact {
@@ -85,7 +93,7 @@ fn reached(certificate: &Certificate) -> String {
 /// Formats a lower bound with its requirement: "at least 99.8 % (99.5 % required)".
 fn at_least(measure: &Measure) -> Option<String> {
     let (scale, unit) = measure.unit.scale();
-    let reached = kept(measure, measure.bound?, 1);
+    let reached = rounded_bound(measure, measure.bound?, 1);
     let at_least = if reached == "100" { "" } else { "at least " };
     Some(format!(
         "{at_least}{reached} {unit} ({} {unit} required)",
@@ -93,7 +101,7 @@ fn at_least(measure: &Measure) -> Option<String> {
     ))
 }
 
-fn laxer(certificate: &Certificate) -> String {
+fn laxer_text(certificate: &Certificate) -> String {
     let laxer = laxer_requirements(&certificate.rests_on.requirements);
     if laxer.is_empty() {
         laxer.concat()
@@ -143,7 +151,7 @@ fn shortfall(check: &Check) -> String {
     };
     match value {
         Some(value) => {
-            let [value, limit] = told_apart(value * scale, measure.limit * scale, 1);
+            let [value, limit] = distinct_decimals(value * scale, measure.limit * scale, 1);
             format!("{name} {value} {unit} ({side} {limit} {unit} required)")
         }
         None => format!("{name} ({side} {} {unit} required)", number(measure.limit * scale)),
@@ -200,7 +208,7 @@ fn cases(check: &Check) -> String {
     let first = format!("{name}, {} {}", first.what, first.stated);
     match others.len() + check.more_discrepancies {
         0 => first,
-        more => format!("{first} and {}", counted(more, "more case")),
+        more => format!("{first} and {}", count_with_noun(more, "more case")),
     }
 }
 

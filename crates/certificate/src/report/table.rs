@@ -4,11 +4,11 @@ use crate::clearance::pairs::{PairBound, PairRule};
 use crate::report::certificate::Certificate;
 use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::report::words::{decimals, kept, number};
+use crate::report::words::{decimals, number, rounded_bound};
 use crate::washing::contact::{PlateContact, ProvedShare};
 use crate::washing::coverage::PlateCoverage;
 use platewash_kinematics::trig::acos;
-use platewash_kinematics::words::{decimals_down, decimals_up, percent, told_apart};
+use platewash_kinematics::words::{decimals_down, decimals_up, distinct_decimals, percent};
 use platewash_workcell::words::{printable, quoted};
 use std::fmt;
 
@@ -128,7 +128,7 @@ fn pairs(f: &mut impl fmt::Write, all: &[PairBound]) -> fmt::Result {
 }
 
 fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
-    let (name, status) = (check.requirement.words(), word(check.status));
+    let (name, status) = (check.requirement.words(), status_word(check.status));
     let place = place(&check.worst);
     match &check.measure {
         Some(measure) => {
@@ -151,7 +151,7 @@ fn row(f: &mut impl fmt::Write, check: &Check) -> fmt::Result {
 fn found(check: &Check) -> Option<String> {
     let measure = check.measure.as_ref().filter(|_| check.status != Status::Proved)?;
     let (scale, unit) = measure.unit.scale();
-    let [seen, _] = told_apart(measure.seen? * scale, measure.limit * scale, decimals(measure.unit));
+    let [seen, _] = distinct_decimals(measure.seen? * scale, measure.limit * scale, decimals(measure.unit));
     Some(format!("found: {seen} {unit}"))
 }
 
@@ -290,8 +290,8 @@ impl Measure {
             _ => format!("{limit:.decimals$}"),
         };
         let [bound, limit] = match self.bound {
-            Some(bound) if self.keeps(bound) => [kept(self, bound, decimals), exact],
-            Some(bound) => told_apart(bound * scale, limit, decimals),
+            Some(bound) if self.is_within_limit(bound) => [rounded_bound(self, bound, decimals), exact],
+            Some(bound) => distinct_decimals(bound * scale, limit, decimals),
             None => ["none".to_owned(), exact],
         };
         MeasureWords {
@@ -321,7 +321,7 @@ fn side(reach_m: f64) -> &'static str {
     }
 }
 
-fn word(status: Status) -> &'static str {
+fn status_word(status: Status) -> &'static str {
     match status {
         Status::Proved => "proved",
         Status::Violated => "VIOLATED",
@@ -358,6 +358,6 @@ fn pair_row(f: &mut impl fmt::Write, line: &PairBound) -> fmt::Result {
     }
     let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| decimals_down(1e3 * v, 2));
     let time = line.time_s.map_or(String::new(), |t| format!("at {t:.3} s"));
-    let (bound, status) = (mm(line.at_least_m), word(line.status));
+    let (bound, status) = (mm(line.at_least_m), status_word(line.status));
     writeln!(f, "  {pair:<26} {bound:>9} mm  {status:<10} {time}")
 }

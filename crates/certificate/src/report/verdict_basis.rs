@@ -10,7 +10,7 @@ use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
-use platewash_workcell::words::{counted, printable, quoted};
+use platewash_workcell::words::{count_with_noun, printable, quoted};
 use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -135,7 +135,7 @@ impl VerdictBasis {
     /// Returns the basis in words: a name and its text for each line.
     #[must_use]
     pub fn lines(&self) -> Vec<(&'static str, String)> {
-        let dry_run = self.dry_run.iter().map(|dry_run| ("dry run", tried_out(dry_run)));
+        let dry_run = self.dry_run.iter().map(|dry_run| ("dry run", dry_run_text(dry_run)));
         let mut lines: Vec<_> = dry_run.collect();
         lines.extend([
             ("arm", arm(&self.workcell)),
@@ -175,7 +175,7 @@ impl fmt::Display for VerdictBasis {
     }
 }
 
-fn tried_out(dry_run: &DryRun) -> String {
+fn dry_run_text(dry_run: &DryRun) -> String {
     format!(
         "of the plan {}, its plates raised by {} mm; nothing is there, and nothing is washed",
         printable(&dry_run.parent),
@@ -216,7 +216,7 @@ fn sponge(sponge: &Sponge) -> String {
         mm(sponge.height_m),
         mm(sponge.compression_m),
         of_flange(&sponge.pose),
-        slanted(&sponge.pose)
+        axis_text(&sponge.pose)
     )
 }
 
@@ -229,7 +229,7 @@ fn tool(tool: &Tool) -> String {
     if parts.is_empty() {
         parts.push("no body".to_owned());
     }
-    parts.push(format!("tip {}{}", of_flange(&tool.tip), slanted(&tool.tip)));
+    parts.push(format!("tip {}{}", of_flange(&tool.tip), axis_text(&tool.tip)));
     parts.join("; ")
 }
 
@@ -239,7 +239,7 @@ fn of_flange(pose: &Pose) -> String {
 }
 
 /// Formats the direction of a z axis that is not along the z axis of its reference frame.
-fn slanted(pose: &Pose) -> String {
+fn axis_text(pose: &Pose) -> String {
     let axis = pose.rotation * Vector3::z();
     if axis.xy() == Vector3::zeros().xy() && axis.z > 0.0 {
         return String::new();
@@ -287,7 +287,11 @@ fn shape(shape: &Shape) -> String {
             mm(*radius_m),
             mm(2.0 * (half_length_m + radius_m))
         ),
-        Shape::Hull { points } => format!("the hull of {}, {} mm,", counted(points.len(), "point"), bounds(points)),
+        Shape::Hull { points } => format!(
+            "the hull of {}, {} mm,",
+            count_with_noun(points.len(), "point"),
+            bounds(points)
+        ),
     }
 }
 
@@ -316,8 +320,8 @@ fn obstacles(obstacles: &[Obstacle]) -> String {
             ObstacleShape::HalfSpace => beyond(&obstacle.pose),
             ObstacleShape::Convex(solid) => format!("{} {}", shape(solid), at()),
             ObstacleShape::Parts(hulls) => {
-                let (count, points) = (counted(hulls.len(), "hull"), hulls.concat());
-                let together = counted(points.len(), "point");
+                let (count, points) = (count_with_noun(hulls.len(), "hull"), hulls.concat());
+                let together = count_with_noun(points.len(), "point");
                 format!("{count} of {together} together, {} mm, {}", bounds(&points), at())
             }
         };

@@ -60,7 +60,7 @@ pub(crate) fn decimals(unit: Unit) -> usize {
 }
 
 /// Formats the bound of a measure that keeps its limit, in its unit. A share that is less than whole only by rounding reads 100.
-pub(crate) fn kept(measure: &Measure, bound: f64, decimals: usize) -> String {
+pub(crate) fn rounded_bound(measure: &Measure, bound: f64, decimals: usize) -> String {
     if measure.unit == Unit::Share && measure.sense == Sense::AtLeast && bound >= 1.0 - 1e-9 {
         return percent(bound);
     }

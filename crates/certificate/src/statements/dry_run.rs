@@ -69,7 +69,7 @@ fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>
 /// Returns the error of the real plate below a raised one, if there is any.
 fn missing(dry_run: &DryRun, obstacles: &[Obstacle], index: usize, plate: &Plate) -> Option<Discrepancy> {
     let name = DryRun::real_name(index);
-    let expected = DryRun::standing(index, &dry_run.lowered(plate));
+    let expected = DryRun::plate_as_obstacle(index, &dry_run.lowered(plate));
     let below = millimetres(dry_run.height_m);
     let Some(found) = obstacles.iter().find(|obstacle| obstacle.name == name) else {
         let words = format!("plate {index} itself, {below} below where it is raised to");

@@ -38,9 +38,9 @@ pub(crate) fn arm(subject: &Subject<'_>) -> Check {
 pub(crate) fn tool(subject: &Subject<'_>) -> Check {
     let tool = &subject.job.workcell.tool;
     let face = tool.sponge.pose * Pose::translation(0.0, 0.0, tool.sponge.height_m / 2.0);
-    let mut wrong = off(&face, &tool.tip, "the middle of the sponge's far face");
+    let mut wrong = tip_discrepancies(&face, &tool.tip, "the middle of the sponge's far face");
     if !tool.is_present() {
-        wrong.extend(off(
+        wrong.extend(tip_discrepancies(
             &Pose::identity(),
             &tool.tip,
             "the mounting frame, as the tool has no body",
@@ -55,7 +55,7 @@ pub(crate) fn tool(subject: &Subject<'_>) -> Check {
 }
 
 /// Returns a discrepancy where the tip is not in the expected position or direction. NaN counts as wrong.
-fn off(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepancy> {
+fn tip_discrepancies(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepancy> {
     let off_m = (tip.translation.vector - expected.translation.vector).norm();
     let turned = (tip.rotation * Vector3::z() - expected.rotation * Vector3::z()).norm();
     if off_m <= PLACE_M && turned <= PLACE_M {

@@ -13,7 +13,7 @@ use crate::report::requirement::Requirement;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 use std::ops::Range;
 
 /// Segments by their pieces, in time order.
@@ -148,7 +148,7 @@ fn kinds(plan: &Plan) -> Vec<Discrepancy> {
     let expected = expected(&plan.order);
     let mut wrong = Vec::new();
     if plan.segments.len() != expected.len() {
-        let asked = format!("{} for {}", expected.len(), counted(plan.order.len(), "plate"));
+        let asked = format!("{} for {}", expected.len(), count_with_noun(plan.order.len(), "plate"));
         wrong.push(Discrepancy::new("number of segments", plan.segments.len(), asked));
     }
     let found = plan.segments.iter().map(|s| (s.kind, s.plate));

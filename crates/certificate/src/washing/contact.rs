@@ -137,7 +137,7 @@ impl ContactInputs<'_> {
         let found = known.then(|| self.shares());
         for instants in self.around {
             let around = self.around(instants, &pressing);
-            pressing.widen(&around);
+            pressing.cover_load(&around);
             self.cancel.check()?;
         }
         let share = |of: fn(&Shares) -> Share, required: f64, threshold: f64| {

@@ -140,7 +140,7 @@ impl Washing<'_> {
         if self.plate.surface.is_flat() {
             self.sweep(&line, &mut swept)?;
         } else {
-            swept.at_least = self.touched(contact.as_ref())?;
+            swept.at_least = self.touched_share(contact.as_ref())?;
         }
         Ok(Wash {
             span: self.span,
@@ -179,7 +179,7 @@ impl Washing<'_> {
 
     /// Returns a lower bound on the share of a face that is no disc that the sponge touches, by area, with the plate at its stated
     /// position. Pressed area counts as touched.
-    fn touched(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
+    fn touched_share(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
         let required = self.subject.limits.coverage;
         let pressed = contact.map_or(0.0, |contact| contact.pressed.at_least);
         if pressed >= required || !self.meets_from_above() {
@@ -314,7 +314,7 @@ impl Polyline {
         for (i, piece) in pieces.iter().enumerate() {
             let stretch = arm.stretch(piece);
             if i == 0 {
-                line.points.push(seen(face, &stretch, 0));
+                line.points.push(tip_from_pole(face, &stretch, 0));
             }
             line.add(arm, face, &stretch, 0);
         }
@@ -324,7 +324,7 @@ impl Polyline {
     /// Adds a stretch whose first end is there already.
     fn add(&mut self, arm: &Arm<'_>, face: &Face<'_>, stretch: &Stretch<'_>, depth: u32) {
         let off_m = stretch.sag(arm.derivatives(stretch).second());
-        let ends = [0, 1].map(|end| seen(face, stretch, end));
+        let ends = [0, 1].map(|end| tip_from_pole(face, stretch, end));
         let far_m = ends.map(|[x, y]| norm(x, y)).into_iter().fold(0.0, f64::max);
         let undecided = far_m <= self.allowed_m && far_m + off_m > self.allowed_m;
         let halves = if (off_m > CHORD_M || undecided) && depth < self.most_halvings && self.splits > 0 {
@@ -353,6 +353,6 @@ impl Polyline {
 }
 
 /// Returns the tip at an end of a stretch, seen along the plate's axis, from the pole \[m\].
-fn seen(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
-    face.seen(&stretch.ends[end].position).into()
+fn tip_from_pole(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
+    face.project(&stretch.ends[end].position).into()
 }

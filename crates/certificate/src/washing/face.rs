@@ -54,7 +54,7 @@ impl<'a> Face<'a> {
     }
 
     /// The plate's axis, world frame.
-    pub fn upright(&self) -> &Vector3<f64> {
+    pub fn plate_axis(&self) -> &Vector3<f64> {
         &self.upright
     }
 
@@ -68,7 +68,7 @@ impl<'a> Face<'a> {
         if self.surface().is_flat() {
             return self.upright;
         }
-        let seen = self.seen(point);
+        let seen = self.project(point);
         let rho_m = norm(seen.x, seen.y);
         let at = self.surface().at_radius(rho_m);
         let out = if rho_m > 0.0 { seen / rho_m } else { Vector2::x() };
@@ -88,7 +88,7 @@ impl<'a> Face<'a> {
     }
 
     /// Returns a point of the world seen along the axis of the plate, relative to the pole \[m\].
-    pub fn seen(&self, point: &Vector3<f64>) -> Vector2<f64> {
+    pub fn project(&self, point: &Vector3<f64>) -> Vector2<f64> {
         self.plate.local(point).xy()
     }
 
@@ -150,7 +150,7 @@ impl Pass {
         let [from, to] = ends.map(|m| m.speed.norm());
         let speed = from.max(to) + stretch.sag(bounds.third()).min(0.5 * stretch.length_s() * acceleration);
         let rho = ends.map(|m| {
-            let seen = face.seen(&m.position);
+            let seen = face.project(&m.position);
             norm(seen.x, seen.y)
         });
         let (near, far) = (rho[0].min(rho[1]), rho[0].max(rho[1]));
@@ -263,14 +263,14 @@ mod tests {
             let (face, point) = (Face::of(&plate), Vector3::new(x, y, z));
             let axis = Vector3::new(lean.sin() * way.cos(), lean.sin() * way.sin(), -lean.cos());
             prop_assert!((face.height_of(&point) - (z - 0.03)).abs() < 1e-15);
-            prop_assert!((sine_of_tilt(&axis, face.upright()) - lean.sin()).abs() < 1e-15);
-            prop_assert_eq!(sine_of_tilt(&-axis, face.upright()), 2.0);
+            prop_assert!((sine_of_tilt(&axis, face.plate_axis()) - lean.sin()).abs() < 1e-15);
+            prop_assert_eq!(sine_of_tilt(&-axis, face.plate_axis()), 2.0);
             prop_assert_eq!(face.normal_under(&point), Vector3::z());
             prop_assert!((face.height_of_rim(&point, &axis, 0.025) - (z - 0.03 - 0.025 * lean.sin())).abs() < 1e-15);
             let low = face.lowest(&axis, 0.025);
             prop_assert!((low.norm() - 0.025).abs() < 1e-15 && low.dot(&axis).abs() < 1e-15);
             prop_assert!((low.z + 0.025 * lean.sin()).abs() < 1e-15);
-            let back = plate.world(&face.seen(&point).push(0.0));
+            let back = plate.world(&face.project(&point).push(0.0));
             prop_assert!((back - Vector3::new(x, y, 0.03)).norm() < 1e-15);
         }
     }

@@ -64,7 +64,7 @@ pub(crate) fn checks(
         if no_curve[i] {
             return Check::not_judged(requirements[i]);
         }
-        let worst = tip_limits::worst(&trackers[i], pieces, Some(schedule));
+        let worst = tip_limits::worst_case(&trackers[i], pieces, Some(schedule));
         tip_limits::check(requirements[i], &trackers[i], limits[i], Unit::Metre, worst)
     })
 }

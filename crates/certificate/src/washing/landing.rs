@@ -122,7 +122,7 @@ fn judge(
         .filter_map(|(i, span)| Some((rim(i, span)?, &pieces[span.pieces.clone()])))
         .collect();
     for (rim, pieces) in &over {
-        look(arm, rim, pieces, &mut tracker);
+        record_speeds(arm, rim, pieces, &mut tracker);
     }
     for (rim, pieces) in &over {
         for piece in *pieces {
@@ -130,7 +130,7 @@ fn judge(
         }
     }
     let worst = if tracker.seen > 0.0 {
-        tip_limits::worst(&tracker, pieces, Some(schedule))
+        tip_limits::worst_case(&tracker, pieces, Some(schedule))
     } else {
         WorstCase::default()
     };
@@ -138,7 +138,7 @@ fn judge(
 }
 
 /// Records the speed at both ends of all pieces.
-fn look(arm: &Arm<'_>, rim: &Rim<'_>, pieces: &[Piece], tracker: &mut BoundTracker) {
+fn record_speeds(arm: &Arm<'_>, rim: &Rim<'_>, pieces: &[Piece], tracker: &mut BoundTracker) {
     for stretch in pieces.iter().map(|piece| arm.stretch(piece)) {
         for (moment, time_s) in stretch.ends.iter().zip(stretch.times()) {
             rim.see(tracker, moment, time_s);
@@ -225,9 +225,9 @@ impl<'a> Rim<'a> {
         }
     }
 
-    fn stand(&self, (columns, bends): &(Columns, Bends<'_>), m: &Moment) -> SpongeState {
+    fn sponge_state(&self, (columns, bends): &(Columns, Bends<'_>), m: &Moment) -> SpongeState {
         let side = self.plate.pose.inverse_transform_vector(&m.side);
-        columns.stand(bends, &instants::pose(self.plate, m), &side, self.far.error_m)
+        columns.sponge_state(bends, &instants::pose(self.plate, m), &side, self.far.error_m)
     }
 
     /// Height H of the lowest point of the rim over a disc \[m\].
@@ -315,8 +315,8 @@ impl<'a> Rim<'a> {
         if tip.z - self.highest_m > self.reach_m + self.far.error_m {
             return None;
         }
-        let standing = self.stand(columns, m);
-        let (seen, _) = columns.0.seen(&columns.1, &standing);
+        let standing = self.sponge_state(columns, m);
+        let (seen, _) = columns.0.load_at(&columns.1, &standing);
         let touches = seen.deepest_m >= 0.0;
         touches.then(|| self.plate.world(&Vector3::from(seen.deepest_at_m)) - m.position)
     }
@@ -353,7 +353,7 @@ impl Rim<'_> {
         };
         // A kept limit needs no exact speed: the bound is above every speed found, by the effect of the tool's turning.
         let rough = self.columns.is_some() || self.far.beyond_m > 0.0;
-        let enough = rough && (tracker.keeps(bound) || depth >= MOST_HALVINGS);
+        let enough = rough && (tracker.is_within_limit(bound) || depth >= MOST_HALVINGS);
         if enough || tracker.accepts(bound) || !tracker.may_split(depth) {
             return tracker.take(bound);
         }
@@ -375,10 +375,10 @@ impl Rim<'_> {
         bounds: &Derivatives,
     ) -> Option<f64> {
         let rough = self.at_most(stretch, bounds);
-        if tracker.keeps(rough) {
+        if tracker.is_within_limit(rough) {
             return Some(rough);
         }
-        let [from, to] = stretch.ends.each_ref().map(|m| self.stand(columns, m));
+        let [from, to] = stretch.ends.each_ref().map(|m| self.sponge_state(columns, m));
         let drift = instants::drift(stretch, bounds);
         let Some(touching) = columns.0.touching(&columns.1, [&from, &to], &drift) else {
             return Some(rough);

@@ -179,7 +179,7 @@ impl Pressing {
     }
 
     /// Raises the upper bounds to cover the load `around`, before or after the wash.
-    pub fn widen(&mut self, around: &Self) {
+    pub fn cover_load(&mut self, around: &Self) {
         let greater = |most: &mut Extreme, other: &Extreme| {
             let bound = most.bound.max(other.bound);
             if other.seen > most.seen {
@@ -231,7 +231,7 @@ const MOST_SAG_M: f64 = 1e-4;
 /// Number of column grids: a coarse one and a fine one.
 const LOOKS: usize = 2;
 
-/// Number of bounded quantities. Each is expressed so that greater is worse, see [`badness`].
+/// Number of bounded quantities. Each is expressed so that greater is worse, see [`severities`].
 const QUANTITIES: usize = 4;
 
 /// Stretch between two moments, given by their indices, with the bounds over it.
@@ -304,11 +304,11 @@ fn search(
     let last = count - 1;
     for from in (0..last.max(1)).step_by(LONGEST) {
         let to = (from + LONGEST).min(last);
-        let span = search.look(from, to, 0);
+        let span = search.bound_stretch(from, to, 0);
         search.spans.push(span);
     }
     for quantity in 0..QUANTITIES {
-        search.settle(quantity);
+        search.refine_worst(quantity);
     }
     for span in &search.spans {
         search.found.take(&span.press);
@@ -317,16 +317,16 @@ fn search(
 }
 
 /// Returns the quantities of a press, each expressed so that greater is worse. NaN counts as infinite.
-fn badness(press: &Press) -> [f64; QUANTITIES] {
+fn severities(press: &Press) -> [f64; QUANTITIES] {
     let all = [-press.volume_m3[0], press.volume_m3[1], press.deepest_m, press.twist_m4];
     all.map(|bad| if bad.is_nan() { f64::INFINITY } else { bad })
 }
 
 impl Search<'_> {
     /// Refines the worst stretches of a quantity until its bound is near enough to the values at single moments.
-    fn settle(&mut self, quantity: usize) {
+    fn refine_worst(&mut self, quantity: usize) {
         loop {
-            let bad = |span: &Span| badness(&span.press)[quantity];
+            let bad = |span: &Span| severities(&span.press)[quantity];
             let worst = (0..self.spans.len()).max_by(|a, b| bad(&self.spans[*a]).total_cmp(&bad(&self.spans[*b])));
             let Some(worst) = worst else { return };
             let at_moments = self.at_moments[quantity];
@@ -346,24 +346,24 @@ impl Search<'_> {
         let longer = to - from > 1;
         if longer && (finest || press.sag_m > MOST_SAG_M) {
             let middle = from + (to - from) / 2;
-            self.spans[span] = self.look(from, middle, look);
-            let second = self.look(middle, to, look);
+            self.spans[span] = self.bound_stretch(from, middle, look);
+            let second = self.bound_stretch(middle, to, look);
             self.spans.push(second);
         } else if !finest {
-            self.spans[span] = self.look(from, to, look + 1);
+            self.spans[span] = self.bound_stretch(from, to, look + 1);
         }
         longer || !finest
     }
 
     /// Bounds a stretch with the given column grid.
-    fn look(&mut self, from: usize, to: usize, look: usize) -> Span {
-        self.stand(from, look);
-        self.stand(to, look);
+    fn bound_stretch(&mut self, from: usize, to: usize, look: usize) -> Span {
+        self.compute_state(from, look);
+        self.compute_state(to, look);
         let standings = &self.standings[look];
         let press = match (&standings[from], &standings[to]) {
             (Some(a), Some(b)) => {
                 let drift = self.turning.drift(from, to);
-                self.looks[look].press(&self.bends, [a, b], &drift)
+                self.looks[look].bound_load(&self.bends, [a, b], &drift)
             }
             _ => Press::UNKNOWN,
         };
@@ -371,16 +371,16 @@ impl Search<'_> {
     }
 
     /// Computes the state of the columns at a moment. With the fine grid it also updates the attained values.
-    fn stand(&mut self, at: usize, look: usize) {
+    fn compute_state(&mut self, at: usize, look: usize) {
         if self.standings[look][at].is_some() {
             return;
         }
         let (columns, moment) = (&self.looks[look], &self.instants.moments[at]);
-        let standing = columns.stand(&self.bends, &moment.pose, &self.turning.side(at), self.error_m);
+        let standing = columns.sponge_state(&self.bends, &moment.pose, &self.turning.side(at), self.error_m);
         if look + 1 == LOOKS {
-            let (seen, press) = columns.seen(&self.bends, &standing);
+            let (seen, press) = columns.load_at(&self.bends, &standing);
             self.found.see(&seen, moment.t_s, moment.pose.tip.into());
-            for (most, found) in self.at_moments.iter_mut().zip(badness(&press)) {
+            for (most, found) in self.at_moments.iter_mut().zip(severities(&press)) {
                 *most = most.max(found);
             }
         }

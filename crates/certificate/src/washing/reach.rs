@@ -48,7 +48,7 @@ impl ReachInputs<'_> {
 }
 
 /// Fills in the reach of the sponge beyond the rim of each plate, and the plates it may touch there.
-pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], inputs: &ReachInputs<'_>) {
+pub(crate) fn fill_in_reach(subject: &Subject<'_>, washes: &mut [Wash], inputs: &ReachInputs<'_>) {
     let most_tilted = cos(subject.limits.tilt_rad);
     for wash in washes {
         let index = wash.swept.plate;
@@ -66,7 +66,7 @@ pub(crate) fn settle(subject: &Subject<'_>, washes: &mut [Wash], inputs: &ReachI
         let [tip_m, seen_m] = tip_m(allowed_m, radius_m, plate, wash, inputs);
         let reach_m = beyond_rim_m(subject, plate, tip_m, cos_tilt);
         let swept = &mut wash.swept;
-        let touched = |reach_m| touched(subject, index, reach_m);
+        let touched = |reach_m| reached_neighbours(subject, index, reach_m);
         swept.beyond_rim_allowed_m = beyond_rim_m(subject, plate, allowed_m, cos_tilt.max(most_tilted));
         swept.beyond_rim_seen_m = beyond_rim_m(subject, plate, seen_m, cos_tilt.max(most_tilted));
         swept.beyond_rim_m = Some(reach_m).filter(|reach_m| reach_m.is_finite());
@@ -177,7 +177,7 @@ fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f
 
 /// Returns the plates beside `plate` and no higher ([`Plate::may_touch_beside`]) that a sponge reaches if it gets `beyond_rim_m` beyond the
 /// rim of `plate`, in order.
-pub(crate) fn touched(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<ReachedNeighbour> {
+pub(crate) fn reached_neighbours(subject: &Subject<'_>, plate: usize, beyond_rim_m: f64) -> Vec<ReachedNeighbour> {
     let Some(own) = subject.plates().get(plate) else {
         return Vec::new();
     };

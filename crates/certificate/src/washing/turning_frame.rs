@@ -114,7 +114,7 @@ impl<'a> TurningFrame<'a> {
         };
         let seen = |at: usize| {
             let angle = self.angles[from] + rate * (time(at) - time(from));
-            self.states[at].seen(rate, &direction(angle))
+            self.states[at].in_turning_frame(rate, &direction(angle))
         };
         let mut greatest = UpperBounds::default();
         let mut before = seen(from);
@@ -147,7 +147,7 @@ impl<'a> TurningFrame<'a> {
 
 impl State {
     /// Returns the values seen from a frame that turns at `rate` and in which the direction `d` is at rest.
-    fn seen(&self, rate: f64, d: &Vector3<f64>) -> UpperBounds {
+    fn in_turning_frame(&self, rate: f64, d: &Vector3<f64>) -> UpperBounds {
         let omega = Vector3::z() * rate;
         let round = |v: &Vector3<f64>| omega.cross(v);
         let Self {

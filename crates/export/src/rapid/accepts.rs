@@ -4,7 +4,7 @@ use crate::rapid::parse::LEAST_KG;
 use crate::refusal::Refusal;
 use nalgebra::Matrix2;
 use platewash_kinematics::irb120::IRB120_URDF;
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{RobotModel, sha256_hex};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::tool::ToolMass;
@@ -116,7 +116,7 @@ fn within(what: &str, found: f64, most: f64, unit: &str) -> Result<(), Refusal> 
     if found <= most {
         return Ok(());
     }
-    let [found, most] = told_apart(found, most, 3);
+    let [found, most] = distinct_decimals(found, most, 3);
     load(&format!("{what} {found} {unit} {most}: take a lighter or shorter tool"))
 }
 

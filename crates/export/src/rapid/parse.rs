@@ -70,7 +70,7 @@ pub(crate) struct Modules {
 pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
     let mut modules = Modules::default();
     for file in files {
-        let tokens = placed(file)?;
+        let tokens = tokens_of(file)?;
         let mut cursor = Cursor::new(&file.name, &tokens);
         while cursor.peek().is_some() {
             modules.module(&mut cursor)?;
@@ -80,7 +80,7 @@ pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
 }
 
 /// The tokens of a file, but for the header of files that a controller has saved.
-fn placed(file: &ProgramFile) -> Result<Vec<PlacedToken>, ReadError> {
+fn tokens_of(file: &ProgramFile) -> Result<Vec<PlacedToken>, ReadError> {
     let mut all = Vec::new();
     let text = file.text.trim_start_matches('\u{feff}');
     let mut marks = 0;
@@ -114,16 +114,16 @@ impl Modules {
     fn module(&mut self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
         cursor.keyword("MODULE")?;
         self.declare(cursor)?;
-        if cursor.takes_sign("(") {
-            while !cursor.takes_sign(")") {
+        if cursor.take_sign("(") {
+            while !cursor.take_sign(")") {
                 cursor.next("`)`")?;
             }
         }
-        while !cursor.takes("ENDMODULE") {
-            let is_task = cursor.takes("TASK");
-            if cursor.takes("PROC") {
+        while !cursor.take_word("ENDMODULE") {
+            let is_task = cursor.take_word("TASK");
+            if cursor.take_word("PROC") {
                 self.procedure(cursor)?;
-            } else if let Some(storage) = ["CONST", "PERS", "VAR"].into_iter().find(|word| cursor.takes(word)) {
+            } else if let Some(storage) = ["CONST", "PERS", "VAR"].into_iter().find(|word| cursor.take_word(word)) {
                 self.data(cursor, storage == "CONST")?;
             } else {
                 let expected = if is_task {
@@ -157,7 +157,7 @@ impl Modules {
     fn data(&mut self, cursor: &mut Cursor<'_>, is_constant: bool) -> Result<(), ReadError> {
         let type_name = cursor.word("a type")?.to_ascii_lowercase();
         let (name, place) = self.declare(cursor)?;
-        let value = cursor.takes_sign(":=").then(|| cursor.value(0)).transpose()?;
+        let value = cursor.take_sign(":=").then(|| cursor.value(0)).transpose()?;
         cursor.sign(";")?;
         let data = Data {
             place,
@@ -247,27 +247,27 @@ impl<'a> Cursor<'a> {
     }
 
     /// Takes the next token if it is that word; returns true if so.
-    pub(crate) fn takes(&mut self, word: &str) -> bool {
+    pub(crate) fn take_word(&mut self, word: &str) -> bool {
         let is_it = matches!(self.peek(), Some(Token::Word(found)) if found.eq_ignore_ascii_case(word));
         self.at += usize::from(is_it);
         is_it
     }
 
     pub(crate) fn keyword(&mut self, word: &str) -> Result<(), ReadError> {
-        match self.takes(word) {
+        match self.take_word(word) {
             true => Ok(()),
             false => Err(self.expected(&format!("`{word}`"))),
         }
     }
 
-    pub(crate) fn takes_sign(&mut self, sign: &str) -> bool {
+    pub(crate) fn take_sign(&mut self, sign: &str) -> bool {
         let is_it = self.peek().is_some_and(|token| token.is(sign));
         self.at += usize::from(is_it);
         is_it
     }
 
     pub(crate) fn sign(&mut self, sign: &str) -> Result<(), ReadError> {
-        match self.takes_sign(sign) {
+        match self.take_sign(sign) {
             true => Ok(()),
             false => Err(self.expected(&format!("`{sign}`"))),
         }
@@ -289,18 +289,18 @@ impl<'a> Cursor<'a> {
         if depth > DEEPEST {
             return Err(self.refused(format!("brackets nested deeper than {DEEPEST}")));
         }
-        if self.takes_sign("[") {
+        if self.take_sign("[") {
             let mut values = vec![self.value(depth + 1)?];
-            while self.takes_sign(",") {
+            while self.take_sign(",") {
                 values.push(self.value(depth + 1)?);
             }
             self.sign("]")?;
             return Ok(Value::List(values));
         }
-        if self.takes("TRUE") {
+        if self.take_word("TRUE") {
             return Ok(Value::Truth(true));
         }
-        if self.takes("FALSE") {
+        if self.take_word("FALSE") {
             return Ok(Value::Truth(false));
         }
         if let Some(Token::Text(_)) = self.peek() {
@@ -312,10 +312,10 @@ impl<'a> Cursor<'a> {
 
     /// A literal number, as the controller's single.
     pub(crate) fn number(&mut self) -> Result<f32, ReadError> {
-        let sign = match self.takes_sign("-") {
+        let sign = match self.take_sign("-") {
             true => -1.0,
             false => {
-                self.takes_sign("+");
+                self.take_sign("+");
                 1.0
             }
         };

@@ -159,7 +159,7 @@ impl Modules {
         match &*key {
             "moveabsj" => self.motion(cursor),
             "waittime" => {
-                if cursor.takes_sign("\\") {
+                if cursor.take_sign("\\") {
                     cursor.keyword("InPos")?;
                     cursor.sign(",")?;
                 }
@@ -193,7 +193,7 @@ impl Modules {
                 Ok(Statement::Nothing)
             }
             _ if self.procedures.contains_key(&key) => Ok(Statement::Call(key)),
-            _ => Err(begin.refused(why_not(&name, cursor.peek()))),
+            _ => Err(begin.refused(refusal_reason(&name, cursor.peek()))),
         }
     }
 
@@ -227,7 +227,7 @@ impl Modules {
         options(cursor, |cursor, option| match option {
             "wobj" => {
                 cursor.sign(":=")?;
-                match cursor.takes("wobj0") {
+                match cursor.take_word("wobj0") {
                     true => Ok(()),
                     false => Err(cursor.expected("the work object `wobj0`: MoveAbsJ needs no other")),
                 }
@@ -279,7 +279,7 @@ impl Modules {
     }
 
     fn corner(&self, cursor: &mut Cursor<'_>) -> Result<Option<f64>, ReadError> {
-        if cursor.takes("fine") {
+        if cursor.take_word("fine") {
             return Ok(None);
         }
         if let Some(Token::Word(name)) = cursor.peek()
@@ -293,7 +293,7 @@ impl Modules {
     }
 
     fn tool(&self, cursor: &mut Cursor<'_>) -> Result<Value, ReadError> {
-        if cursor.takes("tool0") {
+        if cursor.take_word("tool0") {
             return Ok(parse::tool0());
         }
         Ok(self.named(cursor, "tooldata")?.0)
@@ -317,7 +317,7 @@ fn options<'a>(
     cursor: &mut Cursor<'a>,
     mut read: impl FnMut(&mut Cursor<'a>, &str) -> Result<(), ReadError>,
 ) -> Result<(), ReadError> {
-    while cursor.takes_sign("\\") {
+    while cursor.take_sign("\\") {
         let name = cursor.word("an option")?;
         if let Some((option, why)) = REFUSED.iter().find(|(option, _)| option.eq_ignore_ascii_case(&name)) {
             return Err(cursor.refused(format!("\\{option} {why}: it is not read")));
@@ -334,15 +334,15 @@ fn time(cursor: &mut Cursor<'_>) -> Result<Time, ReadError> {
     if !(0.0..parse::UNUSED).contains(&written_s) {
         return Err(at.refused(format!("expected a time of 0 s or more, found {written_s}")));
     }
-    let is_divided = cursor.takes_sign("/");
-    if is_divided && !cursor.takes(RUNNING) {
+    let is_divided = cursor.take_sign("/");
+    if is_divided && !cursor.take_word(RUNNING) {
         return Err(cursor.expected(&format!("`{}`", RUNNING)));
     }
     Ok(Time { written_s, is_divided })
 }
 
 /// Explains why a statement is refused.
-fn why_not(name: &str, next: Option<&Token>) -> String {
+fn refusal_reason(name: &str, next: Option<&Token>) -> String {
     const FLOW: &str = "IF FOR WHILE TEST GOTO RETURN RAISE RETRY TRYNEXT CONNECT";
     const HANDLERS: &str = "ERROR UNDO BACKWARD";
     let is_in = |words: &str| words.split(' ').any(|word| word.eq_ignore_ascii_case(name));

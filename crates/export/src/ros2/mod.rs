@@ -44,7 +44,7 @@ impl Dialect for Ros2 {
     }
 
     fn is_in(&self, file: &ProgramFile) -> bool {
-        write::is_it(file) || (Language::of(&file.name).is_some() && file.text.contains("time_from_start"))
+        write::is_script(file) || (Language::of(&file.name).is_some() && file.text.contains("time_from_start"))
     }
 
     fn points(&self) -> Points {
@@ -71,8 +71,8 @@ impl Dialect for Ros2 {
         let message = Message::of(program);
         let trajectory = |language| write::trajectory(&message, language);
         let goal = |language| write::goal(&message, language);
-        let head = write::head(program, &said(program));
-        let of_goal = write::head(program, &[said(program), said_of_goal(&message)].concat());
+        let head = write::head(program, &message_notes(program));
+        let of_goal = write::head(program, &[message_notes(program), goal_notes(&message)].concat());
         let texts = [
             head + &trajectory(Language::Yaml),
             trajectory(Language::Json),
@@ -88,11 +88,11 @@ impl Dialect for Ros2 {
     }
 
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
-        let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| write::is_it(file));
+        let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| write::is_script(file));
         let check = |file: &ProgramFile| write::check(file).map_err(|fault| read::refused(file, fault));
         players.into_iter().try_for_each(check)?;
         // The player compares the start; a message alone cannot.
-        let checks_start = files.iter().any(write::is_it);
+        let checks_start = files.iter().any(write::is_script);
         read::reading(&messages, arm).map(|reading| Reading {
             checks_start,
             ..reading
@@ -101,7 +101,7 @@ impl Dialect for Ros2 {
 }
 
 /// Notes at the head of a message, besides those of every program.
-fn said(program: &Program<'_>) -> Vec<String> {
+fn message_notes(program: &Program<'_>) -> Vec<String> {
     let lead_in_s = write::LEAD_IN_S;
     vec![
         "trajectory_msgs/JointTrajectory: positions in rad, velocities in rad/s; no accelerations, no effort."
@@ -120,7 +120,7 @@ fn said(program: &Program<'_>) -> Vec<String> {
 }
 
 /// Notes at the head of a goal on its tolerances.
-fn said_of_goal(message: &Message) -> Vec<String> {
+fn goal_notes(message: &Message) -> Vec<String> {
     let each = |all: [f64; AXES]| all.map(number::float).join(", ");
     vec![
         "control_msgs/action/FollowJointTrajectory, the goal of the action.".to_owned(),

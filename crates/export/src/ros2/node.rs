@@ -63,7 +63,7 @@ impl Fault {
 
 impl Kind<'_> {
     /// Message of the fault, in words.
-    pub(crate) fn told(&self) -> String {
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::Plain(text) | Self::OfJson(text) => told(text),
             Self::Quoted(text) => format!("the text {}", quoted(&told(text))),
@@ -154,7 +154,7 @@ impl<'a> Events<'a> {
         let kind = match event {
             Event::Alias(_) => return Err(Fault::new(line, "expected a value; found an alias")),
             Event::Scalar(_, _, anchor, ref tag) => {
-                bare(line, anchor, tag.is_some())?;
+                check_bare_line(line, anchor, tag.is_some())?;
                 let Event::Scalar(text, style, ..) = event else {
                     return Err(Fault::new(line, "expected a value"));
                 };
@@ -165,11 +165,11 @@ impl<'a> Events<'a> {
                 }
             }
             Event::SequenceStart(anchor, tag) => {
-                bare(line, anchor, tag.is_some())?;
+                check_bare_line(line, anchor, tag.is_some())?;
                 Kind::List(self.list(depth)?)
             }
             Event::MappingStart(anchor, tag) => {
-                bare(line, anchor, tag.is_some())?;
+                check_bare_line(line, anchor, tag.is_some())?;
                 Kind::Table(self.table(depth)?)
             }
             _ => return Err(Fault::new(line, "expected a value; found the end")),
@@ -197,7 +197,7 @@ impl<'a> Events<'a> {
             let Node { line, kind } = self.node(event, depth + 1)?;
             let key = match kind {
                 Kind::Plain(key) | Kind::OfJson(key) | Kind::Quoted(key) => key,
-                other => return Err(Fault::new(line, format!("expected a key; found {}", other.told()))),
+                other => return Err(Fault::new(line, format!("expected a key; found {}", other.message()))),
             };
             // No table of a message has many keys: a longer one is refused before its keys are compared for long.
             if all.len() == MAX_KEYS {
@@ -222,7 +222,7 @@ impl<'a> Events<'a> {
 /// Most keys of a table.
 const MAX_KEYS: usize = 64;
 
-fn bare(line: usize, anchor: usize, tagged: bool) -> Result<(), Fault> {
+fn check_bare_line(line: usize, anchor: usize, tagged: bool) -> Result<(), Fault> {
     match (anchor, tagged) {
         (0, false) => Ok(()),
         (_, true) => Err(Fault::new(line, "expected a value; found a tag before it")),

@@ -273,7 +273,7 @@ fn duration(node: &Node<'_>) -> Result<i64, Fault> {
     let fields = Fields::of(node, "a Duration", &["sec", "nanosec"])?;
     let whole = |key: &str, most: i64| {
         let node = fields.needed(key)?;
-        match said(node) {
+        match parse_number(node) {
             ParsedNumber::Whole(found) if (0..=most).contains(&found) => Ok(found),
             ParsedNumber::Whole(found) => broken(
                 node.line,
@@ -282,7 +282,7 @@ fn duration(node: &Node<'_>) -> Result<i64, Fault> {
             ),
             _ => Err(Fault::new(
                 node.line,
-                format!("expected a whole number; found {}", node.kind.told()),
+                format!("expected a whole number; found {}", node.kind.message()),
             )),
         }
     };
@@ -333,7 +333,7 @@ fn text(node: &Node<'_>) -> Result<String, Fault> {
         Kind::Plain(text) if is_word(text) => Ok(text.to_string()),
         other => Err(Fault::new(
             node.line,
-            format!("expected a text; found {}", other.told()),
+            format!("expected a text; found {}", other.message()),
         )),
     }
 }
@@ -351,12 +351,12 @@ fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
         Kind::List(nodes) => Ok(nodes),
         other => Err(Fault::new(
             node.line,
-            format!("expected a list; found {}", other.told()),
+            format!("expected a list; found {}", other.message()),
         )),
     }
 }
 
-fn said(node: &Node<'_>) -> ParsedNumber {
+fn parse_number(node: &Node<'_>) -> ParsedNumber {
     match &node.kind {
         Kind::Plain(text) | Kind::OfJson(text) => number::read(text),
         _ => ParsedNumber::Nothing,
@@ -364,8 +364,8 @@ fn said(node: &Node<'_>) -> ParsedNumber {
 }
 
 fn float(node: &Node<'_>) -> Result<f64, Fault> {
-    let found = node.kind.told();
-    let reason = match said(node) {
+    let found = node.kind.message();
+    let reason = match parse_number(node) {
         ParsedNumber::Float(value) => return Ok(value),
         ParsedNumber::TextInYaml11(value) if matches!(node.kind, Kind::OfJson(_)) => return Ok(value),
         ParsedNumber::Whole(whole) => {
@@ -384,7 +384,7 @@ fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fa
         Kind::Table(entries) => Ok(entries),
         other => Err(Fault::new(
             node.line,
-            format!("expected {what}; found {}", other.told()),
+            format!("expected {what}; found {}", other.message()),
         )),
     }
 }
@@ -401,7 +401,7 @@ impl<'n, 'a> Fields<'n, 'a> {
         let entries = entries(node, what)?;
         match entries.iter().find(|entry| !known.contains(&entry.key.as_ref())) {
             Some(entry) => {
-                let found = quoted(&Kind::Plain(entry.key.clone()).told());
+                let found = quoted(&Kind::Plain(entry.key.clone()).message());
                 let reason = format!("expected {what} with {}; found the key {found}", known.join(", "));
                 Err(Fault::new(entry.line, reason))
             }

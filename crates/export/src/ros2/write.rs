@@ -142,7 +142,7 @@ pub(crate) const NAME: &str = "play.py";
 pub(crate) const TEXT: &str = include_str!("play.py");
 
 /// Checks that a file is the script, by its name.
-pub(crate) fn is_it(file: &ProgramFile) -> bool {
+pub(crate) fn is_script(file: &ProgramFile) -> bool {
     file.name == NAME
 }
 

@@ -52,7 +52,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    fn told(&self) -> &'static str {
+    fn description(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",
             Self::Bool => "True or False",
@@ -65,7 +65,7 @@ impl Value {
     fn number(&self) -> Result<f64, String> {
         match self {
             Self::Number(number) => Ok(*number),
-            other => Err(format!("expected a number, found {}", other.told())),
+            other => Err(format!("expected a number, found {}", other.description())),
         }
     }
 
@@ -76,7 +76,7 @@ impl Value {
                 Ok(numbers) => return Ok(numbers),
                 Err(_) => format!("one of {}", list.len()),
             },
-            other => other.told().to_owned(),
+            other => other.description().to_owned(),
         };
         Err(format!("expected a list of {COUNT} numbers, found {found}"))
     }
@@ -324,7 +324,7 @@ fn pose(value: &Value) -> Result<Pose, String> {
     let Value::Pose([x, y, z, rx, ry, rz]) = *value else {
         return Err(format!(
             "expected a pose p[x, y, z, rx, ry, rz], found {}",
-            value.told()
+            value.description()
         ));
     };
     let turn = Vector3::new(rx, ry, rz);

@@ -268,7 +268,7 @@ impl<'a> Run<'a> {
                 self.assign(name, value)
             }
             [Token::Word(name), is, value @ ..] if is.is("=") => self.assign(name, value),
-            [Token::Word(name), ..] => Err(why_not(name)),
+            [Token::Word(name), ..] => Err(refusal_reason(name)),
             _ => Err("expected an instruction".to_owned()),
         };
         done.map_err(|reason| self.refused(reason))
@@ -315,7 +315,7 @@ impl<'a> Run<'a> {
             };
         }
         let Some(lines) = self.functions.get(name).copied() else {
-            return Err(why_not(name));
+            return Err(refusal_reason(name));
         };
         if arguments.len() != 2 || !arguments[1].is(")") {
             return Err(format!("expected `{name}()`"));
@@ -428,7 +428,7 @@ fn numbers(tokens: &[Token]) -> Result<(Vec<f64>, &[Token]), String> {
 }
 
 /// Explains why a word is refused.
-fn why_not(name: &str) -> String {
+fn refusal_reason(name: &str) -> String {
     let why = match name {
         "while" | "for" | "break" | "continue" | "elif" | "else" | "return" => {
             "loops, conditions and jumps are not read: write out what moves"

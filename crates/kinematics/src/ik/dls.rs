@@ -149,7 +149,7 @@ impl Damping {
     }
 
     /// Returns the first number out of its range, if any.
-    pub(crate) fn misfit(&self) -> Option<f64> {
+    pub(crate) fn first_out_of_range(&self) -> Option<f64> {
         let fits = |v: f64| (0.0..=1e6).contains(&v);
         match *self {
             Self::ErrorProportional { gain: v } | Self::Constant { lambda: v } => (!fits(v)).then_some(v),
@@ -313,14 +313,18 @@ mod tests {
 
     #[test]
     fn finds_numbers_out_of_range() {
-        assert_eq!(Damping::default().misfit(), None);
-        assert_eq!(Damping::Constant { lambda: -1.0 }.misfit(), Some(-1.0));
-        assert!(Damping::ErrorProportional { gain: f64::NAN }.misfit().is_some());
+        assert_eq!(Damping::default().first_out_of_range(), None);
+        assert_eq!(Damping::Constant { lambda: -1.0 }.first_out_of_range(), Some(-1.0));
+        assert!(
+            Damping::ErrorProportional { gain: f64::NAN }
+                .first_out_of_range()
+                .is_some()
+        );
         let flat = Damping::NearSingularities {
             largest: 0.1,
             threshold: 0.0,
         };
-        assert_eq!(flat.misfit(), Some(0.0));
+        assert_eq!(flat.first_out_of_range(), Some(0.0));
     }
 
     proptest! {

@@ -106,7 +106,7 @@ impl IkSolver<'_> {
         for (waypoint, pair) in targets.windows(2).enumerate().map(|(k, pair)| (k + 1, pair)) {
             let task = self.task(&pair[1]).map_err(at(waypoint))?;
             let last = q[waypoint - 1];
-            let next = match self.near(&task, predict(&q), &last, &mut iterations) {
+            let next = match self.answer_near(&task, predict(&q), &last, &mut iterations) {
                 Some(next) => next,
                 None => match self.creep(&pair[0], &pair[1], &last, MOST_HALVINGS, &mut iterations) {
                     Ok(next) => next,
@@ -126,7 +126,7 @@ impl IkSolver<'_> {
     }
 
     /// Returns the answer from a prediction, if it is a small step away from the last one.
-    fn near(
+    fn answer_near(
         &self,
         task: &Task<'_>,
         guess: JointVector,
@@ -159,14 +159,14 @@ impl IkSolver<'_> {
             return Ok(descent.best.q);
         }
         if halvings == 0 {
-            return Err(self.why_broken(&task, &descent.best, solved, moved));
+            return Err(self.break_reason(&task, &descent.best, solved, moved));
         }
         let middle = halfway(from, to);
         let there = self.creep(from, &middle, last, halvings - 1, iterations)?;
         self.creep(&middle, to, &there, halvings - 1, iterations)
     }
 
-    fn why_broken(&self, task: &Task<'_>, best: &Iterate, solved: bool, jump_rad: f64) -> PathBreak {
+    fn break_reason(&self, task: &Task<'_>, best: &Iterate, solved: bool, jump_rad: f64) -> PathBreak {
         if solved {
             return PathBreak::Singularity { jump_rad };
         }

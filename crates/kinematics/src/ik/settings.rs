@@ -100,9 +100,9 @@ impl IkSettings {
             ),
             (
                 "damping",
-                self.damping.misfit().unwrap_or(0.0),
+                self.damping.first_out_of_range().unwrap_or(0.0),
                 "in [0, 1e6], a threshold above 0",
-                self.damping.misfit().is_none(),
+                self.damping.first_out_of_range().is_none(),
             ),
             (
                 "step_bound_rad",

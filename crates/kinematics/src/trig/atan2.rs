@@ -94,7 +94,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     let (ax, ay) = (x.abs(), y.abs());
     let larger = if ax > ay { ax } else { ay };
     if larger >= SMALL && ax + ay <= LARGE {
-        ordinary(y, x)
+        fast_atan2(y, x)
     } else {
         extraordinary(y, x)
     }
@@ -102,7 +102,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 
 /// The fast path, without a branch.
 #[inline(always)]
-fn ordinary(y: f64, x: f64) -> f64 {
+fn fast_atan2(y: f64, x: f64) -> f64 {
     let (ax, ay) = (x.abs(), y.abs());
     let a = if ax < ay { ax } else { ay };
     let b = if ax > ay { ax } else { ay };
@@ -131,12 +131,12 @@ fn extraordinary(y: f64, x: f64) -> f64 {
     }
     let unit = |v: f64, is: bool| if is { 1.0_f64.copysign(v) } else { 0.0_f64.copysign(v) };
     if x.is_infinite() || y.is_infinite() {
-        return ordinary(unit(y, y.is_infinite()), unit(x, x.is_infinite()));
+        return fast_atan2(unit(y, y.is_infinite()), unit(x, x.is_infinite()));
     }
     if x == 0.0 && y == 0.0 {
-        return ordinary(y, unit(x, true));
+        return fast_atan2(y, unit(x, true));
     }
     // Powers of two: exact, or the smaller one is lost beside the larger anyway.
     let scale = if x.abs() + y.abs() > 1.0 { DOWN } else { UP };
-    ordinary(y * scale, x * scale)
+    fast_atan2(y * scale, x * scale)
 }

@@ -90,7 +90,7 @@ pub fn sin_cos_lanes<M: MulAdd, const N: usize>(angles: &[f64; N]) -> ([f64; N],
         (*s, *c) = one_lane::<M>(angle);
     }
     if !inside {
-        mend(angles, &mut sines, &mut cosines);
+        recompute_lanes(angles, &mut sines, &mut cosines);
     }
     (sines, cosines)
 }
@@ -149,7 +149,7 @@ fn beyond_bound(angle: f64) -> (f64, f64) {
 /// Replaces the lanes that the fast path cannot compute.
 #[cold]
 #[inline(never)]
-fn mend(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
+fn recompute_lanes(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
     for ((&angle, s), c) in angles.iter().zip(sines).zip(cosines) {
         (*s, *c) = if angle.abs() <= BOUND {
             (*s, *c)

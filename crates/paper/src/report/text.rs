@@ -1,7 +1,7 @@
 //! The report as a person reads it.
 
 use super::{ClosestApproach, MotionReport, PaperReport, UnreachedWaypoint, Violation, ViolationKind};
-use platewash_kinematics::words::{angles_told_apart, rounded, told_apart};
+use platewash_kinematics::words::{angles_told_apart, distinct_decimals, rounded};
 use platewash_workcell::coverage::Coverage;
 use platewash_workcell::words::quoted;
 use std::fmt::{self, Display, Formatter};
@@ -209,9 +209,14 @@ impl Display for Violation {
         let (worst, limit) = (self.worst, self.limit);
         let (what, [worst, limit], of, unit) = match self.kind {
             ViolationKind::Position => ("position", angles_told_apart(worst, limit, 2), "beyond", ""),
-            ViolationKind::Speed => ("speed", told_apart(worst, limit, 2), "rad/s of", ""),
-            ViolationKind::Acceleration => ("acceleration", told_apart(worst, limit, 1), "rad/s² of", ""),
-            ViolationKind::Clearance => ("clearance", told_apart(1e3 * worst, 1e3 * limit, 1), "mm of", " mm"),
+            ViolationKind::Speed => ("speed", distinct_decimals(worst, limit, 2), "rad/s of", ""),
+            ViolationKind::Acceleration => ("acceleration", distinct_decimals(worst, limit, 1), "rad/s² of", ""),
+            ViolationKind::Clearance => (
+                "clearance",
+                distinct_decimals(1e3 * worst, 1e3 * limit, 1),
+                "mm of",
+                " mm",
+            ),
         };
         let [from, to] = [self.t_start_s, self.t_end_s];
         write!(

@@ -117,7 +117,7 @@ impl WaypointReport {
         let closest = |k: usize| nearest(steps.iter().filter_map(|(_, near)| near[k].nearest.as_ref()));
         Self {
             waypoints: steps.len(),
-            reached: steps.iter().filter(|(step, _)| step.reached()).count(),
+            reached: steps.iter().filter(|(step, _)| step.is_reached()).count(),
             worst_unreached: worst_unreached(steps),
             tracking_rms_m,
             tracking_max_m,

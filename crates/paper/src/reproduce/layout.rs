@@ -70,7 +70,7 @@ fn check_exactly(run: &PaperRun, clearance: &ClearanceModel, sample: &mut Sample
     let solver = IkSolver::new(&job.arm, tip, job.settings.ik_settings())?;
     let mut is_clear = true;
     for segment in &run.tool_path.segments {
-        let (points, [reached, clear]) = (segment.waypoints.len(), reached(&solver, segment, clearance));
+        let (points, [reached, clear]) = (segment.waypoints.len(), count_reached(&solver, segment, clearance));
         if segment.kind == SegmentKind::Wash {
             sample.count("points_reached", reached, points);
             sample.count("points_clear", clear, points);
@@ -87,7 +87,7 @@ fn check_exactly(run: &PaperRun, clearance: &ClearanceModel, sample: &mut Sample
 }
 
 /// Counts the waypoints of a segment that are reached, and among them those without contact.
-fn reached(solver: &IkSolver<'_>, segment: &Segment, clearance: &ClearanceModel) -> [usize; 2] {
+fn count_reached(solver: &IkSolver<'_>, segment: &Segment, clearance: &ClearanceModel) -> [usize; 2] {
     let [mut reached, mut clear] = [0, 0];
     let mut seed = JointVector::from(READY_DEG).map(f64::to_radians);
     for target in &segment.waypoints {

@@ -185,10 +185,10 @@ impl Estimate {
     }
 
     /// Checks that the curve keeps the promise on the bare face, with the tool set by its rule.
-    pub fn keeps(&self, promise: &Promise, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> bool {
+    pub fn keeps_promise(&self, promise: &Promise, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> bool {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));
-        promise.seems_kept(surface, &self.moments(surface, rule, cone_rad), &Margin::BARE_FACE)
+        promise.samples_keep_promise(surface, &self.moments(surface, rule, cone_rad), &Margin::BARE_FACE)
     }
 
     /// The sponge along the curve at the speed of washing, the tool by its rule and leaning as is usual within a cone.

@@ -55,7 +55,7 @@ pub struct Pattern {
 
 impl Pattern {
     /// A curve within a cone, at a share of the wash speed.
-    fn offered(estimate: &Estimate, cone_rad: f64, speed_share: f64) -> Self {
+    fn candidate(estimate: &Estimate, cone_rad: f64, speed_share: f64) -> Self {
         Self {
             curve: estimate.curve,
             cone_rad,
@@ -134,7 +134,7 @@ impl Patterns {
     }
 
     /// Patterns of wider cones, for places that the first ones do not reach.
-    pub fn wider(&self) -> impl Iterator<Item = Pattern> {
+    pub fn wider_patterns(&self) -> impl Iterator<Item = Pattern> {
         self.cones[1..].iter().flat_map(|cone| self.within(*cone))
     }
 
@@ -170,21 +170,25 @@ impl Patterns {
         }
         chosen.extend(self.slower(cone_rad, &Margin::BARE_FACE));
         if self.is_chosen() {
-            chosen.extend(self.candidates.last().map(|last| Pattern::offered(last, cone_rad, 1.0)));
+            chosen.extend(
+                self.candidates
+                    .last()
+                    .map(|last| Pattern::candidate(last, cone_rad, 1.0)),
+            );
         }
         chosen
     }
 
     /// The shortest of the usual curves that keep the promise at full speed; a stated curve is taken in any case.
     fn usual(&self, cone_rad: f64) -> Vec<Pattern> {
-        let keeps = |estimate: &&Estimate| estimate.keeps(&self.promise, &self.surface, &self.rule, cone_rad);
+        let keeps = |estimate: &&Estimate| estimate.keeps_promise(&self.promise, &self.surface, &self.rule, cone_rad);
         let kept = self
             .candidates
             .iter()
             .take_while(|_| !self.cancel.is_cancelled())
             .filter(|estimate| !self.is_chosen() || keeps(estimate));
         kept.take(MOST_OFFERED)
-            .map(|estimate| Pattern::offered(estimate, cone_rad, 1.0))
+            .map(|estimate| Pattern::candidate(estimate, cone_rad, 1.0))
             .collect()
     }
 
@@ -201,7 +205,7 @@ impl Patterns {
         let kept = all.filter_map(|estimate| {
             let moments = estimate.moments(&self.surface, &self.rule, cone_rad);
             let share = self.promise.speed_share(&self.surface, &moments, margin, SLOWEST)?;
-            Some(Pattern::offered(&estimate, cone_rad, share))
+            Some(Pattern::candidate(&estimate, cone_rad, share))
         });
         let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);
         let mut kept: Vec<Pattern> = kept.take(MOST_SLOWED).collect();

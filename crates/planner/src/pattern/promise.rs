@@ -6,7 +6,7 @@ use crate::scene::Scene;
 use crate::trig::{acos, sin_cos};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_workcell::contact::{Columns, ContactSampler, ContactThresholds, Foundation, Level, Moment, SpongePose};
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
@@ -251,17 +251,17 @@ impl Promise {
     }
 
     /// Checks that the places of a face, one by one over some moments, keep the promise with a margin.
-    pub(crate) fn seems_kept(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
-        !self.lacks_much(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
+    pub(crate) fn samples_keep_promise(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
+        !self.first_samples_fail(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
     }
 
     /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
-    fn lacks_much(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
+    fn first_samples_fail(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
         let wanted = self.wanted_with(margin);
         let looks = ContactSampler::new(&self.foundation, moments, &wanted);
         let mut kept = [FIRST; 3];
         (0..FEW).any(|k| {
-            let here = kept_at(&looks, surface, &wanted, (k * SPREAD % FIRST) * (PLACES / FIRST));
+            let here = sample_meets_thresholds(&looks, surface, &wanted, (k * SPREAD % FIRST) * (PLACES / FIRST));
             for (kept, here) in kept.iter_mut().zip(here) {
                 *kept -= u32::from(!here);
             }
@@ -308,7 +308,7 @@ impl Promise {
     ) -> Option<f64> {
         let mut slowest = *self;
         slowest.thresholds.time_s *= least;
-        if !slowest.seems_kept(surface, moments, margin) {
+        if !slowest.samples_keep_promise(surface, moments, margin) {
             return None;
         }
         let looks = ContactSampler::new(&self.foundation, moments, &self.thresholds);
@@ -325,7 +325,7 @@ impl Promise {
     fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
         let wanted = self.wanted_with(margin);
         let looks = ContactSampler::new(&self.foundation, moments, &wanted);
-        let at = |k: u32| kept_at(&looks, surface, &wanted, k).map(u32::from);
+        let at = |k: u32| sample_meets_thresholds(&looks, surface, &wanted, k).map(u32::from);
         let add = |a: [u32; 3], b: [u32; 3]| std::array::from_fn(|i| a[i] + b[i]);
         // Every eighth seed is spread as evenly.
         let stride = PLACES / FIRST;
@@ -365,7 +365,12 @@ pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
 }
 
 /// Checks that the k-th place is pressed deep enough, long enough, and with enough of a dose.
-fn kept_at(sampler: &ContactSampler<'_>, surface: &Surface, thresholds: &ContactThresholds, k: u32) -> [bool; 3] {
+fn sample_meets_thresholds(
+    sampler: &ContactSampler<'_>,
+    surface: &Surface,
+    thresholds: &ContactThresholds,
+    k: u32,
+) -> [bool; 3] {
     let dwell = sampler.at(&place(surface, k));
     [
         dwell.compression_m >= thresholds.compression_m,
@@ -416,7 +421,7 @@ impl fmt::Display for Shortfall {
             ContactPromise::LeastForce | ContactPromise::GreatestForce => (1.0, "N"),
             _ => (100.0, "%"),
         };
-        let [found, required] = told_apart(scale * self.found, scale * self.required, 1);
+        let [found, required] = distinct_decimals(scale * self.found, scale * self.required, 1);
         match self.promised {
             ContactPromise::Strain => write!(
                 f,

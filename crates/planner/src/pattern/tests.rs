@@ -13,7 +13,12 @@ fn disc() -> Surface {
 fn offered(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Vec<Pattern> {
     let patterns = Patterns::new(terms, settings, surface, &CancelToken::new());
     let widest = patterns.widest();
-    let all: Vec<Pattern> = patterns.first().iter().copied().chain(patterns.wider()).collect();
+    let all: Vec<Pattern> = patterns
+        .first()
+        .iter()
+        .copied()
+        .chain(patterns.wider_patterns())
+        .collect();
     assert!(all.iter().all(|pattern| pattern.cone_rad <= widest.cone_rad));
     all
 }

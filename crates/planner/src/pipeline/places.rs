@@ -82,7 +82,7 @@ impl Pipeline<'_> {
                 away_m,
             });
         };
-        match nearest_washable(&self.elsewhere(scene, path, near), &mut holds, &tell) {
+        match nearest_washable(&self.moved_plate(scene, path, near), &mut holds, &tell) {
             Ok(place) => Ok(place.map(Into::into)),
             Err(RedundancyError::Cancelled(cancelled)) => Err(cancelled),
             Err(_) => Ok(None),
@@ -90,7 +90,12 @@ impl Pipeline<'_> {
     }
 
     /// The plate of a wash path as a subject of the search for another place.
-    pub fn elsewhere<'a>(&'a self, scene: &'a Scene<'a>, path: &'a WashPath, near: &'a JointVector) -> MovedPlate<'a> {
+    pub fn moved_plate<'a>(
+        &'a self,
+        scene: &'a Scene<'a>,
+        path: &'a WashPath,
+        near: &'a JointVector,
+    ) -> MovedPlate<'a> {
         MovedPlate {
             scene,
             clearance: &self.clearance,
@@ -138,7 +143,7 @@ impl Pipeline<'_> {
 /// patches.
 ///
 /// A square counts as washable where the plate, with its centre in the middle, overlaps neither another plate nor the base, a policy
-/// of tilts washes it whole from home, and the arm is clear at home. This is an estimate, as [`outlook`](crate::outlook) is:
+/// of tilts washes it whole from home, and the arm is clear at home. This is an estimate, as [`plate_outlooks`](crate::plate_outlooks) is:
 /// transits are not checked, and a search may wash more. Every reported square was checked. The finer ones are those along the
 /// border in the answers of the coarser ones, so that a detail within one coarse square may be missed.
 ///
@@ -163,7 +168,7 @@ pub fn washable_map(
     let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
     let path = pipeline.path_of(&scene, &order, turn);
     let [near, _] = &pipeline.terms.home_rad;
-    let asked = pipeline.elsewhere(&scene, &path, near);
+    let asked = pipeline.moved_plate(&scene, &path, near);
     let here = Vector2::from(scene.centre_in_world(&pipeline.plates[plate]));
     let mut levels = Levels::new(map);
     while let Some((step_m, mut squares)) = levels.next() {
@@ -172,7 +177,7 @@ pub fn washable_map(
         let mut answers: Vec<(Square, bool)> = Vec::with_capacity(squares.len());
         for some in squares.chunks(IN_A_PATCH) {
             let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();
-            let washable = pipeline.suited(&asked, &centres)?;
+            let washable = pipeline.suitable_centres(&asked, &centres)?;
             answers.extend(some.iter().copied().zip(washable.iter().copied()));
             let of_answer = |wanted: bool| {
                 let told = centres.iter().zip(&washable).filter(|(_, answer)| **answer == wanted);
@@ -193,8 +198,8 @@ pub fn washable_map(
 
 impl Pipeline<'_> {
     /// Checks, place by place, that the plate suits with its centre there \[m\], and leaves the arm room at home.
-    fn suited(&self, moved: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
-        let look = |trial: &mut Trial<'_>, centre: &[f64; 2]| match trial.suits(&(*centre).into()) {
+    fn suitable_centres(&self, moved: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
+        let look = |trial: &mut Trial<'_>, centre: &[f64; 2]| match trial.is_suitable(&(*centre).into()) {
             Ok(suits) => Ok(suits && self.check_homes_among(trial.bodies()).is_ok()),
             Err(RedundancyError::Cancelled(cancelled)) => Err(cancelled),
             // Planning would refuse it there.
@@ -214,7 +219,7 @@ impl Pipeline<'_> {
 ///
 /// # Errors
 /// [`PlanError`] of the input, an end configuration that is not clear, and [`PlanError::Cancelled`].
-pub fn outlook(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<PlateOutlook>, PlanError> {
+pub fn plate_outlooks(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<PlateOutlook>, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
     pipeline.check_homes()?;
     let scene = pipeline.scene()?;
@@ -337,10 +342,10 @@ mod tests {
         let (order, _) = pipeline.order(&scene).unwrap();
         let turn = order.iter().position(|&other| other == 2).unwrap();
         let path = pipeline.path_of(&scene, &order, turn);
-        let asked = pipeline.elsewhere(&scene, &path, &job.terms().home_rad[0]);
+        let asked = pipeline.moved_plate(&scene, &path, &job.terms().home_rad[0]);
         let (mut yes, mut no) = (0, 0);
         for (centre, washable) in told {
-            let suits = Trial::new(&asked).suits(&centre.into()).unwrap();
+            let suits = Trial::new(&asked).is_suitable(&centre.into()).unwrap();
             assert_eq!(washable, suits, "{centre:?}");
             if suits { yes += 1 } else { no += 1 }
         }
@@ -358,7 +363,7 @@ mod tests {
             let mut terms = kitchen.terms().clone();
             terms.plates = vec![kitchen_plate([x, y])];
             let job = WashJob::new(kitchen.shared_arm(), terms).unwrap();
-            let chance = outlook(&job, &watch).unwrap()[0].chance;
+            let chance = plate_outlooks(&job, &watch).unwrap()[0].chance;
             let pipeline = Pipeline::here(&job, &watch).unwrap();
             let scene = pipeline.scene().unwrap();
             let path = pipeline.path_of(&scene, &[0], 0);

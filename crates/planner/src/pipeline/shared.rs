@@ -180,7 +180,10 @@ impl<'a> Pipeline<'a> {
             tilt_reserve_rad: self.tilt_reserve_rad,
             aside_rad: 0.0,
         };
-        Ok(scene.mounted(self.mount).standing(stance).until(self.watch.cancel))
+        Ok(scene
+            .mounted(self.mount)
+            .with_stance(stance)
+            .with_cancel(self.watch.cancel))
     }
 
     /// The tilt that suits each place.

@@ -175,7 +175,7 @@ fn line(
     let touches_m = match touch_speed.from {
         // The tilted rim touches up to there, and a sample more.
         Reach::Compressed => terms.workcell.tool.sponge.radius_m * sin(scene.stance.lean_rad(tilt_rad)) + LINE_STEP_M,
-        Reach::Free => pipeline.meets_m(plate, lift_m, over),
+        Reach::Free => pipeline.first_contact_height_m(plate, lift_m, over),
     };
     let heights = match touch_speed.from {
         // A sample where it meets the plate: from there on it may be faster.
@@ -211,7 +211,7 @@ fn evenly(from_m: f64, to_m: f64, least_steps: f64) -> Vec<f64> {
 impl Pipeline<'_> {
     /// The height of the tip over a plate from which on down the free sponge may meet it, however much higher it lies, up to `lift_m`,
     /// with the tip's pose by its height \[m\].
-    fn meets_m(&self, plate: usize, lift_m: f64, over: impl Fn(&f64) -> Pose) -> f64 {
+    fn first_contact_height_m(&self, plate: usize, lift_m: f64, over: impl Fn(&f64) -> Pose) -> f64 {
         let sponge = &self.terms.workcell.tool.sponge;
         let contact = &self.terms.requirements.contact;
         let higher_m = contact.map_or(0.0, |contact| contact.height_error_m);

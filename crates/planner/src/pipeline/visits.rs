@@ -59,7 +59,7 @@ impl Pipeline<'_> {
         if !redundancy::is_blocked(&task)? {
             return Ok(None);
         }
-        self.tell_of(order, k);
+        self.report_visit(order, k);
         // A tilt between those of the search may still do.
         let error = redundancy::washing(&task).err();
         Ok(error.map(|error| FailedVisit { path, near, error }))
@@ -76,7 +76,7 @@ impl Pipeline<'_> {
         let [mut near, _] = self.terms.home_rad;
         let turns = (0..order.len()).filter(move |&k| wanted(order[k]));
         turns.map(move |k| {
-            self.tell_of(order, k);
+            self.report_visit(order, k);
             let path = self.path_of(scene, order, k);
             match self.washing_by_patterns(scene, &path, &near) {
                 Ok(turn) => {
@@ -88,7 +88,7 @@ impl Pipeline<'_> {
         })
     }
 
-    fn tell_of(&self, order: &[usize], k: usize) {
+    fn report_visit(&self, order: &[usize], k: usize) {
         let (plate, turn, of) = (order[k], k + 1, order.len());
         (self.watch.tell)(&Activity::Wash { plate, turn, of });
     }
@@ -122,7 +122,7 @@ impl Pipeline<'_> {
         let plate = like.plate;
         let patterns = &self.patterns[plate];
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
-        let mut offered = patterns.first().iter().copied().chain(patterns.wider());
+        let mut offered = patterns.first().iter().copied().chain(patterns.wider_patterns());
         let mut denser = patterns.denser();
         // True where the washing found lacks a little of the margin, once that is checked.
         let mut lacks = None;
@@ -202,7 +202,7 @@ pub fn unwashable_plates(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<Unwasha
     let scene = pipeline.scene()?;
     let (order, _) = pipeline.order(&scene)?;
     let failed = pipeline.failed(&scene, &order)?;
-    let why = |failed: FailedVisit| pipeline.look_into(&scene, failed);
+    let why = |failed: FailedVisit| pipeline.explain(&scene, failed);
     let plates: Result<Vec<UnwashablePlate>, Cancelled> = failed.into_par_iter().map(why).collect();
     let mut plates = plates?;
     plates.sort_by_key(|plate| plate.plate);
@@ -264,7 +264,7 @@ impl Pipeline<'_> {
     /// Returns the cause, and the nearest other place for the plate if the job asks for it.
     fn with_place(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
         let (path, near) = (failed.path, failed.near);
-        let plate = self.look_into(scene, failed)?;
+        let plate = self.explain(scene, failed)?;
         let nearest_m = match self.place_search {
             PlaceSearch::Within(_) => self.nearest(scene, &path, &near)?,
             PlaceSearch::Off | PlaceSearch::Later => None,
@@ -274,7 +274,7 @@ impl Pipeline<'_> {
     }
 
     /// Returns the cause, without a search for another place.
-    fn look_into(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
+    fn explain(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
         let FailedVisit { path, near, error } = failed;
         if let RedundancyError::Cancelled(cancelled) = error {
             return Err(cancelled);

@@ -59,7 +59,7 @@ impl Task<'_> {
             return Ok(());
         }
         let clear = self.check_clear_in(q, stretch);
-        clear.inspect_err(|_| self.lines.stand_in_the_way())
+        clear.inspect_err(|_| self.lines.record_blocked_line())
     }
 }
 
@@ -93,12 +93,12 @@ impl Lines {
     }
 
     /// A line was refused because it is not clear.
-    pub fn stand_in_the_way(&self) {
+    pub fn record_blocked_line(&self) {
         self.stood_in_the_way.store(true, Ordering::Relaxed);
     }
 
     /// Returns true once a line was refused because it is not clear.
-    pub fn stood_in_the_way(&self) -> bool {
+    pub fn has_blocked_line(&self) -> bool {
         self.stood_in_the_way.load(Ordering::Relaxed)
     }
 }

@@ -64,7 +64,7 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// [`RedundancyError`] for numbers out of range, or where the search was given up.
-    pub fn suits(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
+    pub fn is_suitable(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
         let MovedPlate {
             scene,
             path,
@@ -142,7 +142,7 @@ pub fn nearest_washable(
     let here = Vector2::from(moved.scene.centre_in_world(here));
     let mut trial = Trial::new(moved);
     let at_rest = on_grid(&here);
-    if trial.suits(&at_rest)? && holds(&at_rest) {
+    if trial.is_suitable(&at_rest)? && holds(&at_rest) {
         return Ok(Some(at_rest));
     }
     let mut checks = 1;
@@ -151,7 +151,7 @@ pub fn nearest_washable(
         for (distance, away) in on_ring(&mut trial, &here, ring)? {
             for further in FURTHER_M {
                 let place = on_grid(&(here + away * (distance + further)));
-                if !trial.suits(&place)? {
+                if !trial.is_suitable(&place)? {
                     continue;
                 }
                 if checks == MOST_CHECKS {
@@ -173,7 +173,7 @@ fn on_ring(trial: &mut Trial<'_>, here: &Vector2<f64>, ring: u32) -> Result<Vec<
     for k in 0..DIRECTIONS {
         let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
         let away = Vector2::new(c, s);
-        if trial.suits(&(here + away * (RING_M * f64::from(ring))))? {
+        if trial.is_suitable(&(here + away * (RING_M * f64::from(ring))))? {
             found.push((halve(trial, here, &away, ring)?, away));
         }
     }
@@ -186,7 +186,7 @@ fn halve(trial: &mut Trial<'_>, here: &Vector2<f64>, away: &Vector2<f64>, ring: 
     let [mut bad, mut good] = [ring - 1, ring].map(|ring| RING_M * f64::from(ring));
     for _ in 0..HALVINGS {
         let middle = 0.5 * (bad + good);
-        if trial.suits(&(here + away * middle))? {
+        if trial.is_suitable(&(here + away * middle))? {
             good = middle;
         } else {
             bad = middle;

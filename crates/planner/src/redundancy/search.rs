@@ -110,7 +110,7 @@ impl Graph {
             task.scene.check_cancelled()?;
             let mut layer = self.layer(task, k, last.as_ref(), start);
             if k == 0 || k + 1 == self.theta.len() {
-                self.leave_lines(task, k, &mut layer, start);
+                self.remove_vertices_without_line(task, k, &mut layer, start);
             }
             match &last {
                 Some(before) => self.connect(task, before, &mut layer),
@@ -152,7 +152,7 @@ impl Graph {
     }
 
     /// Leaves the vertices of an end of the wash path over which there is a line.
-    fn leave_lines(&self, task: &Task<'_>, k: usize, layer: &mut Layer, start: &Start) {
+    fn remove_vertices_without_line(&self, task: &Task<'_>, k: usize, layer: &mut Layer, start: &Start) {
         let contact = task.samples.at(self.theta[k]);
         for (slot, &tilt) in layer.iter_mut().zip(&self.tilts) {
             if slot.is_some_and(|vertex| !task.has_line(&contact, tilt, &vertex.q, start)) {
@@ -162,7 +162,7 @@ impl Graph {
     }
 
     /// Returns the tilts, those closest to the preferred tilt of a contact point first \[rad\].
-    pub fn likeliest_first(&self, task: &Task<'_>, contact: &Contact) -> Vec<f64> {
+    pub fn tilts_by_preference(&self, task: &Task<'_>, contact: &Contact) -> Vec<f64> {
         let preferred = self.preferred.tilt(task.scene.distance(&contact.point));
         let mut tilts = self.tilts.clone();
         tilts.sort_by(|a, b| (a - preferred).abs().total_cmp(&(b - preferred).abs()));

@@ -34,7 +34,7 @@ pub fn is_blocked(task: &Task<'_>) -> Result<bool, Cancelled> {
     let Some(layer) = first_dead(task, &graph)? else {
         return Ok(false);
     };
-    if !washing::may_help_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
+    if !washing::obstacle_blocks_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
         return Ok(true);
     }
     for aside_rad in washing::leans(task) {
@@ -82,7 +82,7 @@ fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
         return Vec::new();
     }
     let curve = &task.path.curve;
-    let out = task.scene.out(&task.centre());
+    let out = task.scene.outward_direction(&task.centre());
     let out = task.plate.pose.rotation.inverse_transform_vector(&out);
     // θ of the farthest point from axis 1 is this much before the end.
     let before = (curve.start_angle_rad + curve.end() - atan2(out.y, out.x)).rem_euclid(TAU);
@@ -105,7 +105,7 @@ fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
 /// Checks that a layer has no configuration at any tilt, on any branch.
 fn at(task: &Task<'_>, graph: &Graph, layer: usize) -> Result<bool, Cancelled> {
     let contact = task.samples.at(graph.theta[layer]);
-    for tilt in graph.likeliest_first(task, &contact) {
+    for tilt in graph.tilts_by_preference(task, &contact) {
         task.scene.check_cancelled()?;
         let target = task.scene.tip_rigid(&contact, tilt);
         if task.check_cone(&contact, &target).is_err() {
@@ -228,8 +228,11 @@ pub struct FoundConfiguration {
 /// [`Cancelled`].
 pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<FoundConfiguration>, Cancelled> {
     let scene = task.scene;
-    let contact = task.samples.at(theta.clamp(0.0, task.path.curve.end())).upright();
-    let out = scene.out(&contact);
+    let contact = task
+        .samples
+        .at(theta.clamp(0.0, task.path.curve.end()))
+        .with_tool_on_normal();
+    let out = scene.outward_direction(&contact);
     let steps = (task.tilt_max_rad() / TILT_STEP_RAD).ceil();
     for k in 0..=steps as u32 {
         let tilt_rad = if k == 0 {

@@ -85,7 +85,7 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     let Err(error) = &found else {
         return found;
     };
-    if may_help(task, error) {
+    if obstacle_blocks(task, error) {
         for aside_rad in leans(task) {
             let scene = task.scene.clone().leaning_aside(aside_rad);
             match washing_by_any(&task.in_scene(&scene)) {
@@ -96,7 +96,7 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
         }
     }
     // The caller that plans the lines reports their obstructions.
-    if task.lines.stood_in_the_way() {
+    if task.lines.has_blocked_line() {
         return washing_by_any(&task.with_any_lines());
     }
     found
@@ -173,7 +173,7 @@ fn first_of(task: &Task<'_>, policies: &[TiltPolicy], width: Width) -> Result<Op
 fn with_policy(task: &Task<'_>, policy: &TiltPolicy, width: Width) -> Result<Option<Washing>, Cancelled> {
     let profile = Profile::Policy(*policy);
     let tilts = task.tilts(&profile);
-    if !may_do(task, &tilts) {
+    if !extremes_are_reachable(task, &tilts) {
         return Ok(None);
     }
     let first = task.scene.tip_rigid(&task.samples.contact[0], tilts[0]);
@@ -214,7 +214,7 @@ pub(crate) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
 
 /// Checks that some branch reaches the contact points nearest to axis 1 and farthest from it, on arms with every branch known: a
 /// quick test before the whole path is tried.
-fn may_do(task: &Task<'_>, tilts: &[f64]) -> bool {
+fn extremes_are_reachable(task: &Task<'_>, tilts: &[f64]) -> bool {
     let inverse = &task.scene.inverse;
     if !inverse.knows_all_branches() {
         return true;
@@ -323,17 +323,17 @@ pub(crate) fn leans(task: &Task<'_>) -> impl Iterator<Item = f64> + use<> {
 }
 
 /// Checks that an obstacle stands in the way at the contact points where a search ended.
-pub(crate) fn may_help(task: &Task<'_>, error: &RedundancyError) -> bool {
+pub(crate) fn obstacle_blocks(task: &Task<'_>, error: &RedundancyError) -> bool {
     let ends = match error {
         RedundancyError::NoTilt { ends, .. } => &ends[..],
         RedundancyError::Disconnected { end, .. } | RedundancyError::Between { end, .. } => std::slice::from_ref(end),
         _ => &[],
     };
-    ends.iter().any(|end| may_help_at(task, end))
+    ends.iter().any(|end| obstacle_blocks_at(task, end))
 }
 
 /// Checks that an obstacle stands in the way of some tilt at a contact point.
-pub(crate) fn may_help_at(task: &Task<'_>, end: &DeadEnd) -> bool {
+pub(crate) fn obstacle_blocks_at(task: &Task<'_>, end: &DeadEnd) -> bool {
     let surroundings = task.scene.surroundings;
     end.reasons.iter().any(|reason| match &reason.least {
         Hindrance::Clearance { pair, .. } => [&pair.a, &pair.b]

@@ -3,7 +3,7 @@
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
 use platewash_kinematics::ik::{IkCause, IkError};
-use platewash_kinematics::words::{not_as_zero, told_apart};
+use platewash_kinematics::words::{distinct_decimals, nonzero_decimals};
 use platewash_workcell::clearance::PairClearance;
 use serde::Serialize;
 use std::fmt;
@@ -13,12 +13,12 @@ use std::fmt;
 #[non_exhaustive]
 pub enum Hindrance {
     /// The wrist cannot be where it must.
-    #[error("out of reach by {} mm", not_as_zero(1e3 * .0.by_m, 1))]
+    #[error("out of reach by {} mm", nonzero_decimals(1e3 * .0.by_m, 1))]
     Reach(OutOfReach),
     /// A joint would be beyond its limit.
     #[error(
         "joint {} is {}° beyond its limit of {:.2}°",
-        .0.joint + 1, not_as_zero((.0.position_rad - .0.limit_rad).abs().to_degrees(), 2), .0.limit_rad.to_degrees()
+        .0.joint + 1, nonzero_decimals((.0.position_rad - .0.limit_rad).abs().to_degrees(), 2), .0.limit_rad.to_degrees()
     )]
     Limit(LimitViolation),
     /// The numeric inverse kinematics found nothing.
@@ -32,8 +32,8 @@ pub enum Hindrance {
     /// Two bodies are too near.
     #[error(
         "{} is {} mm from {}; {} mm must be kept",
-        pair.a, told_apart(1e3 * pair.distance_m, 1e3 * required_m, 1)[0],
-        pair.b, told_apart(1e3 * pair.distance_m, 1e3 * required_m, 1)[1]
+        pair.a, distinct_decimals(1e3 * pair.distance_m, 1e3 * required_m, 1)[0],
+        pair.b, distinct_decimals(1e3 * pair.distance_m, 1e3 * required_m, 1)[1]
     )]
     Clearance {
         /// The bodies.
@@ -50,7 +50,7 @@ pub enum Hindrance {
         by_rad: f64,
     },
     /// Joint 5 would be too near to 0, or on its other side.
-    #[error("joint 5 is {}° from 0, where the wrist flips; {:.2}° must be kept", not_as_zero(.found_rad.to_degrees(), 2), .least_rad.to_degrees())]
+    #[error("joint 5 is {}° from 0, where the wrist flips; {:.2}° must be kept", nonzero_decimals(.found_rad.to_degrees(), 2), .least_rad.to_degrees())]
     Wrist {
         /// Angle of joint 5 from 0 \[rad\].
         found_rad: f64,
@@ -147,7 +147,7 @@ impl Hindrance {
                 mm(*position_error_m)
             ),
             Self::Clearance { pair, required_m } => {
-                let [at, required] = told_apart(nearest(1e3 * pair.distance_m), 1e3 * required_m, 1);
+                let [at, required] = distinct_decimals(nearest(1e3 * pair.distance_m), 1e3 * required_m, 1);
                 match pair.distance_m > 0.0 {
                     true => write!(f, "{} passes {} at {at} mm; {required} mm required", pair.a, pair.b),
                     false => write!(f, "{} runs into {}; {required} mm required", pair.a, pair.b),
@@ -163,7 +163,7 @@ impl Hindrance {
             }
             Self::Wrist { found_rad, least_rad } => {
                 let [at, required] = [found_rad, least_rad].map(|rad| rad.to_degrees());
-                let [at, required] = told_apart((100.0 * at).floor() / 100.0, required, 2);
+                let [at, required] = distinct_decimals((100.0 * at).floor() / 100.0, required, 2);
                 write!(
                     f,
                     "joint 5 passes 0, where the wrist flips, at {at}°; {required}° required"

@@ -95,14 +95,14 @@ impl<'a> Scene<'a> {
 
     /// The same scene, in which all searches end as soon as `cancel` is set.
     #[must_use]
-    pub fn until(self, cancel: &'a CancelToken) -> Self {
+    pub fn with_cancel(self, cancel: &'a CancelToken) -> Self {
         let cancel = Some(cancel);
         Self { cancel, ..self }
     }
 
     /// The same scene with another stance.
     #[must_use]
-    pub fn standing(self, stance: Stance) -> Self {
+    pub fn with_stance(self, stance: Stance) -> Self {
         Self { stance, ..self }
     }
 
@@ -194,7 +194,7 @@ impl<'a> Scene<'a> {
     }
 
     pub(crate) fn tip_rigid(&self, contact: &Contact, tilt_rad: f64) -> RigidTransform {
-        let out = self.out(contact);
+        let out = self.outward_direction(contact);
         let aside_rad = self.stance.aside_rad;
         if aside_rad == 0.0 {
             return leaning(&self.across, contact, [&out, &out], tilt_rad);
@@ -204,7 +204,7 @@ impl<'a> Scene<'a> {
 
     /// The tip with the flange leaning towards `lean`, along the face, by its length \[rad\].
     pub(crate) fn tip_leaning(&self, contact: &Contact, lean: &Vector3<f64>) -> RigidTransform {
-        let out = self.out(contact);
+        let out = self.outward_direction(contact);
         let tilt_rad = lean.norm();
         let towards = if tilt_rad > 0.0 { lean / tilt_rad } else { out };
         leaning(&self.across, contact, [&out, &towards], tilt_rad)
@@ -213,7 +213,7 @@ impl<'a> Scene<'a> {
     /// Distance of a point \[m\] from axis 1 \[m\].
     #[must_use]
     pub fn distance(&self, point: &Vector3<f64>) -> f64 {
-        self.away(point).norm()
+        self.from_axis_1(point).norm()
     }
 
     /// ρ̂ of a contact point: the direction across its axis n away from axis 1, where n is along that.
@@ -222,11 +222,11 @@ impl<'a> Scene<'a> {
     /// arm's plane vanishes on faces that look along the way round. The length of each is the sine of the angle between n and the
     /// direction that it is cut from. The result is along their sum, which changes steadily over a face: both agree where n is in
     /// the arm's plane.
-    pub(crate) fn out(&self, contact: &Contact) -> Vector3<f64> {
+    pub(crate) fn outward_direction(&self, contact: &Contact) -> Vector3<f64> {
         let (n, [_, a]) = (contact.axis, self.axis_1);
         let across = |v: Vector3<f64>| v - n * n.dot(&v);
         let along = |v: Vector3<f64>| across(v).try_normalize(ON_AXIS_M);
-        let away = self.away(&contact.point);
+        let away = self.from_axis_1(&contact.point);
         if n.cross(&a).norm() <= LEVEL {
             return along(away).or_else(|| along(Vector3::x())).unwrap_or_else(Vector3::y);
         }
@@ -239,7 +239,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The vector from axis 1 to a point \[m\].
-    fn away(&self, point: &Vector3<f64>) -> Vector3<f64> {
+    fn from_axis_1(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let [origin, direction] = self.axis_1;
         let away = point - origin;
         away - direction * direction.dot(&away)
@@ -261,7 +261,7 @@ impl<'a> Scene<'a> {
             return Vector3::y();
         };
         let here = Contact::level(tip.translation);
-        let side = here.normal.cross(&self.out(&here));
+        let side = here.normal.cross(&self.outward_direction(&here));
         across * 1.0_f64.copysign(side.dot(axis_5))
     }
 }
@@ -323,7 +323,7 @@ impl Surroundings for ClearanceModel {
     fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool {
         match stretch {
             Stretch::AtPlate(plate) => self.keeps_washing(q, plate, required_m),
-            Stretch::Free => self.keeps(q, required_m),
+            Stretch::Free => self.keeps_clearance(q, required_m),
         }
     }
 

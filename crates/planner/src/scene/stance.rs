@@ -172,7 +172,7 @@ impl Contact {
 
     /// The point with the tool on the normal.
     #[must_use]
-    pub fn upright(&self) -> Self {
+    pub fn with_tool_on_normal(&self) -> Self {
         Self::on_normal(self.point, self.normal)
     }
 }

@@ -79,7 +79,7 @@ pub fn suggest_home(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) 
     let terms = &*terms.seen_from_base();
     let clearance = ClearanceModel::new(robot, &terms.workcell, &terms.plates)?;
     let reach = terms.planner_settings().ok_or(PlanError::PaperJob)?.reach;
-    let scene = Scene::new(robot, &terms.workcell.tool, &clearance, &terms.plates, reach)?.until(cancel);
+    let scene = Scene::new(robot, &terms.workcell.tool, &clearance, &terms.plates, reach)?.with_cancel(cancel);
     let search = Search {
         scene: &scene,
         terms,
@@ -112,7 +112,7 @@ pub fn suggest_home(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) 
     };
     let q = JointVector::from(best.q_deg).map(f64::to_radians);
     let tool = robot.fk(&q).rigid(&scene.tip).rotation.column(2).into_owned();
-    let down = -search.out();
+    let down = -search.outward_direction();
     Ok(SuggestedHome {
         q_deg: best.q_deg,
         nearest: clearance.smallest(&q, &[]),
@@ -154,7 +154,7 @@ impl Search<'_> {
         });
         let at = |k: u32| {
             scene.check_cancelled()?;
-            let target = scene.tip_rigid(&Contact::on_normal(self.place(k), self.out()), 0.0);
+            let target = scene.tip_rigid(&Contact::on_normal(self.place(k), self.outward_direction()), 0.0);
             let starts = scene.inverse.starts(&target, &near, Width::Near).unwrap_or_default();
             Ok(starts.iter().filter_map(|start| self.candidate(&start.q)).collect())
         };
@@ -205,7 +205,7 @@ impl Search<'_> {
     }
 
     /// The way out of the plates, taken together; up where there are none, or where they face all ways.
-    fn out(&self) -> Vector3<f64> {
+    fn outward_direction(&self) -> Vector3<f64> {
         let sum: Vector3<f64> = self.scene.plates.iter().map(Plate::axis).sum();
         sum.try_normalize(1e-3).unwrap_or_else(Vector3::z)
     }
@@ -214,7 +214,7 @@ impl Search<'_> {
     /// the direction of their middle, or of x where they lie around the base, give or take 30°.
     fn place(&self, k: u32) -> Vector3<f64> {
         let (from, reach_m) = self.scene.robot.reach_bound(&self.scene.tip);
-        let (plates, out) = (self.scene.plates, self.out());
+        let (plates, out) = (self.scene.plates, self.outward_direction());
         let count = plates.len().max(1) as f64;
         let sum: Vector3<f64> = plates.iter().map(|plate| plate.centre() - from.coords).sum();
         let top_m = plates.iter().map(|plate| plate.centre().dot(&out)).reduce(f64::max);
@@ -244,7 +244,7 @@ impl Search<'_> {
         let q_deg = q.map(|rad| rad.to_degrees().round() + 0.0);
         let q = q_deg.map(f64::to_radians);
         let limits = self.scene.robot.limits();
-        if !limits.contain(&q) || !self.clearance.keeps(&q, self.required_m()) {
+        if !limits.contain(&q) || !self.clearance.keeps_clearance(&q, self.required_m()) {
             return None;
         }
         let jacobian = self.scene.robot.fk(&q).jacobian(&self.scene.tip, Axes::Base);

@@ -5,7 +5,7 @@
 use crate::joint_path::JointPathError;
 use crate::scene::{Stretch, Surroundings};
 use crate::timing::TimingError;
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{JointVector, LimitViolation};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::PairClearance;
@@ -143,7 +143,7 @@ impl fmt::Display for ClearanceShortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
         let mm = |m: f64| 1e3 * m;
-        let [distance, required] = told_apart(mm(*distance_m), mm(self.asked_m + self.reserve_m), 2);
+        let [distance, required] = distinct_decimals(mm(*distance_m), mm(self.asked_m + self.reserve_m), 2);
         if *distance_m > 0.0 && self.asked_m + self.reserve_m - distance_m < ALIKE_M {
             write!(f, "{a} is a little nearer to {b} than allowed")?;
             return write!(

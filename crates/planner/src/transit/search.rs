@@ -55,17 +55,17 @@ pub fn plan(
         blocked: None,
     };
     for path in direct(from, to) {
-        search.consider(TransitKind::Direct, &path)?;
+        search.time_and_keep_fastest(TransitKind::Direct, &path)?;
     }
     if search.best.is_none() {
         for path in raised(rules.scene.robot, from, to) {
-            search.consider(TransitKind::Raised, &path)?;
+            search.time_and_keep_fastest(TransitKind::Raised, &path)?;
         }
     }
     if search.best.is_none()
         && let Some(path) = rules.arc.and_then(|over| lift_line::path(rules.scene, &over, from, to))
     {
-        search.consider(TransitKind::Arc, &path)?;
+        search.time_and_keep_fastest(TransitKind::Arc, &path)?;
     }
     let nodes = search.sampled(rng)?;
     let Search { best, blocked, .. } = search;
@@ -73,12 +73,12 @@ pub fn plan(
         from: from.plate(),
         to: to.plate(),
         nodes,
-        blocked: blocked.and_then(|q| what_blocks(rules, &q)).map(Box::new),
+        blocked: blocked.and_then(|q| obstruction_at(rules, &q)).map(Box::new),
     })
 }
 
 /// Returns the obstruction that keeps the arm from a configuration \[rad\] of a free part.
-fn what_blocks(rules: &TransitRules<'_>, q: &JointVector) -> Option<TransitObstruction> {
+fn obstruction_at(rules: &TransitRules<'_>, q: &JointVector) -> Option<TransitObstruction> {
     let too_near = || rules.too_near(q, Stretch::Free).map(TransitObstruction::TooNear);
     rules
         .scene
@@ -101,11 +101,11 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Times the path if it is free, and keeps it if it is the fastest so far.
-    fn consider(&mut self, kind: TransitKind, between: &FreePath) -> Result<(), TransitError> {
+    fn time_and_keep_fastest(&mut self, kind: TransitKind, between: &FreePath) -> Result<(), TransitError> {
         let (rules, [from, to]) = (self.rules, self.ends);
         let scene = rules.scene;
         scene.check_cancelled()?;
-        let path = whole(from, to, between)?;
+        let path = join_with_lines(from, to, between)?;
         let free = [from.height_m(), from.height_m() + between.length];
         if let Some(q) = blocked(rules, &path, free) {
             self.blocked.get_or_insert(q);
@@ -141,7 +141,7 @@ impl Search<'_> {
             nodes += lines.nodes;
             for spacing_rad in sampled::SPACINGS_RAD {
                 if self.best.is_none() {
-                    self.consider(TransitKind::Sampled, &lines.dense(spacing_rad))?;
+                    self.time_and_keep_fastest(TransitKind::Sampled, &lines.dense(spacing_rad))?;
                 }
             }
         }
@@ -188,7 +188,7 @@ fn check_line(rules: &TransitRules<'_>, end: &LiftLine) -> Result<(), TransitErr
 }
 
 /// Line, free path and line as one spline.
-fn whole(from: &LiftLine, to: &LiftLine, between: &FreePath) -> Result<JointPath, JointPathError> {
+fn join_with_lines(from: &LiftLine, to: &LiftLine, between: &FreePath) -> Result<JointPath, JointPathError> {
     let ((up, out), (down, back)) = (from.samples(), to.samples());
     let (first, last) = (from.height_m(), from.height_m() + between.length);
     let end = last + to.height_m();

@@ -176,7 +176,7 @@ fn a_cancelled_search_returns_no_transit() {
     let (set, cancel) = (set(), CancelToken::new());
     cancel.cancel();
     among(&set, &|_, _| true, |scene| {
-        let scene = scene.clone().until(&cancel);
+        let scene = scene.clone().with_cancel(&cancel);
         let rules = TransitRules {
             scene: &scene,
             limits: &set.limits,

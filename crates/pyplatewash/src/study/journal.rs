@@ -83,7 +83,7 @@ impl StudyJournalObject {
         let took = Duration::try_from_secs_f64(wall_s).unwrap_or_default();
         let plan = plan.map(|plan| plan.as_bytes().to_vec());
         self.with(py, |held, study| {
-            let row = study.received(line.as_bytes())?;
+            let row = study.parse_row(line.as_bytes())?;
             held.journal.append(&RowWithPlan { row, plan }, took)
         })
     }

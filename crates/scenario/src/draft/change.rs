@@ -337,7 +337,7 @@ fn replace(old: &mut Value, value: &Json, domain: Domain) -> Result<(), Stop> {
         _ => false,
     };
     match grows {
-        true => put(old, fresh(value, domain)?),
+        true => replace_value(old, fresh(value, domain)?),
         false => merge(old, value)?,
     }
     Ok(())
@@ -348,13 +348,13 @@ pub(crate) fn merge(old: &mut Value, value: &Json) -> Result<(), Stop> {
     if let (Value::Array(old), Json::Array(new)) = (&mut *old, value) {
         return elements::merge(old, new);
     }
-    let new = parsed(&in_style_of(&bare(old), value))?;
-    put(old, new);
+    let new = parsed(&in_style_of(&bare_text(old), value))?;
+    replace_value(old, new);
     Ok(())
 }
 
 /// Puts a value in the place of another, whose decoration stays.
-fn put(old: &mut Value, mut new: Value) {
+fn replace_value(old: &mut Value, mut new: Value) {
     *new.decor_mut() = old.decor().clone();
     *old = new;
 }
@@ -364,14 +364,14 @@ pub(crate) fn parsed(text: &str) -> Result<Value, Stop> {
 }
 
 /// A value's text without the text around it.
-fn bare(value: &Value) -> String {
+fn bare_text(value: &Value) -> String {
     let mut bare = value.clone();
     bare.decor_mut().clear();
     bare.to_string()
 }
 
 pub(crate) fn json(value: &Value) -> Json {
-    DeValue::parse(&bare(value)).map_or(Json::Null, |value| json_of(value.get_ref()))
+    DeValue::parse(&bare_text(value)).map_or(Json::Null, |value| json_of(value.get_ref()))
 }
 
 /// Compares two values as readers of the file see them: numbers to the bit, and a whole number with a point equals the one

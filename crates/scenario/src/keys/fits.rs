@@ -28,7 +28,7 @@ pub(crate) fn check(key: &Key, value: &Value, found: impl FnOnce() -> String) ->
     Err(Problem::Value {
         key: key.path.to_owned(),
         expected: key.domain.describe(),
-        found: found() + &meant(key, value),
+        found: found() + &intended_value_hint(key, value),
     })
 }
 
@@ -65,7 +65,7 @@ fn fits(domain: Domain, value: &Value) -> bool {
 }
 
 /// Hint on a value that fits if it was meant in millimetres or per cent, and on a word that is close to one of those expected.
-fn meant(key: &Key, value: &Value) -> String {
+fn intended_value_hint(key: &Key, value: &Value) -> String {
     if let (Domain::Word(words), Some(word)) = (key.domain, value.as_str()) {
         let nearest = nearest(&word.to_lowercase(), words.iter().copied()).filter(|_| words.len() > 1);
         return nearest.map_or_else(String::new, |word| format!("; did you mean \"{word}\"?"));

@@ -11,7 +11,7 @@ use platewash_planner::redundancy::task::CHORD_ERROR_M;
 use platewash_workcell::layout::PlateGeometry;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 use std::f64::consts::PI;
 
 /// Plates thinner or smaller than this are none to the certificate \[m\].
@@ -179,7 +179,7 @@ impl Scenario {
         let detail = format!(
             "{} and up to {points} contact points are too much work: their product must be at most {MAX_CONTACT_CHECKS}; give fewer \
              plates or contact points",
-            counted(plates, "plate")
+            count_with_noun(plates, "plate")
         );
         let keys = "layout.count or positions_m, wash.turns, wash.path_radius_m";
         conflict(keys, detail)

@@ -109,7 +109,7 @@ impl Scenario {
     /// A layout, in the world. It is drawn about the foot of the arm's mount, along the world's axes: there the rules of spacing hold.
     fn draw(&self, base: Option<&BaseFootprint>, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
         if let Some(plates) = self.listed_plates() {
-            return Ok(Layout::listed(plates, self.foot_m(), base));
+            return Ok(Layout::with_overlaps(plates, self.foot_m(), base));
         }
         let (foot_m, kinds) = (self.foot_m(), self.kinds());
         let placement = match self.layout.placement() {
@@ -180,7 +180,7 @@ impl Scenario {
 
     /// Checks that plates of a layout share a place, with each other or the base, so that no plan of them can be proved.
     #[must_use]
-    pub fn forbids(&self, layout: &Layout) -> bool {
+    pub fn has_forbidden_overlap(&self, layout: &Layout) -> bool {
         let shared =
             |finding: &Finding| matches!(finding, Finding::PlatesOverlap { .. } | Finding::OverlapsBase { .. });
         let judged = self.job.program == Program::Certified && self.layout.overlap == Overlap::Fail;

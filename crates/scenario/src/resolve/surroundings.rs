@@ -12,7 +12,7 @@ use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use std::path::{Path, PathBuf};
 
@@ -52,7 +52,7 @@ impl Scenario {
             }
             let plates = self.plates();
             if let Some(plate) = obstacle.held(plates).into_iter().find(|plate| *plate >= plates) {
-                let there = counted(plates, "plate");
+                let there = count_with_noun(plates, "plate");
                 let are = if plates == 1 { "is" } else { "are" };
                 let found = format!("it holds plate {plate}; there {are} {there}, counted from 0");
                 conflict(format!("{at}.holds_plates"), found)?;

@@ -67,7 +67,7 @@ pub struct StatedShape {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
     /// File of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::serialize_lossy")]
     pub mesh: Option<PathBuf>,
     /// Factors of the mesh's coordinates along x, y, z.
     #[serde(skip_serializing_if = "Option::is_none")]

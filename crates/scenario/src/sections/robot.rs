@@ -17,12 +17,12 @@ pub struct RobotSection {
     pub model: BuiltInArm,
     /// Expanded URDF of another six-axis arm, in place of the built-in one; relative to the scenario's folder.
     #[key(domain = Path)]
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::serialize_lossy")]
     pub urdf: Option<PathBuf>,
     /// SRDF whose `disable_collisions` elements name the link pairs that need no check. Without it: adjacent pairs and pairs that always
     /// touch.
     #[key(domain = Path)]
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::lossy")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::serialize_lossy")]
     pub srdf: Option<PathBuf>,
     /// Folders in which `package://` mesh names are looked up.
     #[key(domain = Paths)]

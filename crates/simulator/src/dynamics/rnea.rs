@@ -54,7 +54,7 @@ impl DynamicsModel {
             moment: Vector3::zeros(),
         }; AXES];
         for i in 0..AXES {
-            motion = motion.behind(&placed[i], qd[i], qdd[i]);
+            motion = motion.next_body_motion(&placed[i], qd[i], qdd[i]);
             wrenches[i] = motion.wrench(&self.bodies[i]);
         }
         let mut torques = JointVector::zeros();
@@ -92,7 +92,7 @@ impl DynamicsModel {
 impl Motion {
     /// The motion of the next body, placed by (R, t), whose joint turns with `qd` and `qdd`.
     #[inline(always)]
-    fn behind(&self, placed: &RigidTransform, qd: f64, qdd: f64) -> Self {
+    fn next_body_motion(&self, placed: &RigidTransform, qd: f64, qdd: f64) -> Self {
         let (w, turn) = (self.turning, &placed.rotation);
         let carried = back(turn, &w);
         let at_joint = self.linear_rate + times(&swing(&w, &self.turning_rate), &placed.translation);

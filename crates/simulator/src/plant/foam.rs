@@ -58,7 +58,7 @@ impl Foam {
     /// Checks that a column compressed so far \[m\] acts at all.
     #[inline]
     #[must_use]
-    pub fn acts(&self, compression_m: f64) -> bool {
+    pub fn is_pressed(&self, compression_m: f64) -> bool {
         compression_m > 0.0 && compression_m < GONE_STRAIN * self.free_height_m
     }
 
@@ -66,7 +66,7 @@ impl Foam {
     #[inline]
     #[must_use]
     pub fn of(&self, compression_m: f64) -> (f64, f64) {
-        if !self.acts(compression_m) {
+        if !self.is_pressed(compression_m) {
             return (0.0, 0.0);
         }
         let strain = compression_m / self.free_height_m;

@@ -65,7 +65,7 @@ impl LevelColumns {
             return Wrench::default();
         }
         if twist.is_none() && self.is_whole(foam, &face) {
-            self.whole(foam, &face)
+            self.closed_form(foam, &face)
         } else {
             self.in_part(foam, &face, twist)
         }
@@ -85,7 +85,7 @@ impl LevelColumns {
     }
 
     /// Closed form of the sums.
-    fn whole(&self, foam: &Foam, face: &Face<'_>) -> Wrench {
+    fn closed_form(&self, foam: &Foam, face: &Face<'_>) -> Wrench {
         let stiffness = foam.stiffness_pa / foam.free_height_m * self.area_m2;
         let (w, [s, t]) = (face.middle_m, face.slope);
         let squares = w * w + self.second_moment * (face.steep_m * face.steep_m);
@@ -114,7 +114,7 @@ impl LevelColumns {
         let (axis, tip, [u, v]) = (&face.pose.axis, &face.pose.tip, &face.across);
         for (at @ [x, y], area_m2) in &self.parts {
             let w = face.compression_m(at);
-            if !foam.acts(w) {
+            if !foam.is_pressed(w) {
                 continue;
             }
             let along_m = self.compression_m - w;

@@ -98,7 +98,7 @@ impl Target {
     }
 
     /// The sponge from the plate's frame: where it stands, and across which directions.
-    fn sees(&self, at: &FrameMotion) -> (SpongePose, [Vector3<f64>; 2]) {
+    fn in_plate_frame(&self, at: &FrameMotion) -> (SpongePose, [Vector3<f64>; 2]) {
         let seen = |k: usize| self.turn.tr_mul(&at.pose.rotation.column(k).into_owned());
         let pose = SpongePose {
             tip: self.turn.tr_mul(&(at.pose.translation - self.pole)),
@@ -157,7 +157,7 @@ impl SpongeOnPlates {
 
     /// Load on the foam from one plate that is raised by `higher_m` along its axis, at rest at `q` \[rad\].
     #[must_use]
-    pub fn felt(&self, model: &DynamicsModel, q: &JointVector, plate: usize, higher_m: f64) -> FoamLoad {
+    pub fn load_at_rest(&self, model: &DynamicsModel, q: &JointVector, plate: usize, higher_m: f64) -> FoamLoad {
         let Some(target) = self.plates.get(plate) else {
             return FoamLoad::default();
         };
@@ -178,7 +178,7 @@ impl SpongeOnPlates {
         let mut sum = MassMatrix::zeros();
         if let Some(target) = self.plates.get(plate) {
             let at = model.frame_motion(q, &self.tip);
-            let ((pose, across), turn) = (target.sees(&at), target.turn);
+            let ((pose, across), turn) = (target.in_plate_frame(&at), target.turn);
             for column in self.columns.turned(&target.plate.surface, &pose, across) {
                 let cosine = -column.normal.dot(&pose.axis);
                 if cosine <= LEAST_COSINE || self.share_on(&target.plate, &column.point).0 == 0.0 {
@@ -209,7 +209,7 @@ impl SpongeOnPlates {
 
     /// One plate's push, base frame.
     fn pressed(&self, target: &Target, at: &FrameMotion, qd: &JointVector) -> Wrench {
-        let ((pose, across), turn) = (target.sees(at), &target.turn);
+        let ((pose, across), turn) = (target.in_plate_frame(at), &target.turn);
         if -pose.axis.z <= FADES[1] {
             return Wrench::default();
         }
@@ -221,7 +221,7 @@ impl SpongeOnPlates {
         } else {
             self.summed(plate, &pose, &across, twist.as_ref())
         };
-        let (left, slope) = faded(-pose.axis.z);
+        let (left, slope) = fade(-pose.axis.z);
         // Leaning by a rotation vector r changes the cosine by r·(ẑ × a).
         let upright = pose.axis.cross(&Vector3::z()) * (wrench.energy_j * slope);
         Wrench {
@@ -247,7 +247,7 @@ impl SpongeOnPlates {
         for column in self.columns.turned(&plate.surface, pose, *across) {
             let (w, normal) = (column.compression_m, &column.normal);
             let cosine = -normal.dot(&pose.axis);
-            if !self.foam.acts(w) || cosine <= LEAST_COSINE {
+            if !self.foam.is_pressed(w) || cosine <= LEAST_COSINE {
                 continue;
             }
             let (share, slope) = self.share_on(plate, &column.point);
@@ -277,7 +277,7 @@ impl SpongeOnPlates {
 }
 
 /// Remaining share of the law at a cosine between tool and plate's axis, and its slope by the cosine.
-fn faded(cosine: f64) -> (f64, f64) {
+fn fade(cosine: f64) -> (f64, f64) {
     let [from, to] = FADES;
     let past = (from - cosine) / (from - to);
     if past <= 0.0 {

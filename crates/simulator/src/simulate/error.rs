@@ -12,13 +12,13 @@ use platewash_workcell::job::JobError;
 use platewash_workcell::simulation::{FoamContact, PlantSettings, SimulationSettings};
 use platewash_workcell::tool::Tool;
 use platewash_workcell::trajectory::KnotError;
-use platewash_workcell::words::counted;
+use platewash_workcell::words::count_with_noun;
 
 /// Significant digits of a rate that is suggested.
 const RATE_DIGITS: usize = 5;
 
 fn counted_a_sample(substeps: usize) -> String {
-    format!("with {} a sample", counted(substeps, "step"))
+    format!("with {} a sample", count_with_noun(substeps, "step"))
 }
 
 /// Reason that a plan could not be simulated.
@@ -101,7 +101,7 @@ pub enum SimulationError {
     #[error(
         "{duration_s:.2} s at {rate_hz} Hz with {} a sample are too much work: at most {} samples and {} steps; \
          with as many steps a sample, the rate must be at most {} Hz (for laws without a plant: the time step at least {} s)",
-        counted(*.substeps, "step"), MAX_SAMPLES, MAX_STEPS,
+        count_with_noun(*.substeps, "step"), MAX_SAMPLES, MAX_STEPS,
         highest_rate(*.duration_s, *.substeps), shortest_period(*.duration_s, *.substeps)
     )]
     TooLong {

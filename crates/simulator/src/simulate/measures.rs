@@ -5,9 +5,9 @@
 //! How far the arm is from where the plan wants it, at the same time.
 
 use crate::simulate::execution::{Execution, Sample};
-use crate::simulate::text::shown;
+use crate::simulate::text::rounded_for_display;
 use platewash_kinematics::irb120::IRB120_URDF;
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
 use platewash_workcell::tool::Tool;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
@@ -218,9 +218,9 @@ impl PayloadCheck {
     #[must_use]
     pub fn overload(&self) -> Option<String> {
         let rated_kg = self.rated_kg.filter(|_| self.verdict == PayloadVerdict::Exceeded)?;
-        let mut told = [self.tool_kg, rated_kg].map(|mass| shown(mass).to_string());
+        let mut told = [self.tool_kg, rated_kg].map(|mass| rounded_for_display(mass).to_string());
         if told[0] == told[1] {
-            told = told_apart(self.tool_kg, rated_kg, 0);
+            told = distinct_decimals(self.tool_kg, rated_kg, 0);
         }
         let [tool, rated] = told;
         Some(format!("tool {tool} kg, rated {rated} kg"))

@@ -129,7 +129,7 @@ impl Judge<'_> {
         let stride = samples.len().div_ceil(POSES).max(1);
         let poses = samples.iter().step_by(stride).map(|sample| &sample.commanded);
         let load: Vec<_> = poses
-            .map(|q| self.sponge.felt(self.model, q, index, higher_m))
+            .map(|q| self.sponge.load_at_rest(self.model, q, index, higher_m))
             .collect();
         ForceAtHeight {
             higher_m,

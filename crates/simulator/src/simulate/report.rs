@@ -5,7 +5,7 @@ use crate::simulate::error::SimulationError;
 use crate::simulate::execution::Execution;
 use crate::simulate::measures::{self, Effort, PayloadCheck, PayloadVerdict, SegmentTracking, Tracking};
 use crate::simulate::run::Contact;
-use crate::simulate::text::shown;
+use crate::simulate::text::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::dry_run::DryRun;
@@ -176,7 +176,7 @@ impl SimulationReport {
                 "{before}{}{} {} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
                 payload.overload().map_or_else(String::new, |words| words + "; "),
                 part_of(done, plan.job.plates.len(), "plate"),
-                treatment.words(),
+                treatment.participle(),
                 settings.law.name(),
                 1e3 * tracking.tip_m.rms,
                 1e3 * tracking.tip_m.max
@@ -204,8 +204,8 @@ fn assumptions(plan: &Plan, settings: &SimulationSettings) -> Vec<String> {
     if tool.is_present() {
         all.push(format!(
             "the tool weighs {} kg and its sponge is pressed in by {} mm",
-            shown(tool.mass.map_or(0.0, |mass| mass.mass_kg)),
-            shown(1e3 * tool.sponge.compression_m)
+            rounded_for_display(tool.mass.map_or(0.0, |mass| mass.mass_kg)),
+            rounded_for_display(1e3 * tool.sponge.compression_m)
         ));
     }
     all.extend(plant_assumptions(&settings.plant));
@@ -223,20 +223,20 @@ fn plant_assumptions(plant: &PlantSettings) -> Vec<String> {
     if let Some(foam) = &plant.contact {
         all.push(format!(
             "plates push back by the sponge's foam: an elastic foundation of {} kPa{}, {} times as stiff beyond a strain of {}, without friction",
-            shown(1e-3 * foam.stiffness_pa),
+            rounded_for_display(1e-3 * foam.stiffness_pa),
             match foam.damping_pa_s {
                 0.0 => String::new(),
-                damping => format!(" and {} Pa·s", shown(damping)),
+                damping => format!(" and {} Pa·s", rounded_for_display(damping)),
             },
-            shown(DENSE_FACTOR),
-            shown(DENSE_STRAIN)
+            rounded_for_display(DENSE_FACTOR),
+            rounded_for_display(DENSE_STRAIN)
         ));
     } else if plant.contact_force_n == 0.0 {
         all.push("the plate does not push back".to_owned());
     } else {
         all.push(format!(
             "the plate pushes with a constant {} N wherever the sponge touches",
-            shown(plant.contact_force_n)
+            rounded_for_display(plant.contact_force_n)
         ));
     }
     if plant.torque_limit_n_m.is_some() {

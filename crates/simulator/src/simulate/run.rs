@@ -155,8 +155,8 @@ impl Run<'_> {
         watch: &mut dyn FnMut(&Sample),
     ) -> Result<Execution, SimulationError> {
         let mut reference = Reference {
-            now: self.asked(0),
-            next: self.asked(1),
+            now: self.commanded_state(0),
+            next: self.commanded_state(1),
         };
         let mut state = PlantState {
             q: reference.now.q,
@@ -175,7 +175,7 @@ impl Run<'_> {
             }
             let outcome = match law.command(&reference, &state) {
                 Command::Position(q) => self.moved(&state, q),
-                Command::Torque(torque) => self.driven(&state, &torque, schedule.washed_plate(segment)),
+                Command::Torque(torque) => self.step_under_torque(&state, &torque, schedule.washed_plate(segment)),
             };
             let sample = Sample {
                 t_s,
@@ -194,7 +194,7 @@ impl Run<'_> {
             segment = towards;
             reference = Reference {
                 now: reference.next,
-                next: self.asked(k + 2),
+                next: self.commanded_state(k + 2),
             };
         }
         Ok(Execution {
@@ -210,7 +210,7 @@ impl Run<'_> {
     }
 
     /// Commanded state of the plan; after its end, to stay there.
-    fn asked(&self, sample: usize) -> JointState {
+    fn commanded_state(&self, sample: usize) -> JointState {
         let still = JointVector::zeros();
         self.motion.at(self.time(sample)).unwrap_or(JointState {
             q: still,
@@ -232,7 +232,7 @@ impl Run<'_> {
     }
 
     /// The arm moves under a torque, with its sponge on `plate` if on any.
-    fn driven(&self, state: &PlantState, torque: &JointVector, plate: Option<usize>) -> Outcome {
+    fn step_under_torque(&self, state: &PlantState, torque: &JointVector, plate: Option<usize>) -> Outcome {
         let Some(plant) = self.plant else {
             return self.moved(state, state.q);
         };

@@ -5,7 +5,7 @@
 use crate::simulate::measures::{Effort, PayloadVerdict, Tracking};
 use crate::simulate::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
 use crate::simulate::report::{SimulationReport, SimulationVerdict};
-use platewash_kinematics::words::{percent, rounded, told_apart};
+use platewash_kinematics::words::{distinct_decimals, percent, rounded};
 use std::fmt::{self, Display, Formatter};
 
 impl Display for SimulationReport {
@@ -206,7 +206,7 @@ fn joints(effort: &Effort, tracking: &Tracking, f: &mut Formatter<'_>) -> fmt::R
 fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     let payload = &report.payload;
     let rated = |verdict: &str| {
-        let [tool, rated] = told_apart(payload.tool_kg, payload.rated_kg.unwrap_or_default(), 2);
+        let [tool, rated] = distinct_decimals(payload.tool_kg, payload.rated_kg.unwrap_or_default(), 2);
         format!("the tool weighs {tool} kg, {verdict} the rated payload of {rated} kg")
     };
     let line = match payload.verdict {
@@ -214,7 +214,7 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         PayloadVerdict::Exceeded => rated("above"),
         PayloadVerdict::Unknown => format!(
             "the tool weighs {} kg; no payload is known for this arm, and none is stated",
-            shown(payload.tool_kg)
+            rounded_for_display(payload.tool_kg)
         ),
     };
     writeln!(f, "payload: {line}")
@@ -224,6 +224,6 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
 const SHOWN_DIGITS: usize = 6;
 
 /// Rounds a stated value to the digits that are shown to people.
-pub(crate) fn shown(value: f64) -> f64 {
+pub(crate) fn rounded_for_display(value: f64) -> f64 {
     rounded(value, SHOWN_DIGITS)
 }

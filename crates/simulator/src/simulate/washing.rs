@@ -14,7 +14,7 @@ use crate::simulate::execution::{Execution, Sample};
 use crate::simulate::pressing::{Judge, Pressing};
 use crate::simulate::run::{Contact, sponge};
 use nalgebra::Vector3;
-use platewash_kinematics::words::told_apart;
+use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes, reaches};
@@ -70,9 +70,9 @@ impl PlateVerdict {
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Washed => Treatment::Washed.words(),
-            Self::Swept => Treatment::Swept.words(),
-            Self::SweptInAir => Treatment::SweptInAir.words(),
+            Self::Washed => Treatment::Washed.participle(),
+            Self::Swept => Treatment::Swept.participle(),
+            Self::SweptInAir => Treatment::SweptInAir.participle(),
             Self::NotWashed => "not washed",
             Self::NotSwept => "not swept",
         }
@@ -266,13 +266,13 @@ impl Wash<'_> {
         if !self.has_tool() {
             causes.push(Cause::NoTool);
         }
-        if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Lifted, |tip| tip.height_m) {
+        if let Some((share, most_m, t_s)) = self.greatest_in_touch(touches, Touch::Lifted, |tip| tip.height_m) {
             causes.push(Cause::Lifted { share, most_m, t_s });
         }
-        if let Some((share, most_m, t_s)) = self.worst(touches, Touch::Pressed, |tip| -tip.height_m) {
+        if let Some((share, most_m, t_s)) = self.greatest_in_touch(touches, Touch::Pressed, |tip| -tip.height_m) {
             causes.push(Cause::Sunk { share, most_m, t_s });
         }
-        causes.extend(self.strayed());
+        causes.extend(self.stray_cause());
         let (at_least, required) = (executed.lower, self.required);
         if !reaches(at_least, required) {
             causes.push(Cause::NotSwept { at_least, required });
@@ -281,13 +281,13 @@ impl Wash<'_> {
     }
 
     /// Share of the samples in some touch, the greatest `of` among them and when; `None` where there are none.
-    fn worst(&self, touches: &[Touch], touch: Touch, of: impl Fn(&Tip) -> f64) -> Option<(f64, f64, f64)> {
+    fn greatest_in_touch(&self, touches: &[Touch], touch: Touch, of: impl Fn(&Tip) -> f64) -> Option<(f64, f64, f64)> {
         let such = || self.executed.iter().zip(touches).filter(|(_, found)| **found == touch);
         let (tip, _) = such().max_by(|a, b| of(a.0).total_cmp(&of(b.0)))?;
         Some((such().count() as f64 / self.executed.len() as f64, of(tip), tip.t_s))
     }
 
-    fn strayed(&self) -> Option<Cause> {
+    fn stray_cause(&self) -> Option<Cause> {
         let off = |(planned, executed): (&Tip, &Tip)| (sideways_m(self.plate, &planned.at, &executed.at), executed.t_s);
         let all: Vec<_> = self.planned.iter().zip(&self.executed).map(off).collect();
         let (most_m, t_s) = all.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -403,7 +403,7 @@ impl fmt::Display for Cause {
                 mm(most_m)
             ),
             Self::NotSwept { at_least, required } => {
-                let [swept, required] = told_apart(percent(at_least), percent(required), 1);
+                let [swept, required] = distinct_decimals(percent(at_least), percent(required), 1);
                 write!(f, "{swept} % is surely swept, {required} % is required")
             }
         }

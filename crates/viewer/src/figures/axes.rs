@@ -58,7 +58,7 @@ pub fn round_above(least: f64) -> f64 {
 }
 
 /// Numbers of an axis as words, with enough decimals to distinguish them.
-pub fn words(ticks: &[f64]) -> Vec<String> {
+pub fn tick_labels(ticks: &[f64]) -> Vec<String> {
     let gaps = ticks.windows(2).map(|two| two[1] - two[0]);
     let gap = gaps.fold(f64::INFINITY, f64::min);
     let is_whole = |decimals: &usize| {
@@ -131,11 +131,11 @@ impl Axes {
         drawing.lines(&upright.chain(flat).collect::<Vec<_>>(), &stroke("#e4e8ec", 1.0));
         drawing.within(self.frame, draw);
         drawing.rect(self.frame, &stroke(LINE, 1.2));
-        for (tick, words) in up.iter().zip(words(&up)) {
+        for (tick, words) in up.iter().zip(tick_labels(&up)) {
             drawing.text([left - 9.0, self.up.at(*tick) + 6.0], &words, &[SMALL, END]);
         }
         if let Some(name) = below {
-            for (tick, words) in across.iter().zip(words(&across)) {
+            for (tick, words) in across.iter().zip(tick_labels(&across)) {
                 drawing.text([self.across.at(*tick), bottom + 21.0], &words, &[SMALL, MIDDLE]);
             }
             drawing.text([middle, bottom + 48.0], name, &[WORDS, MIDDLE]);
@@ -169,8 +169,11 @@ mod tests {
         assert_eq!(scale([0.0, 42.7]).ticks(8), [0.0, 10.0, 20.0, 30.0, 40.0]);
         let ticks = scale([-0.31, 0.29]).ticks(6);
         assert_eq!(ticks, scale([0.29, -0.31]).ticks(6));
-        assert_eq!(words(&ticks), ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2"]);
-        assert_eq!(words(&scale([0.0, 2.0]).ticks(4)), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
+        assert_eq!(tick_labels(&ticks), ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2"]);
+        assert_eq!(
+            tick_labels(&scale([0.0, 2.0]).ticks(4)),
+            ["0.0", "0.5", "1.0", "1.5", "2.0"]
+        );
         for nonsense in [[0.0, 0.0], [f64::NAN, 1.0], [0.0, f64::INFINITY]] {
             assert!(scale(nonsense).ticks(5).is_empty(), "{nonsense:?}");
         }

@@ -1,7 +1,7 @@
 //! Swept area of each plate, or pressed area where the job states what counts as contact, with its dwell time: planned and
 //! executed.
 
-use super::axes::{round_above, words};
+use super::axes::{round_above, tick_labels};
 use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
 use super::page;
@@ -59,7 +59,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
             shown.map(move |(place, (segment, wash))| Map::new(subject, place, (&track[*segment], wash.plate), of == 1))
         })
         .collect();
-    let (mut drawing, room) = page::begin(&subject.words("Time under the sponge", caption(subject, plates)));
+    let (mut drawing, room) = page::begin(&subject.texts("Time under the sponge", caption(subject, plates)));
     let step_s = step_s(&maps);
     let is_contact = maps.iter().all(|map| map.counted.is_some());
     key(&mut drawing, room, step_s, is_contact);
@@ -223,7 +223,7 @@ fn key(drawing: &mut Drawing, room: Rect, step_s: f64, is_contact: bool) {
     drawing.text([left + 180.0, y + 17.0], what, &[WORDS]);
     let left = left + 200.0 + width(what, 18.0);
     let starts: Vec<f64> = (0..STEPS.len()).map(|k| k as f64 * step_s).collect();
-    for (k, (colour, start)) in STEPS.into_iter().zip(words(&starts)).enumerate() {
+    for (k, (colour, start)) in STEPS.into_iter().zip(tick_labels(&starts)).enumerate() {
         let x = left + k as f64 * wide;
         drawing.rect(Rect::new(x, y, wide, high), &fill(colour));
         drawing.text([x, y + high + 18.0], &start, &[SMALL, MIDDLE]);

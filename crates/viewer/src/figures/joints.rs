@@ -27,7 +27,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
         "Position: 0 % is a joint's lowest, 100 % its highest. Speed and acceleration: shares of the joint's limits; those of acceleration \
          are the job's assumption. Drawn at {MOMENTS} moments, not a proof."
     );
-    let (mut drawing, room) = page::begin(&subject.words("Joints and tip", caption));
+    let (mut drawing, room) = page::begin(&subject.texts("Joints and tip", caption));
     let duration = subject.motion.duration_s();
     let times: Vec<f64> = (0..=MOMENTS).map(|k| duration * k as f64 / MOMENTS as f64).collect();
     let (left, wide) = (room.at[0] + ROOM[0], room.size[0] - ROOM[0]);

@@ -42,13 +42,13 @@ const ARROW: &str = "<defs><marker id=\"platewash-arrow\" markerWidth=\"9\" mark
 
 /// Draws it.
 pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
-    let (mut drawing, room) = page::begin(&subject.words("Layout", caption(subject)));
+    let (mut drawing, room) = page::begin(&subject.texts("Layout", caption(subject)));
     let [low, high] = extent(subject);
     let (map, beside) = Map::new(room, low, high);
     drawing.raw(ARROW);
     map.draw(&mut drawing, |drawing| {
         ground(drawing, &map, subject);
-        ways(drawing, &map, subject);
+        draw_paths(drawing, &map, subject);
         numbers(drawing, &map, subject);
     });
     let end = legend(&mut drawing, beside.at, beside.size[0], &entries(subject)) + 22.0;
@@ -148,7 +148,7 @@ fn tilted_plate(plate: &Plate) -> Outline {
     )
 }
 
-fn ways(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
+fn draw_paths(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     let spot = |tip: &Tip| map.spot([tip.at.x, tip.at.y]);
     let parts = |of: &[SegmentKind]| -> Vec<Vec<Spot>> {
         let all = subject.plan.segments.iter().zip(&subject.planned);

@@ -41,7 +41,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
         return Err(FigureError::NothingWashed { figure: "spiral" });
     }
     let shown = &panels[..panels.len().min(MOST)];
-    let (mut drawing, room) = page::begin(&subject.words("Ideal and executed path", caption(subject, panels.len())));
+    let (mut drawing, room) = page::begin(&subject.texts("Ideal and executed path", caption(subject, panels.len())));
     let top = legend(&mut drawing, room.at, room.size[0], &entries(subject)) + 12.0;
     let field = Rect::new(room.at[0], top, room.size[0], room.end()[1] - top);
     let has_errors = subject.report.is_some() && shown.len() <= FEW;
@@ -52,7 +52,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     for (place, panel) in shown.iter().enumerate() {
         let cell = fields.cell(place);
         panel.draw(&mut drawing, cell);
-        panel.words(&mut drawing, cell, place);
+        panel.draw_texts(&mut drawing, cell, place);
         if has_errors {
             let [x, y] = [cell.at[0] + ROOM[0], cell.end()[1] + UNDER + 8.0];
             let frame = Rect::new(x, y, cell.size[0] - ROOM[0], ERRORS - ROOM[1] - 12.0);
@@ -87,13 +87,13 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     vec![
         Entry::new(Sign::Line, stroke(IDEAL, 5.0), "to be followed"),
         Entry::new(Sign::Line, stroke(EXECUTED, 1.6), followed),
-        Entry::new(Sign::Field, fill(BAND), reached(subject)),
+        Entry::new(Sign::Field, fill(BAND), coloured_part_text(subject)),
         Entry::new(Sign::Line, stroke(LINE, 2.0), "the plate's rim"),
     ]
 }
 
 /// Describes the coloured part of a plate.
-fn reached(subject: &Subject<'_>) -> String {
+fn coloured_part_text(subject: &Subject<'_>) -> String {
     let job = &subject.plan.job;
     let sponge = format!("a sponge of {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
     let washed = subject.washes().filter_map(|(_, wash)| job.plates.get(wash.plate));
@@ -197,7 +197,7 @@ impl<'a> Panel<'a> {
         );
     }
 
-    fn words(&self, drawing: &mut Drawing, cell: Rect, place: usize) {
+    fn draw_texts(&self, drawing: &mut Drawing, cell: Rect, place: usize) {
         let [x, y] = [cell.at[0], cell.end()[1]];
         drawing.text([x, y + 24.0], &format!("{}: plate {}", place + 1, self.index), &[BOLD]);
         let Some(report) = self.subject.report else {

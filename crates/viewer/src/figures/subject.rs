@@ -145,7 +145,7 @@ impl<'a> Subject<'a> {
     }
 
     /// The words around a figure.
-    pub(super) fn words(&self, title: &str, caption: String) -> FigureTexts {
+    pub(super) fn texts(&self, title: &str, caption: String) -> FigureTexts {
         let hash = self.plan.hash.as_deref().unwrap_or("without a hash");
         let hash: String = hash.chars().take(HASH).collect();
         FigureTexts {

@@ -106,7 +106,7 @@ impl Drawing {
 
     /// Lines through places, as one shape.
     pub fn lines(&mut self, lines: &[Vec<Spot>], look: &str) {
-        let path: String = lines.iter().map(|line| way(line)).collect();
+        let path: String = lines.iter().map(|line| path_data(line)).collect();
         if !path.is_empty() {
             self.0 += &format!("<path d=\"{path}\" {look}/>\n");
         }
@@ -114,7 +114,7 @@ impl Drawing {
 
     /// A closed shape.
     pub fn polygon(&mut self, corners: &[Spot], look: &str) {
-        self.0 += &format!("<path d=\"{}Z\" {look}/>\n", way(corners));
+        self.0 += &format!("<path d=\"{}Z\" {look}/>\n", path_data(corners));
     }
 
     /// A rectangle.
@@ -175,7 +175,7 @@ impl Drawing {
 }
 
 /// A line's path data, without the places that are not needed to draw it.
-fn way(line: &[Spot]) -> String {
+fn path_data(line: &[Spot]) -> String {
     let mut path = String::new();
     for [x, y] in thinned(line) {
         let letter = if path.is_empty() { 'M' } else { 'L' };

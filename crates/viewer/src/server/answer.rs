@@ -119,35 +119,35 @@ impl Refusal {
     pub fn write(self, out: &mut impl Write, wants_contents: bool) -> Result<()> {
         let (status, words) = self.parts();
         let head = format!("{status}\r\nContent-Type: {TEXT}\r\n{}", self.header());
-        whole(out, &head, Some(&format!("{words}\n")), wants_contents)
+        write_response(out, &head, Some(&format!("{words}\n")), wants_contents)
     }
 }
 
 /// Writes the page; its headers alone where only they are asked for.
 pub fn page(out: &mut impl Write, page: &str, wants_contents: bool) -> Result<()> {
     let head = format!("200 OK\r\nContent-Type: {HTML}\r\n");
-    whole(out, &head, Some(page), wants_contents)
+    write_response(out, &head, Some(page), wants_contents)
 }
 
 /// Writes that there is nothing to show; a follower of events does not ask again.
 pub fn nothing(out: &mut impl Write) -> Result<()> {
-    whole(out, "204 No Content\r\n", None, false)
+    write_response(out, "204 No Content\r\n", None, false)
 }
 
 /// Writes that there is no page, and why.
 pub fn no_page(out: &mut impl Write, words: &str, wants_contents: bool) -> Result<()> {
     let words = format!("the page cannot be made: {words}\n");
     let head = format!("500 Internal Server Error\r\nContent-Type: {TEXT}\r\n");
-    whole(out, &head, Some(&words), wants_contents)
+    write_response(out, &head, Some(&words), wants_contents)
 }
 
 /// Writes the headers that [`EVENTS`] or [`LINES`] follow.
 pub fn stream(out: &mut impl Write, media_type: &str) -> Result<()> {
-    whole(out, &format!("200 OK\r\nContent-Type: {media_type}\r\n"), None, false)
+    write_response(out, &format!("200 OK\r\nContent-Type: {media_type}\r\n"), None, false)
 }
 
 /// Writes status and headers, the empty line behind them, and the contents where they are wanted.
-fn whole(out: &mut impl Write, head: &str, contents: Option<&str>, wants_contents: bool) -> Result<()> {
+fn write_response(out: &mut impl Write, head: &str, contents: Option<&str>, wants_contents: bool) -> Result<()> {
     let mut text = format!(
         "HTTP/1.1 {head}Connection: close\r\nCache-Control: no-store\r\nContent-Security-Policy: {POLICY}\r\n\
          Cross-Origin-Opener-Policy: same-origin\r\nCross-Origin-Resource-Policy: same-origin\r\nReferrer-Policy: no-referrer\r\n\

@@ -185,7 +185,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Writes an empty line as a sign of life where the last one is long ago; nothing where one is just being written.
-    fn sign_of_life(&self) -> Result<()> {
+    fn send_keep_alive(&self) -> Result<()> {
         let last = match self.last.try_lock() {
             Ok(last) => last,
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
@@ -227,7 +227,7 @@ impl<'a> Lines<'a> {
                 }
                 Err(error) => waits(error.kind()),
             };
-            if !is_there || self.sign_of_life().is_err() {
+            if !is_there || self.send_keep_alive().is_err() {
                 return self.gone.cancel();
             }
         }

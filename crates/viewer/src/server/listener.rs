@@ -111,14 +111,14 @@ fn accept(listener: &TcpListener, ends: &AtomicBool, served: &Arc<ServerState>, 
     while !ends.load(Ordering::Relaxed) {
         match listener.accept() {
             Ok(_) if ends.load(Ordering::Relaxed) => {}
-            Ok((stream, _)) => welcome(stream, served, all),
+            Ok((stream, _)) => start_connection(stream, served, all),
             Err(_) => sleep(AFTER_A_FAULT),
         }
     }
 }
 
 /// Gives a connection a thread. A connection without a place gets an answer that says so; one without a thread is closed.
-fn welcome(stream: TcpStream, served: &Arc<ServerState>, all: &Arc<Connections>) {
+fn start_connection(stream: TcpStream, served: &Arc<ServerState>, all: &Arc<Connections>) {
     let Some(place) = all.enter(&stream) else {
         return turn_away(stream);
     };

@@ -181,7 +181,7 @@ impl Execution {
             let slack_s = SLACK_S;
             return Err(ViewError::BeyondEnd { end_s, plan_s, slack_s });
         }
-        let shown = shown(samples, plan.job.plates.len());
+        let shown = thinned_samples(samples, plan.job.plates.len());
         let off_m = |sample: &&RecordedSample| {
             let planned = tips.at(sample.t_s)?.at;
             Some((tips.of(&sample.q, sample.t_s).at - planned).norm())
@@ -189,7 +189,7 @@ impl Execution {
         let coverage = if samples.is_empty() {
             Vec::new()
         } else {
-            coverage::plates(plan, certificate, |span| way(samples, tips, span))
+            coverage::plates(plan, certificate, |span| tip_between(samples, tips, span))
         };
         Ok(Self {
             told: executed.facts.clone(),
@@ -208,7 +208,7 @@ impl Execution {
 }
 
 /// The samples that are shown.
-fn shown(samples: &[RecordedSample], plates: usize) -> Vec<&RecordedSample> {
+fn thinned_samples(samples: &[RecordedSample], plates: usize) -> Vec<&RecordedSample> {
     let most = MOST_SAMPLES[0] + MOST_SAMPLES[1] * plates;
     let [first_s, last_s] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.t_s));
     thinned(samples, LEAST_STEP_S.max((last_s - first_s) / (most - 1) as f64))
@@ -225,7 +225,7 @@ fn column<'a>(
 }
 
 /// The executed tip from one time to another \[s\], as the samples have it.
-fn way(samples: &[RecordedSample], tips: &Tips<'_>, [from_s, to_s]: [f64; 2]) -> Vec<Tip> {
+fn tip_between(samples: &[RecordedSample], tips: &Tips<'_>, [from_s, to_s]: [f64; 2]) -> Vec<Tip> {
     let first = samples.partition_point(|sample| sample.t_s < from_s);
     let last = samples.partition_point(|sample| sample.t_s <= to_s);
     let during = thinned(samples.get(first..last).unwrap_or_default(), WASH_STEP_S);

@@ -64,7 +64,7 @@ impl PressedRule {
             let looks = ContactSampler::new(&foundation, &moments, &wanted);
             raster.add_stays(|[x, y]| {
                 let height_m = plate.surface.height_m((x * x + y * y).sqrt());
-                looks.stays(&Vector3::new(x, y, height_m))
+                looks.contact_intervals(&Vector3::new(x, y, height_m))
             });
         }
     }

@@ -22,7 +22,7 @@ pub(crate) struct Body {
 
 impl Body {
     /// True if the body never gets away from an obstacle: the base, and over a half-space also the body that joint 1 turns there.
-    pub fn stays_beside(&self, obstacle: &Self, robot: &RobotModel) -> bool {
+    pub fn never_leaves(&self, obstacle: &Self, robot: &RobotModel) -> bool {
         match self.kind {
             BodyKind::Link(0) => true,
             BodyKind::Link(1) => obstacle.kind == BodyKind::Floor && keeps_its_height(robot, obstacle),

@@ -175,7 +175,7 @@ impl Crowd {
 
     /// Returns the obstacles, among those that `leaves` admits, whose box is not far from a part. `is_enough` decides if a distance \[m\]
     /// is far.
-    pub fn near<'a>(
+    pub fn obstacles_near<'a>(
         &'a self,
         leaves: &'a [bool],
         part: &'a PlacedPart<'a>,

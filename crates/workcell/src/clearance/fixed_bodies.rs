@@ -102,7 +102,7 @@ pub fn standing_overlaps(
             ..obstacle.clone()
         })?;
         // The default floor does not count the parts of an arm that reach below its own ground.
-        let stays = |link: &&Body| !obstacle.is_plain_floor() && link.stays_beside(&body, robot);
+        let stays = |link: &&Body| !obstacle.is_plain_floor() && link.never_leaves(&body, robot);
         let free = bodies
             .iter()
             .enumerate()

@@ -7,7 +7,7 @@
 //! Distances between spheres and over the floor are closed forms, right to rounding (1e-12 m). The others are proposed by a routine of
 //! their own (for capsules a closed form too, for solids GJK) and held between two bounds, the gap along a direction and the distance of two
 //! points, no more than [`ITERATIVE_ERROR_M`] apart; what is proved uses the lower one. Tests hold them against closed forms,
-//! another method and an independent library. Yes-or-no questions of the planner ([`ClearanceModel::keeps`]) take the proposal,
+//! another method and an independent library. Yes-or-no questions of the planner ([`ClearanceModel::keeps_clearance`]) take the proposal,
 //! which may be too great by some hundredths of a millimetre. Bodies that overlap have a distance ≤ 0; how far they overlap is only
 //! a lower bound of the penetration depth.
 //!

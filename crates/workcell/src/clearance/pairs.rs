@@ -111,8 +111,8 @@ fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body)
                 .then_some(ExclusionReason::Srdf),
             None => (i.abs_diff(j) <= 1).then_some(ExclusionReason::Neighbours),
         },
-        (Link(i), Tool | Sponge) => carries(i, second, moves),
-        (Tool | Sponge, Link(i)) => carries(i, first, moves),
+        (Link(i), Tool | Sponge) => carrying_reason(i, second, moves),
+        (Tool | Sponge, Link(i)) => carrying_reason(i, first, moves),
         (Link(0), Floor | Obstacle) => Some(ExclusionReason::NeitherMoves),
         (Link(1), Floor) => keeps_its_height(robot, second).then_some(ExclusionReason::KeepsItsHeight),
         _ => None,
@@ -120,7 +120,7 @@ fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body)
 }
 
 /// Returns the reason if a link carries a body of the tool, which does not move relative to it.
-fn carries(link: usize, held: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
+fn carrying_reason(link: usize, held: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
     let still = link > CARRIER || (link == CARRIER && !moves(held));
     still.then_some(ExclusionReason::CarriesTool)
 }

@@ -136,7 +136,7 @@ impl Part {
     }
 
     /// Returns the part moved by a transform, for a body that is fixed to the base and stands elsewhere.
-    pub fn carried(&self, transform: &RigidTransform) -> Self {
+    pub fn moved_by(&self, transform: &RigidTransform) -> Self {
         Self {
             frame: Frame::base().offset(&transform.then(self.frame.on_body())),
             ..self.clone()

@@ -73,7 +73,7 @@ impl Solid {
             let first = parts.len();
             for turn in turns {
                 let by = RigidTransform::from(&Pose::from_parts(Vector3::zeros().into(), *turn));
-                parts.extend(sector.iter().map(|part| part.carried(&by)));
+                parts.extend(sector.iter().map(|part| part.moved_by(&by)));
             }
             let members = first..parts.len();
             if let Some(ball) = around(&parts[members.clone()]) {
@@ -127,12 +127,12 @@ impl Tree {
         };
         let by = RigidTransform::from(&plate.pose);
         let groups = solid.groups.iter().map(|group| Group {
-            ball: group.ball.carried(&by),
+            ball: group.ball.moved_by(&by),
             members: group.members.clone(),
         });
-        let parts = solid.parts.iter().map(|part| part.carried(&by)).collect();
+        let parts = solid.parts.iter().map(|part| part.moved_by(&by)).collect();
         let tree = Self {
-            whole: solid.whole.carried(&by),
+            whole: solid.whole.moved_by(&by),
             groups: groups.collect(),
             solid: Some(solid),
         };

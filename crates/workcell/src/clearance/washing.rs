@@ -17,12 +17,12 @@ type Measure = fn(&PlacedPart<'_>, &PlacedPart<'_>) -> Separation;
 impl ClearanceModel {
     /// True if every pair keeps `required_m` at `q` \[rad\]. False for NaN; touching pairs do not even keep 0.
     #[must_use]
-    pub fn keeps(&self, q: &JointVector, required_m: f64) -> bool {
+    pub fn keeps_clearance(&self, q: &JointVector, required_m: f64) -> bool {
         self.all_keep(q, required_m, |_, _| true)
     }
 
     /// True if every pair keeps `required_m` at `q` \[rad\], except the sponge and the plates that it may touch while it works on
-    /// `working_on`; otherwise as [`ClearanceModel::keeps`].
+    /// `working_on`; otherwise as [`ClearanceModel::keeps_clearance`].
     #[must_use]
     pub fn keeps_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> bool {
         self.all_keep(q, required_m, |a, b| self.counts_washing(working_on, a, b))
@@ -95,7 +95,7 @@ impl ClearanceModel {
         let keeps_from_obstacles = |(a, leaves): &(usize, Vec<bool>)| {
             self.bodies[*a].outer().iter().enumerate().all(|(p, part)| {
                 let placed = part.place(&poses);
-                let mut near = self.crowd.near(leaves, &placed, is_enough);
+                let mut near = self.crowd.obstacles_near(leaves, &placed, is_enough);
                 near.all(|b| (0..self.bodies[b].outer().len()).all(|r| keeps((*a, b), (p, r))))
             })
         };

@@ -160,7 +160,7 @@ impl<'a> ContactSampler<'a> {
 
     /// Returns the intervals in which a point is in contact \[s\], plate frame, in the order of the moments.
     #[must_use]
-    pub fn stays(&self, point: &Vector3<f64>) -> Vec<[f64; 2]> {
+    pub fn contact_intervals(&self, point: &Vector3<f64>) -> Vec<[f64; 2]> {
         let mut stays: Vec<[f64; 2]> = Vec::new();
         self.pass(point, |before, here| {
             let Some(ends) = before.map(|before| [before, here]) else {

@@ -112,7 +112,7 @@ impl Columns {
     /// Computes the state of the sponge on a surface that may lie higher and lower by `error_m` \[m\]. `side` is a direction that turns
     /// with the tool, across its axis.
     #[must_use]
-    pub fn stand(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> SpongeState {
+    pub fn sponge_state(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> SpongeState {
         let (surface, rim_m, axis) = (bends.surface(), bends.rim_m(), &pose.axis);
         let across = axis.cross(side);
         let compression_m = self.foundation().compression_m;
@@ -153,7 +153,7 @@ impl Columns {
 
     /// Bounds the load on the foam from one moment to another.
     #[must_use]
-    pub fn press(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Press {
+    pub fn bound_load(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Press {
         let mut press = Press::NONE;
         for (both, size) in self.over(bends, ends, drift).zip(self.sizes()) {
             press.add(&both, &size, bends.rim_m());
@@ -163,7 +163,7 @@ impl Columns {
 
     /// Returns the load that the plate certainly puts on the foam at a moment, and bounds of it.
     #[must_use]
-    pub fn seen(&self, bends: &Bends<'_>, at: &SpongeState) -> (PlateLoad, Press) {
+    pub fn load_at(&self, bends: &Bends<'_>, at: &SpongeState) -> (PlateLoad, Press) {
         let rim_m = bends.rim_m();
         let mut press = Press::NONE;
         let mut seen = PlateLoad {

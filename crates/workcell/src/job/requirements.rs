@@ -64,7 +64,7 @@ pub enum Treatment {
 impl Treatment {
     /// Returns the participle: `washed`, `swept`, `swept in the air`.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn participle(self) -> &'static str {
         match self {
             Self::Washed => "washed",
             Self::Swept => "swept",

@@ -13,7 +13,7 @@ use crate::plate::{GREATEST_M, Plate};
 use crate::pose;
 use crate::simulation::SimulationSettings;
 use crate::workcell::{MOST_BODIES, Workcell};
-use platewash_kinematics::words::not_as_zero;
+use platewash_kinematics::words::nonzero_decimals;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -319,7 +319,7 @@ impl JobTerms {
 
 impl fmt::Display for PlateOverlap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (plate, mm) = (self.plate, not_as_zero(1e3 * self.by_m, 1));
+        let (plate, mm) = (self.plate, nonzero_decimals(1e3 * self.by_m, 1));
         match self.other {
             Some(other) => write!(f, "plate {plate} and plate {other} overlap by {mm} mm"),
             None => write!(f, "plate {plate} overlaps the robot's base by {mm} mm"),

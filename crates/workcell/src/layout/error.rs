@@ -1,7 +1,7 @@
 //! Errors of a layout.
 
 use crate::verdict::Infeasibility;
-use crate::words::counted;
+use crate::words::count_with_noun;
 use thiserror::Error;
 
 /// Error in one number of the request.
@@ -113,9 +113,9 @@ fn remedy(count: usize, upper_bound: Option<usize>) -> &'static str {
 
 fn verdict(count: usize, upper_bound: Option<usize>) -> String {
     if cannot_fit(count, upper_bound) {
-        format!("{} cannot fit", counted(count, "plate"))
+        format!("{} cannot fit", count_with_noun(count, "plate"))
     } else {
-        format!("no layout of {} found", counted(count, "plate"))
+        format!("no layout of {} found", count_with_noun(count, "plate"))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::layout::{BaseFootprint, Region, Spacing};
 use crate::plate::Plate;
-use platewash_kinematics::words::{not_as_zero, told_apart};
+use platewash_kinematics::words::{distinct_decimals, nonzero_decimals};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -68,7 +68,7 @@ impl fmt::Display for Finding {
                 distance_m,
                 required_m,
             } => {
-                let [distance, required] = told_apart(mm(distance_m), mm(required_m), 1);
+                let [distance, required] = distinct_decimals(mm(distance_m), mm(required_m), 1);
                 write!(
                     f,
                     "plate {a} and plate {b} are {distance} mm apart; the spacing rule wants more than {required} mm"
@@ -79,7 +79,7 @@ impl fmt::Display for Finding {
                 distance_m,
                 required_m,
             } => {
-                let [distance, required] = told_apart(mm(distance_m), mm(required_m), 1);
+                let [distance, required] = distinct_decimals(mm(distance_m), mm(required_m), 1);
                 write!(
                     f,
                     "plate {plate} is {distance} mm from the base axis; the spacing rule wants more than {required} mm"
@@ -89,14 +89,14 @@ impl fmt::Display for Finding {
                 write!(
                     f,
                     "plate {a} and plate {b} overlap by {} mm",
-                    not_as_zero(mm(overlap_m), 1)
+                    nonzero_decimals(mm(overlap_m), 1)
                 )
             }
             Self::OverlapsBase { plate, overlap_m } => {
                 write!(
                     f,
                     "plate {plate} overlaps the robot's base by {} mm",
-                    not_as_zero(mm(overlap_m), 1)
+                    nonzero_decimals(mm(overlap_m), 1)
                 )
             }
             Self::LeavesRegion { plate, x_m, y_m } => {

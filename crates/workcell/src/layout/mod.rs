@@ -73,7 +73,7 @@ impl Layout {
 
     /// Returns a layout of plates given in the world, with their overlaps as findings. `[x, y]` is the foot of the arm's mount \[m\].
     #[must_use]
-    pub fn listed(plates: Vec<Plate>, [x, y]: [f64; 2], base: Option<&BaseFootprint>) -> Self {
+    pub fn with_overlaps(plates: Vec<Plate>, [x, y]: [f64; 2], base: Option<&BaseFootprint>) -> Self {
         let to_foot = Pose::translation(-x, -y, 0.0);
         let about_foot: Vec<_> = plates.iter().map(|plate| plate.seen_from(&to_foot)).collect();
         Self {

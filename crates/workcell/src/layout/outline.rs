@@ -28,7 +28,7 @@ impl Region {
         let sector = sector([least, most.min(beyond)], self.azimuth_deg.unwrap_or([0.0, 360.0]));
         let sides = [(0, x[0], 1.0), (0, x[1], -1.0), (1, y[0], 1.0), (1, y[1], -1.0)];
         sides.into_iter().fold(sector, |polygon, (axis, at, sign)| {
-            kept(&polygon, |p| sign * (p[axis] - at))
+            clip(&polygon, |p| sign * (p[axis] - at))
         })
     }
 }
@@ -55,7 +55,7 @@ fn sector([least, most]: [f64; 2], azimuth_deg: [f64; 2]) -> Vec<Point> {
 
 /// Returns the part of a polygon on one side of a line (Sutherland and Hodgman, Comm. ACM 17, 1974). `inside` is the signed distance from
 /// the line, positive on that side.
-fn kept(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
+fn clip(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::new();
     for (k, here) in polygon.iter().enumerate() {
         let before = &polygon[(k + polygon.len() - 1) % polygon.len()];
@@ -86,7 +86,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// True if a point is in a polygon: a ray from it crosses the border an odd number of times.
-    fn holds(polygon: &[Point], [x, y]: Point) -> bool {
+    fn contains(polygon: &[Point], [x, y]: Point) -> bool {
         let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
         let crossed =
             edges.filter(|([ax, ay], [bx, by])| (*ay > y) != (*by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax));
@@ -147,7 +147,7 @@ mod tests {
             let around = [[off, 0.0], [-off, 0.0], [0.0, off], [0.0, -off]].map(|[dx, dy]| [point[0] + dx, point[1] + dy]);
             let belongs = region.contains(point);
             prop_assume!(around.iter().all(|near| region.contains(*near) == belongs));
-            prop_assert_eq!(holds(&region.outline_m(), point), belongs);
+            prop_assert_eq!(contains(&region.outline_m(), point), belongs);
         }
     }
 }

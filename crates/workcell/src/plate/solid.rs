@@ -50,7 +50,7 @@ impl Plate {
 
     /// Same as [`Plate::enclosure`], plate frame.
     fn enclosure_here(&self) -> (Shape, Pose) {
-        upright(self.rim_m(), self.extent_m())
+        upright_cylinder(self.rim_m(), self.extent_m())
     }
 
     /// Returns convex shapes with their poses, world frame, that together enclose the body ([`PlateParts`]).
@@ -115,7 +115,7 @@ impl PlateParts {
             bottom_m = bottom_m.min(piece.bottom_m());
             held += 1;
         }
-        let single = (held > 0).then(|| upright(well_m, [bottom_m, heights[1]]));
+        let single = (held > 0).then(|| upright_cylinder(well_m, [bottom_m, heights[1]]));
         pieces.drain(..held);
         let half = half_angle(&plate.surface);
         let count = (PI / half).ceil();
@@ -125,7 +125,7 @@ impl PlateParts {
         let reach_m = if pieces.is_empty() { well_m } else { rim_m / cos(half) };
         let turns = if pieces.is_empty() { 0 } else { count as usize };
         Self {
-            whole: upright(reach_m, [low, high]),
+            whole: upright_cylinder(reach_m, [low, high]),
             single: single.into_iter().collect(),
             sector: pieces.iter().map(|piece| piece.hull(half)).collect(),
             turns: (0..turns).map(|k| about_axis(2.0 * half * k as f64)).collect(),
@@ -297,7 +297,7 @@ fn about_axis(angle: f64) -> UnitQuaternion<f64> {
 }
 
 /// Cylinder about the axis between two heights \[m\].
-fn upright(radius_m: f64, [low, high]: [f64; 2]) -> (Shape, Pose) {
+fn upright_cylinder(radius_m: f64, [low, high]: [f64; 2]) -> (Shape, Pose) {
     let shape = Shape::Cylinder {
         radius_m,
         half_length_m: (high - low) / 2.0,

@@ -82,7 +82,7 @@ impl<'a> Passes<'a> {
     }
 
     /// Fills `windows` with the runs of moments near a cell.
-    pub fn near(&self, cell: &Cell, windows: &mut Vec<[u32; 2]>) {
+    pub fn windows_near(&self, cell: &Cell, windows: &mut Vec<[u32; 2]>) {
         let moments = self.edges.moments;
         let reach_m = self.reach_m(cell);
         let mut index = 0;
@@ -109,7 +109,7 @@ impl<'a> Passes<'a> {
     /// Upper bound on the distance of the sponge's axis from the middle of a cell, across the axis, at which a point of the cell may be
     /// within the sponge at that moment or the neighbouring ones \[m\].
     pub fn reach_m(&self, cell: &Cell) -> f64 {
-        self.edges.foundation.radius_m + cell.away_m() + self.step_m
+        self.edges.foundation.radius_m + cell.max_distance_m() + self.step_m
     }
 }
 
@@ -131,7 +131,7 @@ impl Passes<'_> {
         let mut touch = Touch::default();
         for &[from, to] in within {
             let first = all.len();
-            all.extend((from..=to).map(|index| cell.seen(edges.foundation, (index, edges.moment(index)), error_m)));
+            all.extend((from..=to).map(|index| cell.state_at(edges.foundation, (index, edges.moment(index)), error_m)));
             self.runs(cell, all, first, &mut kept, &mut touch, spans);
         }
         let bounds = |[mut time, mut dose]: [Lower; 2]| {
@@ -142,7 +142,11 @@ impl Passes<'_> {
             } else {
                 touch.bound(cell.half > SMALL * edges.foundation.radius_m)
             };
-            [contact, time.settled(error_m), dose.settled(error_m)]
+            [
+                contact,
+                time.over_height_error(error_m),
+                dose.over_height_error(error_m),
+            ]
         };
         // A cell that gets enough everywhere is not refined.
         if is_enough(&bounds(Default::default())) {
@@ -223,7 +227,7 @@ impl Passes<'_> {
         let to_s = entered.map_or(f64::INFINITY, |gain| gain.until_s);
         left.iter().chain(&entered).for_each(&mut add);
         if left.or(entered).is_none() && cell.half > SMALL * self.edges.foundation.radius_m {
-            return add(&self.edges.grazed(cell, window));
+            return add(&self.edges.greatest_likely_gain(cell, window));
         }
         for ends in window.windows(2) {
             let times = [&ends[0], &ends[1]].map(|seen| self.edges.moment(seen.index).t_s);
@@ -237,7 +241,8 @@ impl Passes<'_> {
     fn dose(&self, cell: &Cell, amounts: &CellAmounts) -> Lower {
         let (value, gradient) = amounts.dose.at(&cell.point);
         let error_m = self.edges.thresholds.height_error_m;
-        let lost = amounts.dose.bend(cell.away_m() + error_m) + gradient.z.abs() * cell.bend_m + self.sums.rounding();
+        let lost =
+            amounts.dose.bend(cell.max_distance_m() + error_m) + gradient.z.abs() * cell.bend_m + self.sums.rounding();
         Lower {
             value: value - lost,
             slope: cell.along(&gradient),

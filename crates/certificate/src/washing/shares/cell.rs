@@ -70,7 +70,7 @@ impl Cell {
     }
 
     /// Upper bound on the distance of a point of the patch from X \[m\].
-    pub fn away_m(&self) -> f64 {
+    pub fn max_distance_m(&self) -> f64 {
         self.tangent_m + self.bend_m
     }
 
@@ -88,7 +88,7 @@ impl Cell {
     }
 
     /// Returns the state at a moment, with the plate higher or lower by up to `error_m`.
-    pub fn seen(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> CellState {
+    pub fn state_at(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> CellState {
         let SpongePose { tip, axis } = &moment.pose;
         let away = self.point - tip;
         let along = away.dot(axis);
@@ -103,7 +103,7 @@ impl Cell {
             sloping_m,
             way,
             off_m: way.norm(),
-            farther_m: self.away_m() + error_m * level_m,
+            farther_m: self.max_distance_m() + error_m * level_m,
         }
     }
 
@@ -172,7 +172,7 @@ impl Lower {
     }
 
     /// Returns the bound that holds for every height of the plate within its error; its slope along the height is 0.
-    pub fn settled(&self, height_error_m: f64) -> Self {
+    pub fn over_height_error(&self, height_error_m: f64) -> Self {
         Self {
             value: self.value - self.over_height.abs() * height_error_m,
             over_height: 0.0,
@@ -197,7 +197,7 @@ impl Lower {
     }
 
     /// Share of a cell where even the likely upper value is below a threshold.
-    pub fn hopeless(&self, threshold: f64, half: f64) -> f64 {
+    pub fn share_surely_below(&self, threshold: f64, half: f64) -> f64 {
         let hope = Self {
             value: self.value + self.slack,
             ..*self

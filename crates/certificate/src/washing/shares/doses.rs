@@ -46,7 +46,7 @@ impl Factors {
     }
 
     /// Likely upper bound on the amount by which the true q exceeds this one.
-    fn slack(&self) -> f64 {
+    fn likely_excess(&self) -> f64 {
         let [w, v] = self.spread;
         (self.compression_m + w) * (self.speed_m_s + v) - self.compression_m * self.speed_m_s
     }
@@ -66,7 +66,7 @@ impl Edges<'_> {
         let (mut until, mut slack) = (0.0, 0.0);
         let mut rates = [f64::INFINITY, 0.0_f64];
         let mut before: Option<(&CellState, Factors)> = None;
-        for seen in window.until(leaving.last) {
+        for seen in window.states_until(leaving.last) {
             let here = self.factors(cell, seen, &direction, self.elapsed_s(window, seen));
             if let Some((last, before)) = before {
                 let ends = self.between([last, seen], [before, here]);
@@ -80,7 +80,7 @@ impl Edges<'_> {
                     let to = ends[0].towards(&ends[1], share);
                     let along_s = to.at_s - before.at_s;
                     until += along_s * mean_product(&ends[0], &to);
-                    slack += along_s * ends[0].slack();
+                    slack += along_s * ends[0].likely_excess();
                 }
             }
             before = Some((seen, here));
@@ -125,12 +125,12 @@ impl Edges<'_> {
     /// Returns the factors at a moment.
     fn factors(&self, cell: &Cell, state: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
         let turning = self.moment(state.index).turning.norm();
-        let away = turning * (cell.away_m() + self.thresholds.height_error_m);
+        let away = turning * (cell.max_distance_m() + self.thresholds.height_error_m);
         Factors {
             at_s,
             compression_m: state.compression_m - state.shallower_m,
             speed_m_s: self.slide(cell, state).dot(direction) - away,
-            spread: [2.0 * state.sloping_m, 2.0 * turning * cell.away_m()],
+            spread: [2.0 * state.sloping_m, 2.0 * turning * cell.max_distance_m()],
         }
     }
 
@@ -160,9 +160,10 @@ impl Edges<'_> {
 
     /// Returns the gain that places of a large cell are likely to get at most through a window in which not all of it is in contact. The
     /// proved gain is 0.
-    pub(crate) fn grazed(&self, cell: &Cell, window: &[CellState]) -> Gain {
+    pub(crate) fn greatest_likely_gain(&self, cell: &Cell, window: &[CellState]) -> Gain {
         let near = |state: &&CellState| {
-            self.pressed_m(state) + 2.0 * state.sloping_m >= 0.0 && self.inside_m(state) + 2.0 * cell.away_m() >= 0.0
+            self.pressed_m(state) + 2.0 * state.sloping_m >= 0.0
+                && self.inside_m(state) + 2.0 * cell.max_distance_m() >= 0.0
         };
         let (Some(first), Some(last)) = (window.iter().find(near), window.iter().rfind(near)) else {
             return Gain::default();
@@ -190,7 +191,7 @@ impl Edges<'_> {
         // Smaller cells help against what differs over this one alone.
         let likely = common(
             ends.map(|end| self.pressed_m(end) - sags.compression_m + 2.0 * end.sloping_m),
-            ends.map(|end| self.inside_m(end) - sags.aside_m + 2.0 * cell.away_m()),
+            ends.map(|end| self.inside_m(end) - sags.aside_m + 2.0 * cell.max_distance_m()),
         );
         if likely.is_none() {
             return Gain::default();

@@ -75,7 +75,7 @@ impl Window<'_> {
     }
 
     /// Returns the states from the first moment to another one.
-    pub fn until(&self, last: usize) -> impl Iterator<Item = &CellState> {
+    pub fn states_until(&self, last: usize) -> impl Iterator<Item = &CellState> {
         (0..=last).map_while(|k| self.at(k))
     }
 }
@@ -195,7 +195,7 @@ impl Edges<'_> {
                     value: self.thresholds.compression_m,
                     rate: (after.compression_m - before.compression_m) / span_s,
                 };
-                self.released(cell, window, &line, &axis)
+                self.release_times(cell, window, &line, &axis)
             };
         }
         None
@@ -220,8 +220,8 @@ impl Edges<'_> {
         let spread_s = cell.reach_m * length(rates[0], rates[1]) + error_m * rates[2].abs();
         let last = self.all_left(window, line.at_s + spread_s)?;
         let off = |state: &CellState| (state.way - v0 - b * (self.elapsed_s(window, state) - line.at_s)).norm();
-        let (off_m, turned, sags) = self.astray(window, last, axis, off);
-        let reach_m = cell.away_m() + error_m;
+        let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
+        let reach_m = cell.max_distance_m() + error_m;
         let lost_m = ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
         let free_m = self.foundation.radius_m - lost_m;
         let (speed, slow) = (b.norm_squared(), outwards - b.norm() * mu);
@@ -233,7 +233,7 @@ impl Edges<'_> {
         let sooner_s = ((slow - root.sqrt()) / speed).max(0.0) * (1.0 + 1e-12);
         let begins_m = (v0 - b * line.at_s).norm() + cell.tangent_m + error_m * columns[2].norm();
         let pressed = window
-            .until(last)
+            .states_until(last)
             .all(|seen| self.pressed_m(seen) >= sags.compression_m);
         (pressed && begins_m <= free_m && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
             at_s: line.at_s,
@@ -246,7 +246,13 @@ impl Edges<'_> {
     }
 
     /// Returns the times at which the foam on a cell is released while all of it is within the sponge.
-    fn released(&self, cell: &Cell, window: Window<'_>, line: &Line<f64>, axis: &Vector3<f64>) -> Option<LeavingTimes> {
+    fn release_times(
+        &self,
+        cell: &Cell,
+        window: Window<'_>,
+        line: &Line<f64>,
+        axis: &Vector3<f64>,
+    ) -> Option<LeavingTimes> {
         let error_m = self.thresholds.height_error_m;
         let falls = -line.rate;
         if falls.is_nan() || falls <= 0.0 {
@@ -260,10 +266,12 @@ impl Edges<'_> {
         let off = |state: &CellState| {
             (state.compression_m - line.value - line.rate * (self.elapsed_s(window, state) - line.at_s)).abs()
         };
-        let (off_m, turned, sags) = self.astray(window, last, axis, off);
-        let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.away_m() + error_m);
+        let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
+        let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.max_distance_m() + error_m);
         let sooner_s = lost_m / falls * (1.0 + 1e-12);
-        let within = window.until(last).all(|seen| self.inside_m(seen) >= sags.aside_m);
+        let within = window
+            .states_until(last)
+            .all(|seen| self.inside_m(seen) >= sags.aside_m);
         // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.
         (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
             at_s: line.at_s,
@@ -287,7 +295,7 @@ impl Edges<'_> {
     }
 
     /// Returns the greatest distance of the states up to a moment from a line, the greatest difference from `axis`, and the greatest sags.
-    fn astray(
+    fn deviation_from_line(
         &self,
         window: Window<'_>,
         last: usize,
@@ -296,7 +304,7 @@ impl Edges<'_> {
     ) -> (f64, f64, Sags) {
         let (mut off_m, mut turned, mut most) = (0.0_f64, 0.0_f64, Sags::default());
         let mut before: Option<&CellState> = None;
-        for seen in window.until(last) {
+        for seen in window.states_until(last) {
             off_m = off_m.max(off(seen));
             turned = turned.max((self.moment(seen.index).pose.axis - axis).norm());
             if let Some(before) = before {
@@ -368,7 +376,7 @@ impl Touch {
             self.compression_m = self.compression_m.max(state.compression_m - state.shallower_m);
             self.all |= pressed_m >= 0.0;
         }
-        self.some |= inside_m >= -2.0 * cell.away_m() && pressed_m >= -2.0 * state.sloping_m;
+        self.some |= inside_m >= -2.0 * cell.max_distance_m() && pressed_m >= -2.0 * state.sloping_m;
         let (tangent_m, axis) = (cell.tangent_m, &edges.moment(state.index).pose.axis);
         let bound = if pressed_m >= 0.0 {
             let free_m = (edges.foundation.radius_m - (state.farther_m - tangent_m)).max(0.0);

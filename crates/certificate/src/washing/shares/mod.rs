@@ -100,7 +100,7 @@ pub fn shares(
     let area_m2 = surface.area_m2();
     loop {
         let mut open = missing;
-        level.nodes.iter().for_each(|node| node.tell(&mut open));
+        level.nodes.iter().for_each(|node| node.add_missing(&mut open));
         let left = [0, 1, 2].map(|k| !reaches(open[k].share(area_m2).at_least, fineness.enough[k]));
         if half <= least || left == [false; 3] {
             let [contact, time, dose] = open.map(|missing| missing.share(area_m2));
@@ -153,7 +153,7 @@ struct Node {
 }
 
 impl Node {
-    fn tell(&self, missing: &mut [MissingArea; 3]) {
+    fn add_missing(&self, missing: &mut [MissingArea; 3]) {
         for (k, missing) in missing.iter_mut().enumerate() {
             if self.missing_m2[k] > 0.0 {
                 missing.add(self.missing_m2[k], self.found[k].max(0.0), &self.point);
@@ -183,7 +183,7 @@ impl Passes<'_> {
             }
             let cell = Cell::new(self.surface, middle, half);
             windows.clear();
-            self.near(&cell, &mut windows);
+            self.windows_near(&cell, &mut windows);
             let found = (&mut level.windows, &mut scratch);
             level
                 .nodes
@@ -198,7 +198,7 @@ impl Passes<'_> {
         let (mut next, mut scratch) = (Level::default(), Scratch::default());
         for node in &level.nodes {
             if !(0..3).any(|k| left[k] && node.worth[k] > WORTH) {
-                node.tell(missing);
+                node.add_missing(missing);
                 continue;
             }
             let windows = level.windows.get(node.windows.clone()).unwrap_or_default();
@@ -248,7 +248,7 @@ impl Passes<'_> {
             amounts: found.amounts,
             windows: first..windows.len(),
             missing_m2: cell.greatest_areas(self.surface, below),
-            worth: [0, 1, 2].map(|k| below[k] - share(k, Lower::hopeless, bounds)),
+            worth: [0, 1, 2].map(|k| below[k] - share(k, Lower::share_surely_below, bounds)),
             found: [
                 found.compression_m,
                 bounds[1].least(cell.half),

@@ -28,7 +28,7 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     let shares = if targets <= MOST_TARGETS {
         Vec::new()
     } else {
-        shared_out(&routines)
+        split_into_modules(&routines)
     };
     let files: Vec<String> = (0..=shares.len()).map(|index| file(&name, index)).collect();
 
@@ -75,7 +75,7 @@ fn write_all(lines: &mut Lines, routines: &[Routine]) {
 }
 
 /// Routines in groups of no more targets than a module takes.
-fn shared_out(routines: &[Routine]) -> Vec<&[Routine]> {
+fn split_into_modules(routines: &[Routine]) -> Vec<&[Routine]> {
     let mut groups = Vec::new();
     let (mut from, mut targets) = (0, 0);
     for (index, routine) in routines.iter().enumerate() {

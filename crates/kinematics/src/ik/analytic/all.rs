@@ -186,7 +186,7 @@ impl AnalyticArm {
         let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
         let [q4, q5, q6] = self.wrist_within(turn, branch.label.wrist, window)?;
         let q = JointVector::new(q1?, q2?, q3?, q4, q5, q6);
-        self.settled(target, q, window.limits)
+        self.moved_within_limits(target, q, window.limits)
     }
 }
 
@@ -212,15 +212,20 @@ const HOPELESS: f64 = 50.0 * CLOSED;
 impl AnalyticArm {
     /// Returns `q` within the limits, if it is so up to rounding or the free joints can make up for the rest.
     #[inline]
-    pub(crate) fn settled(&self, target: &RigidTransform, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
+    pub(crate) fn moved_within_limits(
+        &self,
+        target: &RigidTransform,
+        q: JointVector,
+        limits: &JointLimits,
+    ) -> Option<JointVector> {
         if limits.contain(&q) {
             return Some(q);
         }
-        self.settle(target, q, limits)
+        self.move_within_limits(target, q, limits)
     }
 
     #[cold]
-    fn settle(&self, target: &RigidTransform, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
+    fn move_within_limits(&self, target: &RigidTransform, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
         let mut here = limits.clamp(&q);
         let beyond = (here - q).amax();
         if beyond <= LIMIT_ROUNDING_RAD {

@@ -128,7 +128,7 @@ impl Search<'_> {
         if self.window.squared_distance(q.as_slice()) >= self.least {
             return None;
         }
-        let q = self.arm.settled(self.target, q, self.window.limits)?;
+        let q = self.arm.moved_within_limits(self.target, q, self.window.limits)?;
         self.least = self.window.squared_distance(q.as_slice());
         self.best = Some(NearestConfiguration {
             q,

@@ -81,7 +81,7 @@ proptest! {
             let lean = stance.lean_rad(tilt);
             let up = -tip.rotation.column(2);
             prop_assert!((up.dot(&contact.normal) - lean.cos()).abs() < 1e-12);
-            let out = scene.out(&contact);
+            let out = scene.outward_direction(&contact);
             let [along, across] = [out, contact.normal.cross(&out)].map(|direction| up.dot(&direction));
             let per_rad = if lean > 0.0 { lean.sin() / lean } else { 1.0 };
             prop_assert!((along - tilt * per_rad).abs() < 1e-12);

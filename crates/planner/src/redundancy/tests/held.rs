@@ -46,7 +46,7 @@ fn the_wrist_is_held_on_the_lines_as_on_the_path() {
             };
             let held = |scene: Scene<'_>| -> bool {
                 let world = World {
-                    scene: scene.standing(stance).half_turned(),
+                    scene: scene.with_stance(stance).half_turned(),
                     clearance: world.clearance,
                 };
                 let path = path(curve(0.08), 15.0);

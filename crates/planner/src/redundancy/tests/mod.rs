@@ -277,7 +277,7 @@ proptest! {
             if all.iter().any(|pair| (pair.distance_m - required).abs() <= QUICK_ERROR_M) {
                 return;
             }
-            assert_eq!(world.clearance.keeps(&q, required), !all.iter().any(near));
+            assert_eq!(world.clearance.keeps_clearance(&q, required), !all.iter().any(near));
             all.retain(|pair| !(pair.a == "sponge" && pair.b.starts_with("plate")) && near(pair));
             assert_eq!(world.clearance.keeps_washing(&q, 0, required), all.is_empty());
             let least = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
@@ -519,7 +519,7 @@ fn a_cancelled_search_returns_cancelled() {
     for rho in [0.36, 0.62] {
         let plates = [plate_at(rho, 20.0)];
         within(&kitchen_tool(), &plates, |world| {
-            let scene = world.scene.clone().until(&cancel);
+            let scene = world.scene.clone().with_cancel(&cancel);
             let path = path(curve(RADIUS_M), 15.0);
             let task = Task::new(&scene, &path, CLEARANCE_M, &HOME).unwrap();
             let cancelled = cancel.check().unwrap_err();

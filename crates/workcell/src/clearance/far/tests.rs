@@ -64,6 +64,6 @@ proptest! {
         let least = model.all(&q).into_iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
         // What is right to rounding may be told either way at the limit.
         prop_assume!((least - required_m).abs() > 1e-5);
-        prop_assert_eq!(model.keeps(&q, required_m), least > required_m);
+        prop_assert_eq!(model.keeps_clearance(&q, required_m), least > required_m);
     }
 }

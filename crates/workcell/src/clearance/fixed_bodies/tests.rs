@@ -84,7 +84,10 @@ fn margins_apply_to_moving_bodies_only() {
 fn ignores_raised_plates_of_a_dry_run() {
     let robot = RobotModel::irb120().unwrap();
     let mut terms = kitchen_terms(&robot, vec![kitchen_plate([0.3, 0.2])]);
-    terms.workcell.obstacles.push(DryRun::standing(0, &terms.plates[0]));
+    terms
+        .workcell
+        .obstacles
+        .push(DryRun::plate_as_obstacle(0, &terms.plates[0]));
     let overlaps = |dry_run| standing_overlaps(&robot, &terms.workcell, &terms.plates, dry_run).unwrap();
     assert_eq!(overlaps(None).len(), 1);
     let dry_run = DryRun {

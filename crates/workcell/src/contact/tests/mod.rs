@@ -68,7 +68,7 @@ fn the_contact_intervals_of_a_point_add_up_to_its_contact_time() {
     let looks = ContactSampler::new(&foundation, &moments, &wanted);
     for (x, count) in [(0.1, 2), (0.03, 2), (0.199, 1), (0.3, 0)] {
         let point = Vector3::new(x, 0.01, 0.0);
-        let stays = looks.stays(&point);
+        let stays = looks.contact_intervals(&point);
         assert_eq!(stays.len(), count, "{stays:?}");
         let all: f64 = stays.iter().map(|[from, to]| to - from).sum();
         assert!((all - looks.at(&point).time_s).abs() < 1e-12, "{stays:?}");
@@ -79,11 +79,12 @@ fn the_contact_intervals_of_a_point_add_up_to_its_contact_time() {
         );
     }
     // Half a chord 10 mm off the middle of a sponge of 25 mm, less what the height error moves it aside.
-    let [from, _] = looks.stays(&Vector3::new(0.1, 0.01, 0.0))[0];
+    let [from, _] = looks.contact_intervals(&Vector3::new(0.1, 0.01, 0.0))[0];
     let chord_m = (0.025f64.powi(2) - 0.01f64.powi(2)).sqrt();
     assert!((from - (0.1 - chord_m) / 0.1).abs() < 2e-2, "{from}");
     let none = ContactSampler::new(&foundation, &[], &wanted);
     assert!(
-        none.stays(&Vector3::new(f64::NAN, 0.0, 0.0)).is_empty() && looks.stays(&Vector3::repeat(f64::NAN)).is_empty()
+        none.contact_intervals(&Vector3::new(f64::NAN, 0.0, 0.0)).is_empty()
+            && looks.contact_intervals(&Vector3::repeat(f64::NAN)).is_empty()
     );
 }

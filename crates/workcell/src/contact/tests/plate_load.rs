@@ -123,8 +123,8 @@ proptest! {
         let bends = Bends::of(&surface);
         let columns = if many { Columns::fine(&FOUNDATION) } else { Columns::new(&FOUNDATION) };
         let pose = over(&surface, place, up, lean);
-        let standing = columns.stand(&bends, &pose, &across(&pose), ERROR_M);
-        let (seen, press) = columns.seen(&bends, &standing);
+        let standing = columns.sponge_state(&bends, &pose, &across(&pose), ERROR_M);
+        let (seen, press) = columns.load_at(&bends, &standing);
         is_within(&surface, &pose, &press)?;
         let [low, high] = [-1.0, 1.0].map(|up| summed(&surface, &pose, up * ERROR_M));
         let off = OFF * PI * FOUNDATION.radius_m * FOUNDATION.radius_m * high[1].max(0.0) + 1e-12;
@@ -162,9 +162,9 @@ proptest! {
         };
         let [from, to] = [0.0, length_s].map(|t| {
             let (pose, side) = at(t);
-            columns.stand(&bends, &pose, &side, ERROR_M)
+            columns.sponge_state(&bends, &pose, &side, ERROR_M)
         });
-        let press = columns.press(&bends, [&from, &to], &drift);
+        let press = columns.bound_load(&bends, [&from, &to], &drift);
         is_within(&surface, &at(share * length_s).0, &press)?;
         // Of the parts those that touch are named.
         let touches = summed(&surface, &at(share * length_s).0, ERROR_M)[1] >= 0.0;
@@ -183,7 +183,7 @@ proptest! {
         let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), tilt);
         let pose = SpongePose { tip: point, axis: -(turn * normal.into_inner()) };
         let columns = Columns::fine(&FOUNDATION);
-        let (_, press) = columns.seen(&bends, &columns.stand(&bends, &pose, &across(&pose), 0.0));
+        let (_, press) = columns.load_at(&bends, &columns.sponge_state(&bends, &pose, &across(&pose), 0.0));
         let [volume, deepest, twist] = summed(&surface, &pose, 0.0);
         let [least, most] = press.volume_m3;
         prop_assert!(most - volume < 0.05 * volume && volume - least < 0.08 * volume, "{volume} {press:?}");
@@ -204,18 +204,18 @@ fn gives_no_bounds_for_columns_that_miss_the_plate() {
         axis: -Vector3::z(),
     };
     for pose in [lying, nowhere] {
-        let standing = columns.stand(&bends, &pose, &Vector3::y(), ERROR_M);
-        let (_, press) = columns.seen(&bends, &standing);
+        let standing = columns.sponge_state(&bends, &pose, &Vector3::y(), ERROR_M);
+        let (_, press) = columns.load_at(&bends, &standing);
         assert_eq!(press.volume_m3, [0.0, f64::INFINITY], "{press:?}");
         assert_eq!(press.deepest_m, f64::INFINITY);
     }
     let upright = over(&surface, [0.5, 0.0], 0.0, [0.0, 0.0]);
-    let standing = columns.stand(&bends, &upright, &Vector3::y(), ERROR_M);
+    let standing = columns.sponge_state(&bends, &upright, &Vector3::y(), ERROR_M);
     let unknown = Drift {
         tip_m_s: f64::NAN,
         length_s: 0.01,
         ..Drift::NONE
     };
-    let press = columns.press(&bends, [&standing; 2], &unknown);
+    let press = columns.bound_load(&bends, [&standing; 2], &unknown);
     assert_eq!(press.volume_m3, [0.0, f64::INFINITY], "{press:?}");
 }

@@ -122,7 +122,7 @@ proptest! {
         let middle = [pass.radius_m + place[0], place[1]];
         let cell = Cell::new(&surface, middle, half);
         let mut windows = Vec::new();
-        passes.near(&cell, &mut windows);
+        passes.windows_near(&cell, &mut windows);
         let mut scratch = Scratch::default();
         let found = passes.bounds(&cell, (CellAmounts::default(), &windows), &mut scratch, |_| false).unwrap();
         // A quarter that starts from what is known of the whole.
