@@ -81,7 +81,7 @@ impl CellEditorObject {
         })
     }
 
-    /// What came last: text, scenario, plan, certificate, and a line about it; None before the first.
+    /// The latest answer: text, scenario, plan, certificate, and a line about it; None before the first.
     fn latest(&self, py: Python<'_>) -> PyResult<Option<LastResult>> {
         let Some(latest) = self.inner.latest() else {
             return Ok(None);

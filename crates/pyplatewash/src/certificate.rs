@@ -11,7 +11,7 @@ use platewash::{Certificate, Check};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
 
-/// What is proved about a plan, for its whole motion. `str(certificate)` is the table that the command prints.
+/// The proof of a plan, for its whole motion. `str(certificate)` is the table that the command prints.
 #[pyclass(frozen, eq, module = "pyplatewash", name = "Certificate")]
 #[derive(PartialEq)]
 pub struct CertificateObject {
@@ -63,7 +63,7 @@ impl CertificateObject {
         to_python(py, &self.inner.waived)
     }
 
-    /// Whether every requirement is proved, but for those that are `waived`, and the plan is as it was written.
+    /// True where every requirement is proved, but for those that are `waived`, and the plan is as it was written.
     #[getter]
     fn proved(&self) -> bool {
         self.inner.passes()
@@ -81,7 +81,7 @@ impl CertificateObject {
         self.inner.duration_s
     }
 
-    /// What the hash says: `stated`, `computed`, `status`.
+    /// Result of the hash check: `stated`, `computed`, `status`.
     #[getter]
     fn hash<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.hash, None)
@@ -101,7 +101,7 @@ impl CertificateObject {
         records(py, &broken)
     }
 
-    /// What the verdict rests on: the job's requirements, limits, plates, tool and world, and what is assumed.
+    /// Basis of the verdict: the job's requirements, limits, plates, tool and world, and the assumptions.
     #[getter]
     fn rests_on<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.rests_on, None)
@@ -113,7 +113,7 @@ impl CertificateObject {
         self.inner.plates_washed()
     }
 
-    /// What is swept, plate by plate in the order of washing.
+    /// The swept shares, plate by plate in the order of washing.
     #[getter]
     fn swept<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.swept)

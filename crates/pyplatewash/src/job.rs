@@ -132,19 +132,19 @@ impl WashJobObject {
         to_record(py, &self.inner.terms().workcell, None)
     }
 
-    /// What the washing must keep.
+    /// Requirements of the washing.
     #[getter]
     fn requirements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.terms().requirements, None)
     }
 
-    /// What joints and tip must not exceed, beyond the limits of the arm's description.
+    /// Limits of joints and tip, beyond those of the arm's description.
     #[getter]
     fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.terms().limits, None)
     }
 
-    /// How it is simulated, unless `simulate` is told otherwise.
+    /// Settings of the simulation, unless `simulate` is given others.
     #[getter]
     fn simulation(&self) -> SettingsObject {
         self.inner.terms().simulation.clone().into()
@@ -283,7 +283,7 @@ impl PaperJobObject {
         to_record(py, &self.inner.settings, None)
     }
 
-    /// How the arm follows.
+    /// The control law and its settings.
     #[getter]
     fn simulation(&self) -> SettingsObject {
         self.inner.simulation.clone().into()

@@ -54,7 +54,7 @@ impl LayoutObject {
         arrays::array(py, &[self.inner.plates.len(), 2], &centres)
     }
 
-    /// What is wrong with the plates: one record a finding, whose text says it in words.
+    /// Findings about the plates: one record each; its text states the finding.
     #[getter]
     fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let list = PyList::empty(py);
@@ -64,7 +64,7 @@ impl LayoutObject {
         Ok(list)
     }
 
-    /// Where the positions come from: drawn, with restarts and draws, or given.
+    /// Source of the positions: drawn, with restarts and draws, or given.
     #[getter]
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.source, None)

@@ -53,7 +53,7 @@ impl PaperRunObject {
 
 #[pymethods]
 impl PaperRunObject {
-    /// What was asked.
+    /// The job.
     #[getter]
     fn job(&self, py: Python<'_>) -> Py<PaperJobObject> {
         self.job.clone_ref(py)
@@ -77,13 +77,13 @@ impl PaperRunObject {
         self.inner.executed.clone().into()
     }
 
-    /// Where the tip shall be, shape (N, 3) [m].
+    /// Target positions of the tip, shape (N, 3) [m].
     #[getter]
     fn targets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.rows(py, |step| &step.target)
     }
 
-    /// Where the tip is after each step, shape (N, 3) [m].
+    /// Positions of the tip after each step, shape (N, 3) [m].
     #[getter]
     fn executed_tip<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.rows(py, |step| &step.executed_tip)
@@ -101,7 +101,7 @@ impl PaperRunObject {
         self.rows(py, |step| &step.executed)
     }
 
-    /// Whether the inverse kinematics solved each waypoint, shape (N,).
+    /// True for each waypoint that the inverse kinematics solved, shape (N,).
     #[getter]
     fn reached<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         arrays::line(py, self.inner.steps.iter().map(|s| s.is_reached()).collect())
@@ -113,7 +113,7 @@ impl PaperRunObject {
         self.line(py, |segment| segment.plate as i64)
     }
 
-    /// Whether each waypoint washes, rather than belongs to a transit, shape (N,).
+    /// True for each waypoint of a wash, false for those of transits, shape (N,).
     #[getter]
     fn washing<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         self.line(py, |segment| segment.kind == SegmentKind::Wash)

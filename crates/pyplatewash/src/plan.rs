@@ -192,7 +192,7 @@ impl PlanObject {
         self.inner.hash.as_deref()
     }
 
-    /// Whether the hash is that of the contents.
+    /// True where the hash is that of the contents.
     fn is_sealed(&self) -> bool {
         self.inner.is_sealed()
     }
@@ -203,13 +203,13 @@ impl PlanObject {
         self.inner.process.to_string()
     }
 
-    /// What is asked, resolved: `workcell`, `plates`, `requirements`, `limits`, `home_rad`, `planner`, `seed`, `simulation`.
+    /// The job, resolved: `workcell`, `plates`, `requirements`, `limits`, `home_rad`, `planner`, `seed`, `simulation`.
     #[getter]
     fn job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.job, None)
     }
 
-    /// Where the plan comes from: `scenario`, `version`. Stated, never judged.
+    /// Origin of the plan: `scenario`, `version`. Stated, never judged.
     #[getter]
     fn provenance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.provenance, None)
@@ -233,7 +233,7 @@ impl PlanObject {
         records(py, &self.inner.segments)
     }
 
-    /// How each plate is washed, in the order of washing: `plate`, `curve`, `lift_m`, `cone_rad`; none for the paper's program.
+    /// The wash paths, in the order of washing: `plate`, `curve`, `lift_m`, `cone_rad`; none for the paper's program.
     #[getter]
     fn wash_paths<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.wash_paths)

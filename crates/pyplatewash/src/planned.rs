@@ -28,7 +28,7 @@ pub struct PlannedObject {
 
 #[pymethods]
 impl PlannedObject {
-    /// What was asked.
+    /// The job.
     #[getter]
     fn job(&self, py: Python<'_>) -> Py<WashJobObject> {
         self.job.clone_ref(py)
@@ -40,19 +40,19 @@ impl PlannedObject {
         PlanObject::new(self.inner.plan.clone(), Some(self.job.get().robot(py)))
     }
 
-    /// How each plate is washed, in the order of washing: `plate`, `tilt`, `cone_rad`, `curve`, `wash_s`, `pace`.
+    /// The visits of the plates, in the order of washing: `plate`, `tilt`, `cone_rad`, `curve`, `wash_s`, `pace`.
     #[getter]
     fn visits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.visits)
     }
 
-    /// How the transits go, from home, between the plates, and home: `kind`, `duration_s`.
+    /// The transits, from home, between the plates, and home: `kind`, `duration_s`.
     #[getter]
     fn transits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.transits)
     }
 
-    /// What the order gains: `travel_s`, `nearest_next_s`, `optimality`.
+    /// Travel time saved by the order: `travel_s`, `nearest_next_s`, `optimality`.
     #[getter]
     fn tour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_record(py, &self.inner.tour, None)

@@ -185,7 +185,7 @@ fn profile(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Knots>> {
     }
 }
 
-/// What a plate is made of besides numbers that are taken as they are: the knots of its profile as tuples, or `None` where it is flat after
+/// Parts of a plate besides numbers that are taken as they are: the knots of its profile as tuples, or `None` where it is flat after
 /// all, its radius \[m\] and its quaternion.
 #[pyfunction]
 pub fn _plate_made<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<PlateValues<'py>> {

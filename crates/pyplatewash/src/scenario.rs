@@ -213,7 +213,7 @@ impl ScenarioObject {
         resolved_paper(py, &self.inner, LayoutObject::given(layout)?)
     }
 
-    /// What was probably meant in another unit: a home in radians. Each is also a `UserWarning` when the scenario is made.
+    /// Notes on values that were probably meant in another unit: a home in radians. Each is also a `UserWarning` when the scenario is made.
     #[getter]
     fn notes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.inner.notes())
@@ -251,7 +251,7 @@ impl ScenarioObject {
         self.section(py, "robot")
     }
 
-    /// What it holds.
+    /// The tool.
     #[getter]
     fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "tool")
@@ -269,13 +269,13 @@ impl ScenarioObject {
         self.section(py, "table")
     }
 
-    /// What else stands around, one after the other.
+    /// The obstacles, in their order.
     #[getter]
     fn obstacle<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.obstacle)
     }
 
-    /// Where the plates lie.
+    /// Positions of the plates, or the region in which they are drawn.
     #[getter]
     fn layout<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "layout")
@@ -305,13 +305,13 @@ impl ScenarioObject {
         self.section(py, "limits")
     }
 
-    /// How the arm follows.
+    /// The control law and its settings.
     #[getter]
     fn control<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "control")
     }
 
-    /// What the arm is as a physical system.
+    /// The arm as a physical system: payload, friction, foam, and steps of the integration.
     #[getter]
     fn plant<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "plant")
@@ -471,8 +471,8 @@ pub fn place_plates(py: Python<'_>, scenario: &Bound<'_, PyAny>) -> PyResult<Lay
 /// Foot of the arm's mount, radius about it, and outline: where plates are drawn.
 type Region = ([f64; 2], Option<f64>, Option<Vec<[f64; 2]>>);
 
-/// Where a scenario draws plates, in the world [m]: the foot of the arm's mount, the radius about it that their centres keep away from,
-/// and the outline of their region. `name` is that of the argument.
+/// Region in which a scenario draws plates, in the world [m]: the foot of the arm's mount, the radius about it that their centres keep away
+/// from, and the outline of their region. `name` is that of the argument.
 #[pyfunction]
 pub fn _task_region(name: &str, scenario: &Bound<'_, PyAny>) -> PyResult<Region> {
     let scenario = called(name, scenario, SCENARIO)?;

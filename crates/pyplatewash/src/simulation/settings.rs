@@ -129,7 +129,7 @@ impl SettingsObject {
         Self::checked(py, law, control, plant, payload(payload_kg)?)
     }
 
-    /// What a plan, or the plan file of that path, states.
+    /// The settings that a plan, or the plan file of that path, states.
     #[classmethod]
     fn of(_class: &Bound<'_, PyType>, plan: &Bound<'_, PyAny>) -> PyResult<Self> {
         let plan = PlanObject::given("plan", plan)?;
@@ -179,7 +179,7 @@ impl SettingsObject {
         to_record(py, &plant_keys(&self.inner.plant), None)
     }
 
-    /// What the arm is rated for [kg], where that is stated.
+    /// Rated payload of the arm [kg], where that is stated.
     #[getter]
     fn payload_kg(&self) -> Option<f64> {
         self.inner.payload_kg

@@ -61,7 +61,7 @@ impl StudyJournalObject {
         Ok(Self { study, held })
     }
 
-    /// How many rows are done.
+    /// Number of rows that are done.
     #[getter]
     fn done(&self, py: Python<'_>) -> PyResult<u64> {
         self.with(py, |held, _| Ok(held.journal.done()))

@@ -107,7 +107,7 @@ impl StudyObject {
         self.inner.bases.iter().map(|base| base.name.as_str()).collect()
     }
 
-    /// How many values each axis takes, by its key; empty where rows are listed.
+    /// Number of values of each axis, by its key; empty where rows are listed.
     #[getter]
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let axes = PyDict::new(py);
@@ -126,7 +126,7 @@ impl StudyObject {
         usize::try_from(self.inner.rows()).unwrap_or(usize::MAX)
     }
 
-    /// What is known of a row before it is worked on: `index`, `key`, `scenario` and the values of the `axes`.
+    /// Facts about a row before it is worked on: `index`, `key`, `scenario` and the values of the `axes`.
     fn row<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let index = self.index(index)?;
         let row = self.inner.row(index).map_err(|error| errors::study(py, error))?;
@@ -228,7 +228,7 @@ pub fn _study_check<'py>(py: Python<'py>, folder: &Bound<'_, PyAny>) -> PyResult
     Ok([indices, places].map(|values| PyBytes::new(py, &bytes(values))))
 }
 
-/// What the rows in a folder come to.
+/// Summary of the rows in a folder.
 #[pyfunction]
 pub fn _study_summary<'py>(py: Python<'py>, folder: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let folder = argument::path("folder", folder)?;
@@ -392,7 +392,7 @@ pub struct StudyWorkerObject {
 
 #[pymethods]
 impl StudyWorkerObject {
-    /// Of a study by its parts.
+    /// Makes the worker of a study from the parts of the study.
     #[new]
     fn new(py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
         let study = StudyObject::of(py, restored(parts))?.inner;

@@ -75,7 +75,7 @@ pub struct LayoutSection {
     /// Plates that overlap each other or the base: a finding only, or refused before planning.
     #[key(domain = Word(&["report", "fail"]), default = Overlap::Fail)]
     pub overlap: Overlap,
-    /// Whether sampled layouts are drawn anew until every plate can be washed whole (certified).
+    /// Draws sampled layouts anew until every plate can be washed whole (certified).
     #[key(domain = Bool)]
     pub only_washable: bool,
     /// Plate centres, in place of sampling: as many plates as are listed.
@@ -186,11 +186,11 @@ impl LayoutSection {
 #[section("plate")]
 #[serde(default, deny_unknown_fields)]
 pub struct PlateSection {
-    /// Where the pole of its washing surface is, in the world: of a flat one the middle. In every section, or in none.
+    /// Position of the pole of its washing surface in the world: of a flat one the middle. In every section, or in none.
     #[key(unit = "m", domain = Triple(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// How it is turned there: roll, pitch and yaw about the fixed axes x, y, z of the world. Unturned it lies level, face up.
+    /// Orientation: roll, pitch and yaw about the fixed axes x, y, z of the world. Unturned it lies level, face up.
     #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rpy_deg: Option<[f64; 3]>,
@@ -198,7 +198,7 @@ pub struct PlateSection {
     #[key(domain = Word(&["one", "both"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub faces: Option<Faces>,
-    /// How many plates of this kind are sampled, in place of `at_m`; centres keep `layout.min_distance_m` apart whatever their kinds.
+    /// Number of plates of this kind that are sampled, in place of `at_m`; centres keep `layout.min_distance_m` apart whatever their kinds.
     #[key(domain = Integer(1, 1000))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,

@@ -39,10 +39,10 @@ pub struct RobotSection {
     #[key(unit = "deg", domain = Joints(-36000.0, 36000.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub home_deg: Option<[f64; 6]>,
-    /// Where the arm's base is in the world, whose z = 0 is the floor and whose z points up: 0.4 above it on a pedestal of that height.
+    /// Position of the arm's base in the world, whose z = 0 is the floor and whose z points up: 0.4 above it on a pedestal of that height.
     #[key(unit = "m", domain = Triple(-10.0, 10.0))]
     pub mount_m: [f64; 3],
-    /// How the base is turned there: roll, pitch and yaw about the fixed axes x, y, z of the world; [180, 0, 0] hangs from a ceiling.
+    /// Orientation of the base: roll, pitch and yaw about the fixed axes x, y, z of the world; [180, 0, 0] hangs from a ceiling.
     #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
     pub mount_rpy_deg: [f64; 3],
     /// Rated payload, against which the tool's mass is checked; without it, 3 kg for the built-in arm, unknown for others.

@@ -13,14 +13,14 @@ use serde::{Deserialize, Serialize};
 #[section("floor")]
 #[serde(default, deny_unknown_fields)]
 pub struct FloorSection {
-    /// Whether there is a floor: all below its height is an obstacle.
+    /// True where there is a floor: all below its height is an obstacle.
     #[key(domain = Bool, default = true)]
     pub present: bool,
     /// z of the floor. Without it, 0.
     #[key(unit = "m", domain = Number(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-    /// How far arm and tool keep from the floor, beyond wash.clearance_m. Without it, 0.
+    /// Distance that arm and tool keep from the floor, beyond wash.clearance_m. Without it, 0.
     #[key(unit = "m", domain = Number(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin_m: Option<f64>,
@@ -47,11 +47,11 @@ pub struct TableSection {
     #[key(unit = "m", domain = Pair(-100.0, 100.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 2]>,
-    /// How it is turned about the vertical, counter-clockwise. Without it, 0.
+    /// Angle about the vertical, counter-clockwise. Without it, 0.
     #[key(unit = "deg", domain = Number(-720.0, 720.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yaw_deg: Option<f64>,
-    /// How far arm and tool keep from the table, beyond wash.clearance_m. Without it, 0.
+    /// Distance that arm and tool keep from the table, beyond wash.clearance_m. Without it, 0.
     #[key(unit = "m", domain = Number(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin_m: Option<f64>,

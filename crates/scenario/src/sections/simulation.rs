@@ -17,8 +17,8 @@ pub const TIME_STEPS_S: [f64; 2] = [1e-6, 10.0];
 #[section("control")]
 #[serde(default, deny_unknown_fields)]
 pub struct ControlSection {
-    /// How the arm follows: the paper's law or exactly, without a plant; or a law that gives torques (certified). Without it, "paper" for the
-    /// paper's program, "computed_torque" for a certified job.
+    /// Control law: the paper's law or exact tracking, without a plant; or a law that gives torques (certified). Without it, "paper" for
+    /// the paper's program, "computed_torque" for a certified job.
     #[key(domain = Word(&ControlLawName::NAMES))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<ControlLawName>,
@@ -48,7 +48,8 @@ pub struct ControlSection {
     #[key(unit = "N·m·s/rad", domain = Joints(0.0, 1e9))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_kd: Option<[f64; 6]>,
-    /// What a torque law takes from the commanded motion besides positions; computed torque takes accelerations with speeds.
+    /// Feed-forward of a torque law: the parts of the commanded motion that it uses besides positions; computed torque takes accelerations
+    /// with speeds.
     #[key(domain = Word(&["none", "velocity"]), default = ControlSettings::default().feed_forward)]
     pub feed_forward: FeedForward,
 }
@@ -77,7 +78,7 @@ impl ControlSection {
 #[section("plant")]
 #[serde(default, deny_unknown_fields)]
 pub struct PlantSection {
-    /// How the motion is integrated: speeds then positions, or the classical fourth-order scheme.
+    /// Integration scheme: speeds then positions, or the classical fourth-order scheme.
     #[key(domain = Word(&["semi_implicit_euler", "rk4"]), default = PlantSettings::default().integrator)]
     pub integrator: Integrator,
     /// Steps of integration to a sample of the law.

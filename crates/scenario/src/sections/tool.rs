@@ -30,7 +30,7 @@ pub struct ToolSection {
     /// Radius of the handle.
     #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = StraightTool::default().radius_m)]
     pub radius_m: f64,
-    /// What is between flange and sponge: a round handle, or nothing but the bodies of `[[tool_body]]`.
+    /// Body between flange and sponge: a round handle, or nothing but the bodies of `[[tool_body]]`.
     #[key(domain = Word(&["round", "none"]), default = HandleName::Round)]
     pub handle: HandleName,
     /// Link behind joint 6 that carries the tool; the tool leaves it along the link's z axis, turned by mount_rpy_deg. Without it, `tool0`; a
@@ -38,10 +38,10 @@ pub struct ToolSection {
     #[key(domain = Text)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,
-    /// Where the tool begins, in the mounting frame of the flange: handle, sponge, tip, centre of mass and inertia follow it.
+    /// Origin of the tool in the mounting frame of the flange: handle, sponge, tip, centre of mass and inertia follow it.
     #[key(unit = "m", domain = Triple(-1.0, 1.0))]
     pub mount_m: [f64; 3],
-    /// How the tool is turned there: roll, pitch and yaw about the fixed axes x, y, z of the mounting frame. Unturned, it leaves the flange
+    /// Orientation of the tool: roll, pitch and yaw about the fixed axes x, y, z of the mounting frame. Unturned, it leaves the flange
     /// along its normal.
     #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
     pub mount_rpy_deg: [f64; 3],
@@ -51,7 +51,7 @@ pub struct ToolSection {
     /// Height of the sponge while it washes: the handle ends so far above the contact. With a tool body, below its length.
     #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = StraightTool::default().sponge_height_m)]
     pub sponge_height_m: f64,
-    /// How far the sponge is pressed in while it washes, and how much higher it is while nothing presses it: the tip may lift as far and still
+    /// Compression of the sponge while it washes, by which it is higher while nothing presses it: the tip may lift as far and still
     /// touch. An assumption.
     #[key(unit = "m", domain = Number(0.0, 1.0), default = StraightTool::default().sponge_compression_m)]
     pub sponge_compression_m: f64,

@@ -33,8 +33,8 @@ pub struct WashSection {
     /// Height of the tip above the washing surface.
     #[key(unit = "m", domain = Number(0.0, 1.0), default = 0.05)]
     pub height_m: f64,
-    /// Whether a full circle at the outer radius follows the spiral; rings always end with one. Without it, none in the paper's program; in a
-    /// certified job the planner chooses.
+    /// True where a full circle at the outer radius follows the spiral; rings always end with one. Without it, none in the paper's program;
+    /// in a certified job the planner chooses.
     #[key(domain = Bool)]
     pub closing_ring: Option<bool>,
     /// Least clearance that counts as free; at 0 only contact is a violation. In a certified job the planner keeps 0.5 mm more while washing,
@@ -58,8 +58,8 @@ pub struct WashSection {
     /// Largest acceleration of the tip while it washes (certified); at least 0.000001.
     #[key(unit = "m/s²", domain = NumberAbove(0.0, 1000.0), default = 4.0)]
     pub acceleration_m_s2: f64,
-    /// How far the tip approaches and retreats along the plate's normal (certified): more than clearance_m and 1 mm, so that a tilted sponge
-    /// too is clear of the plate.
+    /// Distance by which the tip approaches and retreats along the plate's normal (certified): more than clearance_m and 1 mm, so that a
+    /// tilted sponge too is clear of the plate.
     #[key(unit = "m", domain = NumberAbove(0.0, 1.0), default = 0.03)]
     pub lift_m: f64,
     /// Largest speed at which the free sponge meets a plate (certified); at least 0.000001. Without it, 0.05 where contact is true, otherwise
@@ -70,18 +70,18 @@ pub struct WashSection {
     /// speed_m_s.
     #[key(unit = "m/s", domain = NumberAbove(0.0, 10.0))]
     pub lifting_speed_m_s: Option<f64>,
-    /// How far joint 5 keeps from 0, on one side, from approach to retreat (certified), so that the wrist does not flip. Without it, 3 where
-    /// contact is true, otherwise nothing is asked of it.
+    /// Angle that joint 5 keeps away from 0, on one side, from approach to retreat (certified), so that the wrist does not flip. Without
+    /// it, 3 where contact is true, otherwise nothing is asked of it.
     #[key(unit = "deg", domain = Number(0.0, 90.0))]
     pub wrist_min_deg: Option<f64>,
-    /// Whether the contact of sponge and plate is to be proved (certified): how much of a face is pressed, for how long, how hard. The keys
-    /// contact_… below say how much; each has a default.
+    /// True where the contact of sponge and plate must be proved (certified): the share of a face that is pressed, for how long, how hard.
+    /// The keys contact_… below say how much; each has a default.
     #[key(domain = Bool)]
     pub contact: bool,
     /// The least compression of the sponge that counts as contact. Without it, 0.001 where contact is true.
     #[key(unit = "m", domain = Number(0.0, 1.0))]
     pub contact_compression_m: Option<f64>,
-    /// How much higher or lower than stated a plate may lie: an assumption. Without it, 0.001 where contact is true.
+    /// Height error of a plate, up or down from its stated height: an assumption. Without it, 0.001 where contact is true.
     #[key(unit = "m", domain = Number(0.0, 1.0))]
     pub contact_height_error_m: Option<f64>,
     /// Least share of a face's area that comes into contact, wherever within the height error the plate lies. Without it, 0.995 where contact
