@@ -49,6 +49,20 @@ def test_the_pages_blocks_run_from_top_to_bottom(page: str, tmp_path: Path, monk
         np.testing.assert_allclose(after["eul2quat"]([0.3, 0.2, 0.1]), [0.98334744, 0.0342708, 0.10602051, 0.14357218], atol=1e-8)
 
 
+def test_the_researchers_tutorial_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (ROOT / "docs" / "tutorial-researcher.md").read_text()
+    (study,) = re.findall(r"^```toml\n(.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
+    assert 'seeds = "1..50"' in study
+    monkeypatch.chdir(tmp_path)
+    Path("lengths.toml").write_text(study.replace("1..50", "1..2"))
+    rows = pw.Study.load("lengths.toml").run("out/lengths", progress=False)
+    assert rows.finished
+    after: dict[str, Any] = {}
+    for block in re.findall(r"^```python\n(.*?)^```$", page, flags=re.MULTILINE | re.DOTALL):
+        exec(compile(block, "docs/tutorial-researcher.md", "exec"), after)
+    assert len(after["frame"]) == 4 and after["worst"]["tool"].length_m in {0.1, 0.15}
+
+
 def test_the_papers_program_call_by_call_equals_its_run() -> None:
     source = next(path for path in EXAMPLES if path.stem == "paper_program")
     assert len(source.read_text().splitlines()) < 60
