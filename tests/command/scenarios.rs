@@ -203,3 +203,60 @@ fn impossible_layouts_end_soon_with_a_bound() {
     assert_eq!(names(dir), ["case.toml", "out"]);
     assert_eq!(names(&dir.join("out")), ["report.json", "report.txt"]);
 }
+
+/// First block of a page in a language that contains some text.
+fn block(page: &str, language: &str, containing: &str) -> String {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let text = std::fs::read_to_string(format!("{root}/docs/{page}")).unwrap();
+    let fence = format!("```{language}\n");
+    let blocks = text
+        .split(fence.as_str())
+        .skip(1)
+        .filter_map(|rest| rest.split("```").next());
+    blocks
+        .into_iter()
+        .find(|block| block.contains(containing))
+        .unwrap()
+        .to_owned()
+}
+
+/// First line of an answer up to its plates and time, such as "PROVED: 2 plates in 12.98 s".
+fn verdict(stdout: &str) -> &str {
+    stdout.lines().next().unwrap().split(',').next().unwrap()
+}
+
+/// The cells of the tutorials can be typed in, and come to what the pages show.
+#[test]
+fn the_cells_of_the_tutorials_are_planned_and_proved() {
+    let folder = folder();
+    let dir = folder.path();
+    let cell = block("tutorial-engineer.md", "toml", "[layout]");
+    std::fs::write(dir.join("mycell.toml"), &cell).unwrap();
+    let run = ["run", "--scenario", "mycell.toml", "--search-time", "0"];
+    let ran = platewash(dir, &run);
+    assert_eq!(ran.code, 3, "{}", ran.stdout);
+    let told = "INFEASIBLE: plate 1 at (0.600, 0.200) m cannot be washed whole: 53.4 %";
+    assert!(ran.stdout.starts_with(told), "{}", ran.stdout);
+    let nearer = cell.replace("[0.60, 0.20]", "[0.30, 0.20]");
+    assert_ne!(nearer, cell);
+    std::fs::write(dir.join("mycell.toml"), nearer).unwrap();
+    let proved = platewash(dir, &run).done().stdout;
+    let shown = block("tutorial-engineer.md", "console", "PROVED: 2 plates");
+    assert!(shown.contains(verdict(&proved)), "{proved}");
+
+    let arm = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/crates/kinematics/tests/fixtures/ur5_lengths.urdf"
+    );
+    std::fs::copy(arm, dir.join("arm.urdf")).unwrap();
+    let suggested = platewash(dir, &["robot", "--suggest", "--urdf", "arm.urdf"])
+        .done()
+        .stdout;
+    let wash = block("tutorial-rust.md", "toml", "[layout]");
+    let home = wash.lines().find(|line| line.starts_with("start_deg")).unwrap();
+    assert!(suggested.contains(home), "{suggested}");
+    std::fs::write(dir.join("wash.toml"), &wash).unwrap();
+    let proved = platewash(dir, &["run", "--scenario", "wash.toml"]).done().stdout;
+    let shown = block("tutorial-rust.md", "text", "PROVED");
+    assert!(shown.contains(verdict(&proved)), "{proved}");
+}
