@@ -38,8 +38,8 @@ pub fn sweep(scenario: &Scenario, seeds: RangeInclusive<u64>) -> Result<Vec<Swee
     sweep_each(scenario, seeds, &CancelToken::new(), &mut |_| ControlFlow::Continue(()))
 }
 
-/// [`sweep`], one row after the other: `done` is told each in the order of the seeds, as soon as it and those before it are done. Where
-/// it breaks, or the token cancels, no further layout is begun, and the rows that it was told are the answer.
+/// Runs [`sweep`] row by row: `done` gets each row in the order of the seeds, as soon as it and those before it are done. No
+/// further layout begins once `done` breaks or the token cancels; then the rows that `done` got are returned.
 ///
 /// # Errors
 /// As [`sweep`].

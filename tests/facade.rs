@@ -118,7 +118,7 @@ fn crates_named(source: &str) -> Vec<&str> {
 }
 
 #[test]
-fn the_command_and_the_wheel_name_no_crate_behind_the_facade() {
+fn the_command_and_the_wheel_use_only_the_facade() {
     assert_eq!(
         crates_named("use platewash_planner::plan; pyplatewash_x"),
         ["platewash_planner"]

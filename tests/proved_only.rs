@@ -429,7 +429,7 @@ fn a_plan_written_otherwise_is_the_same_plan() {
 
 /// JSON's numbers are doubles: from 2⁵³ on two whole numbers are one.
 #[test]
-fn seeds_and_indices_that_json_cannot_tell_apart_have_no_hash() {
+fn rejects_seeds_and_indices_beyond_the_exact_integers_of_json() {
     const ABOVE: u64 = 1 << 53;
     let plan = judged(&one_plate()).0.plan;
     let with = |seed: u64| {

@@ -56,7 +56,7 @@ fn computed_torque_covers_as_much_as_planned() {
 }
 
 #[test]
-fn pd_alone_washes_less_and_says_why() {
+fn pd_alone_washes_less_and_reports_the_cause() {
     let (_, report) = judged(&under(ControlLawName::Pd, 15.0));
     println!("{}", report.headline);
     assert_eq!(report.verdict, SimulationVerdict::NotSwept);

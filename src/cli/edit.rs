@@ -142,7 +142,7 @@ impl ScenarioFile {
         // A link stays a link: what it leads to is written.
         let file = named.canonicalize().unwrap_or_else(|_| named.clone());
         let name = file.file_stem().filter(|_| !file.is_dir()).map(ToOwned::to_owned);
-        let mut name = name.with_context(|| format!("--save-as {}: is no name of a file", named.display()))?;
+        let mut name = name.with_context(|| format!("--save-as {}: is not a file name", named.display()))?;
         name.push(".");
         let folder = options.out.clone().or_else(|| file.parent().map(Path::to_owned));
         let is_own = |own: &PathBuf| own.canonicalize().is_ok_and(|own| own == file);
@@ -172,7 +172,7 @@ impl ScenarioFile {
         Files::new(folder, &REPORTS).with_prefix(name)
     }
 
-    /// Writes the text with what comes of it, and says what that is. The scenario goes first: where it cannot be written, nothing is.
+    /// Writes the text and its results, and reports them. The scenario goes first: where it cannot be written, nothing is.
     fn save(&self, save: &Save<'_>, still: &dyn Fn() -> bool, cancel: &CancelToken) -> Result<Option<SaveReport>> {
         let options = Options {
             cancel: cancel.clone(),

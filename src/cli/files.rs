@@ -217,7 +217,7 @@ fn refuse_place(path: &Path) -> Result<()> {
     };
     let (cannot, folder) = (write_failure(path), nearest.display());
     if !nearest.is_dir() {
-        bail!("{cannot}: {folder} is no folder");
+        bail!("{cannot}: {folder} is not a folder");
     }
     // Rights are many things; a file that is made and goes again asks for all of them.
     match StagedFile::in_folder(nearest) {

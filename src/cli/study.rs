@@ -149,7 +149,7 @@ fn outcomes(of: &Summary) -> String {
     format!("study {name}: {} of {rows} rows: {counts}\n", of.done)
 }
 
-/// All of what the rows in a folder come to.
+/// Text of the summary of the rows in a folder.
 fn summary_text(of: &Summary, folder: &Path) -> String {
     let mut text = outcomes(of);
     for (axis, values) in &of.by_axis {

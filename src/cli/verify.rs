@@ -99,7 +99,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
             let name = arguments.plan.display();
             ensure!(
                 arguments.parent.is_none(),
-                "{name}: a run of the paper's program is no dry run"
+                "{name}: a run of the paper's program is not a dry run"
             );
             Judgement::of_paper(&plan)
         }

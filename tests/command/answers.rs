@@ -73,7 +73,7 @@ fn shown_limits_are_accepted_when_typed_in() {
 }
 
 #[test]
-fn no_simulation_of_an_earlier_plan_stays_beside_a_new_one() {
+fn removes_the_simulation_of_an_earlier_plan() {
     let folder = folder();
     let dir = folder.path();
     let out = dir.join("out");

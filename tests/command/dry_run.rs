@@ -143,7 +143,7 @@ fn verify_compares_a_dry_run_with_its_parent() {
 }
 
 #[test]
-fn numbers_that_cannot_be_meant_are_refused_before_any_file() {
+fn implausible_numbers_are_refused_before_any_file() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--quiet"]).done();

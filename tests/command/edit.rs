@@ -26,7 +26,7 @@ fn edit_refuses_unusable_files_before_any_work() {
     refused(&["--seed", "-1"], &["--seed"]);
     refused(
         &["--save-as", "other.toml/cell.toml"],
-        &["cell.toml", "other.toml is no folder"],
+        &["cell.toml", "other.toml is not a folder"],
     );
     refused(&["--save-as", ".."], &["--save-as .."]);
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
@@ -119,7 +119,7 @@ fn a_cell_is_served_saved_and_ended_by_ctrl_c() {
 /// Another user of the machine sees what programs are called with, and the files that all may read.
 #[cfg(target_os = "linux")]
 #[test]
-fn another_user_of_the_machine_cannot_learn_the_token() {
+fn other_users_of_the_machine_cannot_read_the_token() {
     use std::os::unix::fs::MetadataExt;
     use std::os::unix::process::CommandExt;
     const OTHER_USER: u32 = 65534;

@@ -149,7 +149,7 @@ fn verify_also_reads_a_file_beside_the_program() {
 }
 
 #[test]
-fn a_program_without_its_start_check_says_so() {
+fn reports_a_program_without_its_start_check() {
     let folder = planned();
     let dir = folder.path();
     platewash(dir, &["export", "out/plan.json", "--to", "rapid", "--quiet"]).done();

@@ -59,7 +59,7 @@ fn without(text: &str, name: &str) -> String {
 }
 
 #[test]
-fn no_name_reads_as_a_verdict_or_adds_a_line() {
+fn names_never_read_as_a_verdict_or_add_a_line() {
     let folder = folder();
     let dir = folder.path();
     let scenario = super::spiral(dir, &[("region = \"appendix\"", "positions_m = [[0.35, 0.1]]")]);

@@ -59,7 +59,7 @@ fn help_shows_no_option_that_is_refused() {
 }
 
 #[test]
-fn names_out_of_files_command_no_terminal() {
+fn control_characters_in_names_never_reach_the_terminal() {
     let folder = folder();
     let dir = folder.path();
     platewash(dir, &["plan", "--scenario", "kitchen", "--out", "."]).done();

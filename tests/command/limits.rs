@@ -34,7 +34,7 @@ fn refuses_endless_work() {
 
 /// JSON's numbers are doubles: above 2⁵³ − 1 two seeds could have one plan file.
 #[test]
-fn seeds_that_a_plan_file_cannot_tell_apart_are_refused_wherever_they_are_given() {
+fn every_verb_rejects_seeds_beyond_the_exact_integers_of_json() {
     let folder = folder();
     let dir = folder.path();
     let largest = "9007199254740991 (2^53 − 1)";

@@ -205,7 +205,7 @@ fn a_plan_file_is_refused_by_its_key_without_names_of_types() {
         ),
         (String::new(), "the file is empty or was cut off"),
         ("[1, 2, 3, 4, 5, 6, 7, 8, 9]".to_owned(), "not a plan file"),
-        ("name = \"kitchen\"".to_owned(), "it is no JSON: "),
+        ("name = \"kitchen\"".to_owned(), "it is not valid JSON: "),
     ] {
         assert_ne!(text, plan);
         let ran = verify(&text);

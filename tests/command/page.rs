@@ -10,7 +10,7 @@ fn document(page: &str) -> Value {
 }
 
 #[test]
-fn a_run_leaves_a_page_or_says_why_not() {
+fn a_run_writes_a_page_or_reports_the_reason() {
     for (scenario, process) in [("kitchen", "wash"), ("paper-text", "paper")] {
         let folder = folder();
         let ran = platewash(folder.path(), &["run", "--scenario", scenario]).done();

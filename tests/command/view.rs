@@ -119,7 +119,7 @@ fn a_plan_is_served_until_ctrl_c() {
 /// Nothing is on an empty path, no browser either.
 #[cfg(unix)]
 #[test]
-fn a_browser_that_cannot_be_opened_is_no_failure() {
+fn a_missing_browser_does_not_fail_the_command() {
     let folder = folder();
     let dir = folder.path();
     plan(dir);

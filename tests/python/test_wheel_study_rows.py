@@ -163,7 +163,7 @@ def test_a_damaged_folder_is_read_or_refused(file: str, at: int, cut: int, put: 
 
 
 def test_rejects_folders_without_a_study(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"manifest\.json: cannot be read, so that this is no study's folder") as caught:
+    with pytest.raises(FileNotFoundError, match=r"manifest\.json: cannot be read, so this is not the folder of a study") as caught:
         pw.StudyRows(tmp_path)
     assert isinstance(caught.value, pw.StudyError) and isinstance(caught.value, pw.FileError) and caught.value.errno == 2
     wrong: list[tuple[dict[str, Any], str]] = [

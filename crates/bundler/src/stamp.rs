@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(
             with_plain_line_ends(b"\ra\r\r\n\n\r"),
             b"\ra\r\n\n\r",
-            "a lone return is no line end"
+            "a carriage return alone does not end a line"
         );
     }
 

@@ -55,7 +55,7 @@ impl Step {
         self
     }
 
-    /// The same in another folder.
+    /// Runs the step in another folder.
     pub fn at(mut self, folder: &Path) -> Self {
         self.command.current_dir(folder);
         self

@@ -15,17 +15,17 @@ use std::time::Instant;
 #[serde(transparent)]
 pub struct Milliseconds(BTreeMap<&'static str, f64>);
 
-/// An answer: lines, as long as somebody listens, and how long the steps to them took.
+/// Writes the lines of an answer while the client listens, and records the duration of each step.
 pub struct AnswerWriter<'a> {
     tell: &'a mut dyn FnMut(String) -> bool,
-    /// Cancelled once nobody listens any more, or the work shall end for another reason.
+    /// Cancelled when the client has left, or the work must end for another reason.
     pub gone: CancelToken,
     since: Instant,
     took: Milliseconds,
 }
 
 impl<'a> AnswerWriter<'a> {
-    /// Lines go to `tell`, which returns false once nobody listens. The first step begins now.
+    /// Makes a writer that passes lines to `tell`, which returns false once the client has left. The first step begins now.
     pub fn new(tell: &'a mut dyn FnMut(String) -> bool, gone: &CancelToken) -> Self {
         Self {
             tell,

@@ -148,7 +148,7 @@ impl Editor {
     }
 
     /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it
-    /// is known. The work stops where `tell` returns that nobody listens any more, or `gone` is cancelled.
+    /// is known. The work stops where `tell` returns that the client has left, or `gone` is cancelled.
     pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
         let mut told = AnswerWriter::new(tell, gone);
         let answered = catch_unwind(AssertUnwindSafe(|| self.answer_told(path, question, &mut told, gone)));

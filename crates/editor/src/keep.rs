@@ -98,7 +98,7 @@ impl SavedFile {
         }
     }
 
-    /// Its name, in words.
+    /// Name of the file, for messages.
     pub fn file(&self) -> String {
         self.keeper.file()
     }
@@ -156,7 +156,7 @@ impl SavedFile {
         answer.line(&DiskLine {
             disk: hash.as_deref(),
             text,
-            words: is_no_text.then_some("the file on disk is no text"),
+            words: is_no_text.then_some("the file on disk is not a text file"),
         });
     }
 
@@ -210,9 +210,7 @@ impl SavedFile {
 fn told_conflict(contents: &DiskContents, answer: &mut AnswerWriter<'_>) {
     let hash = contents.hash();
     let words = match hash {
-        Some(_) => {
-            "the file on disk is not the one that this page has read or written: it was changed by somebody else"
-        }
+        Some(_) => "the file on disk is not the one that this page has read or written: another program has changed it",
         None => "the file that this page has read or written is gone from the disk",
     };
     answer.line(&SaveLine::Conflict {

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_come_in_the_order_in_which_they_are_shown() {
+    fn bodies_keep_their_displayed_order() {
         for name in ["sink", "rack", "pedestal", "ceiling", "kitchen"] {
             let scenario = Scenario::load(name).unwrap();
             let shown = scenario.job().unwrap().terms().workcell.obstacles.clone();

@@ -138,7 +138,7 @@ pub enum CellLine<'a> {
     Proof {
         /// The certificate.
         certificate: &'a view::Certificate,
-        /// Its first line.
+        /// First line of the report.
         headline: &'a str,
         /// Area of each plate that is proved to be swept.
         proved: Vec<PlateProof>,
@@ -186,7 +186,7 @@ pub struct CellParts<'a> {
     pub heading: &'a view::Heading,
     /// The arm, where the page does not have it.
     pub arm: Option<ArmLine<'a>>,
-    /// Its id.
+    /// Id of the arm's description.
     pub arm_id: &'a str,
     /// The tool.
     pub tool: &'a Option<Tool>,

@@ -53,7 +53,7 @@ pub struct Subject {
     pub name: String,
     /// Folder that relative paths in it start from.
     pub folder: Option<PathBuf>,
-    /// Its text as it was opened.
+    /// Text of the scenario as it was opened.
     pub text: String,
     /// True where pages on other machines may ask.
     pub is_open_to_others: bool,

@@ -366,7 +366,7 @@ fn changes_keys_of_sections_and_states_their_positions() {
 }
 
 #[test]
-fn a_page_that_others_reach_names_no_files() {
+fn a_page_on_the_network_names_no_files() {
     let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../urdf/irb120.urdf");
     let other = |editor: &Editor, text: &str| {
         let edits = json!([{"key": "robot.urdf", "value": "/etc/passwd"}]);

@@ -23,13 +23,13 @@ use serde::Serialize;
 use similar::{Algorithm, DiffTag, capture_diff_slices};
 use std::collections::HashMap;
 
-/// Changes that are listed; more would help nobody.
+/// Greatest number of changes that are listed.
 const MOST_CHANGES: usize = 20;
 
 /// Result of reading a program back and judging it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramComparison {
-    /// Its dialect.
+    /// Dialect of the program.
     pub dialect: &'static str,
     /// Differences from the program that was handed over, in the order of its lines; the first of them.
     pub changes: Vec<Change>,

@@ -74,7 +74,7 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    /// A reason at a line of a file, from 1.
+    /// Makes the error of a line, counted from 1.
     pub(crate) fn at(file: &str, line: usize, reason: impl Into<String>) -> Self {
         let (file, reason) = (file.to_owned(), reason.into());
         Self {
@@ -109,7 +109,7 @@ pub struct Program<'a> {
     pub name: String,
     /// The plan, which is certified.
     pub plan: &'a Plan,
-    /// Its arm.
+    /// Arm of the plan.
     pub arm: &'a RobotModel,
     /// Points in the order of time; the first is where the arm must stand, at 0 s.
     pub points: Vec<Point>,
@@ -153,7 +153,7 @@ impl Program<'_> {
 /// A text file of a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProgramFile {
-    /// Its name, without a folder.
+    /// File name, without a folder.
     pub name: String,
     /// Text of the file; lines end with a line feed.
     pub text: String,

@@ -20,7 +20,7 @@ const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);
 /// A program that may be handed over.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportedProgram {
-    /// Its files.
+    /// Files of the program.
     pub files: Vec<ProgramFile>,
     /// Proof of the program.
     pub judgement: ProgramJudgement,

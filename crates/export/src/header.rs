@@ -21,7 +21,7 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 /// Significant digits of assumed values.
 const DIGITS: usize = 9;
 
-/// Plates whose places are listed.
+/// Greatest number of plates whose positions are listed.
 const MOST_PLATES: usize = 24;
 
 /// The header of a program, of the points that it names. Before it is judged there is no verdict in it.

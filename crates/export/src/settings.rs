@@ -109,5 +109,5 @@ impl ExportSettings {
     }
 }
 
-/// Prefix of such a line.
+/// Prefix of a line that states a setting.
 const SETTING: &str = "platewash setting:";

@@ -411,7 +411,7 @@ fn a_plan_of_another_number_of_files_is_refused() {
 }
 
 #[test]
-fn arms_of_others_and_tools_without_a_mass_are_refused() {
+fn rejects_arms_of_other_makers_and_tools_without_mass() {
     let mut terms = kitchen_terms(&ARM, kitchen_plates());
     assert_eq!(UrScript.accepts(&terms, &ARM), Ok(()));
     let other = RobotModel::irb120().unwrap();

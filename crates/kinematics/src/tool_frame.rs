@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// ROS-Industrial's `tool0` has z leaving the flange. MATLAB's `loadrobot("abbIrb120")` has a body called
 /// `tool0` that equals the last link, with **x** leaving the flange: the same numbers mean another pose
-/// there. Both are here by name, so that nobody has to guess.
+/// there. Both are here by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolFrame {

@@ -34,7 +34,7 @@ pub fn run(job: &PaperJob) -> Result<PaperRun, PaperError> {
     run_with(job, &CancelToken::new())
 }
 
-/// Plans and follows a job for somebody who may give it up.
+/// Plans and follows a job; a token can cancel it.
 ///
 /// # Errors
 /// As [`run`], and [`PaperError::Cancelled`].

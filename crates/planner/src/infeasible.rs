@@ -18,7 +18,7 @@ use std::fmt;
 pub struct InfeasibleReport {
     /// Name of the scenario.
     pub scenario: String,
-    /// Its seed.
+    /// Seed of the job.
     pub seed: u64,
     /// [`Verdict::Infeasible`] where the job cannot be done, [`Verdict::NotFound`] where no way was found to do it.
     pub verdict: Verdict,

@@ -81,7 +81,7 @@ pub enum JointPathError {
     Order {
         /// Index of the sample.
         sample: usize,
-        /// Its parameter.
+        /// Parameter of the sample.
         u: f64,
         /// The parameter before.
         before: f64,

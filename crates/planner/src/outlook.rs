@@ -8,6 +8,6 @@ use serde::Serialize;
 pub struct PlateOutlook {
     /// The plate.
     pub plate: usize,
-    /// Its chance.
+    /// Chance of the plate to be washed.
     pub chance: Chance,
 }

@@ -62,7 +62,7 @@ fn is_zero(value: &f64) -> bool {
 /// Kind and duration of one transit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TransitSummary {
-    /// Its kind.
+    /// Kind of the transit.
     pub kind: TransitKind,
     /// Time from contact to contact, or from or to home \[s\].
     pub duration_s: f64,

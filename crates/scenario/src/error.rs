@@ -188,7 +188,7 @@ impl BodySection {
 pub enum BodyFault {
     /// Its mesh cannot be read; the error names the file and the reason.
     Mesh(MeshError),
-    /// Its mesh is no body.
+    /// The mesh forms no body.
     Solid {
         /// The file.
         file: String,

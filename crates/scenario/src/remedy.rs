@@ -34,7 +34,7 @@ const ROUNDED: f64 = 1e9;
 /// A key that alone, changed, gives a job that is planned.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Remedy {
-    /// Its dotted path.
+    /// Dotted path of the key.
     pub key: &'static str,
     /// The value to give it, in the key's unit; `None`: to be left out.
     pub value: Option<Value>,

@@ -148,11 +148,11 @@ fn errors_name_key_and_line() {
         ),
         (
             "[[obstacle]]\nname = \"a\"\nshape = \"sphere\"\nradius_m = 1\nlength_m = 1\n",
-            "obstacle[0].length_m: is no size of a sphere",
+            "obstacle[0].length_m: is not a size of a sphere",
         ),
         (
             "[[obstacle]]\nname = \"a\"\nshape = \"half_space\"\nradius_m = 1\n",
-            "obstacle[0].radius_m: is no size of a half-space",
+            "obstacle[0].radius_m: is not a size of a half-space",
         ),
         (
             "[[obstacle]]\nname = \"a\"\nshape = \"box\"\nsize_m = [1, 1, 1]\nmesh = \"a.stl\"\n",

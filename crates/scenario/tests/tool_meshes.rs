@@ -87,7 +87,7 @@ fn meshes_that_make_no_tool_are_refused_by_section_body_and_file() {
         ),
         (
             mesh("box.obj", "radius_m = 0.1"),
-            "tool_body[0].radius_m: is no size of a mesh",
+            "tool_body[0].radius_m: is not a size of a mesh",
         ),
         (
             "shape = \"half_space\"\n".to_owned(),

@@ -16,7 +16,7 @@ pub struct Axis {
 pub(crate) enum Values {
     /// One by one.
     Listed(Vec<Value>),
-    /// Seeds, so many from the first on: they are counted, not kept.
+    /// A number of consecutive seeds from the first on; they are not stored.
     Seeds {
         /// The first.
         first: u64,
@@ -37,7 +37,7 @@ pub enum AxisKind {
     Number,
     /// Texts.
     Text,
-    /// Lists of numbers, so many each.
+    /// Lists of numbers, each of the given length.
     Numbers(usize),
     /// Anything else, or values of several kinds.
     Json,

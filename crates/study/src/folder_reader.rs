@@ -28,7 +28,7 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, StudyError> {
     let file = folder.join(MANIFEST);
     let text = fs::read_to_string(&file).map_err(StudyError::disk(
         &file,
-        "cannot be read, so that this is no study's folder",
+        "cannot be read, so this is not the folder of a study",
     ))?;
     let wrong = |problem: String| Err(StudyError::damaged_file(&file, None, problem));
     let manifest: Manifest = match json::read(&text) {

@@ -158,7 +158,7 @@ impl Journal {
         let (count, written) = (places.len() as u64, self.manifest.rows);
         if count < written {
             let problem = format!(
-                "has {count} rows, though {written} were written: somebody else has changed it; the same command makes those that are gone"
+                "has {count} rows, though {written} were written: another program has changed it; run the same command again"
             );
             return Err(StudyError::damaged_file(&self.folder.join(ROWS), None, problem));
         }

@@ -79,7 +79,7 @@ pub(crate) fn read(
 }
 
 impl<S: Sink> Lines<S> {
-    /// Continues behind so many bytes of whole lines; the bytes beyond them are removed.
+    /// Continues behind the given number of bytes of whole lines; the bytes beyond them are removed.
     pub fn after(path: &Path, mut sink: S, whole: u64) -> Result<Self, StudyError> {
         sink.cut(whole).map_err(StudyError::disk(path, UNWRITTEN))?;
         Ok(Self {

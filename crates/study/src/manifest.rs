@@ -153,7 +153,7 @@ impl Manifest {
                 self.scenarios.iter().map(scenario).collect(),
             ),
             (
-                "a file that rows name (by its SHA-256)",
+                "a file that rows refer to (by its SHA-256)",
                 self.files.iter().map(file).collect(),
             ),
             ("the number of rows", vec![self.rows.to_string()]),

@@ -55,7 +55,7 @@ pub fn run(
     })
 }
 
-/// Keeps rows until nobody makes any more.
+/// Writes rows until all workers have ended.
 fn keep(
     rows: &Receiver<(RowWithPlan, Duration)>,
     journal: &mut Journal,

@@ -29,7 +29,7 @@ const MOST_BYTES: u64 = 16 << 20;
 /// A study, checked: its keys are those of scenarios, its values within their ranges, one by one.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Its name.
+    /// Name of the study.
     pub name: String,
     /// The file, as it was given.
     pub file: String,

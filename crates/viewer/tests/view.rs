@@ -335,7 +335,7 @@ fn an_execution_is_thinned_and_keeps_its_end_and_its_error() {
 
 /// What `run` writes, read back: the same motion but for the step of the table.
 #[test]
-fn a_recorded_motion_shows_what_the_simulation_showed() {
+fn a_recorded_motion_looks_like_its_simulation() {
     let kitchen = &*KITCHEN;
     let table = platewash_simulator::simulate::table(&kitchen.execution, &kitchen.plan, &kitchen.arm, 0.01).unwrap();
     let recorded = RecordedMotion::from_csv(&table.to_string()).unwrap();

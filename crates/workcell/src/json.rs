@@ -31,7 +31,7 @@ fn error_text(text: &str, error: &serde_json::Error) -> String {
     let message = whole.split_once(" at line ").map_or(&*whole, |(message, _)| message);
     match error.classify() {
         Category::Eof => format!("it ends in the middle, at {at}: the file is empty or was cut off"),
-        Category::Syntax | Category::Io => format!("it is no JSON: {message} at {at}"),
+        Category::Syntax | Category::Io => format!("it is not valid JSON: {message} at {at}"),
         Category::Data => {
             let lines = text.split_inclusive('\n').take(error.line().saturating_sub(1));
             let before = lines.map(str::len).sum::<usize>() + error.column();
@@ -149,8 +149,16 @@ mod tests {
                 "",
                 "it ends in the middle, at line 1, column 64: the file is empty or was cut off",
             ),
-            ("]}", "]} 1", "it is no JSON: trailing characters at line 1, column 68"),
-            ("{\"seed\"", "seed", "it is no JSON: expected value at line 1, column 1"),
+            (
+                "]}",
+                "]} 1",
+                "it is not valid JSON: trailing characters at line 1, column 68",
+            ),
+            (
+                "{\"seed\"",
+                "seed",
+                "it is not valid JSON: expected value at line 1, column 1",
+            ),
             (
                 GOOD,
                 "",

@@ -31,7 +31,7 @@ fn mount(axis: [f64; 3], turn_rad: f64, place: [f64; 3], yaw_rad: f64) -> Pose {
 proptest! {
     /// Exact points give the exact pose, a rotation, whatever the pose short of upside down.
     #[test]
-    fn exact_points_give_the_mount_back(
+    fn exact_points_recover_the_mount(
         axis in prop::array::uniform3(-1.0..1.0f64),
         turn in 0.0..0.8f64,
         place in prop::array::uniform3(-2.0..2.0f64),

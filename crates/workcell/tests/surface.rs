@@ -52,7 +52,7 @@ fn knots() -> impl Strategy<Value = Vec<Knot>> {
 proptest! {
     /// By small steps along the meridian: its slope, its curvature and its area are those of the points.
     #[test]
-    fn points_slopes_and_areas_belong_together(knots in knots(), share in 0.01..0.99f64) {
+    fn points_slopes_and_areas_are_consistent(knots in knots(), share in 0.01..0.99f64) {
         let meridian = Meridian::new(&knots).unwrap();
         let arc_m = share * meridian.arc_m();
         let (here, h) = (meridian.at_arc(arc_m), 1e-6);

@@ -62,7 +62,7 @@ impl BoundTracker {
         both
     }
 
-    /// Allows the halvings for so many further pieces.
+    /// Allows the halvings for a number of further pieces.
     pub fn allow_for(&mut self, pieces: usize) {
         self.splits = self.splits.saturating_add(pieces.saturating_mul(SPLITS_A_PIECE));
     }

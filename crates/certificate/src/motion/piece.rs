@@ -277,7 +277,7 @@ mod tests {
         /// The knots' values are within the bounds, however short and however late a piece is. Speeds are those of an even motion, a few
         /// units in the last place off, where rounding is all there is.
         #[test]
-        fn bounds_hold_for_the_knots_as_they_stand(
+        fn bounds_hold_for_the_exact_knots(
             start in 0.0..60.0f64, steps in 1..40i32, long in -16.0..0.0f64, q0 in -3.0..3.0f64, v in -2.0..2.0f64, off in [-4..4i32, -4..4i32],
         ) {
             let least = if start > 0.0 { start.next_up() - start } else { f64::EPSILON };
@@ -304,7 +304,7 @@ mod tests {
         }
 
         #[test]
-        fn extremes_hold_between_and_are_attained(q in [vector(), vector()], v in [vector(), vector()], cut in [0.0..0.5f64, 0.5..1.0f64]) {
+        fn extremes_hold_between_knots_and_are_attained(q in [vector(), vector()], v in [vector(), vector()], cut in [0.0..0.5f64, 0.5..1.0f64]) {
             let piece = Piece::new([1.0, 1.25], q, v);
             let u = cut.map(|c| c * piece.length_s);
             let extent = piece.extent(u);

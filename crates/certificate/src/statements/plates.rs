@@ -151,7 +151,7 @@ pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceErro
         Discrepancy::new(
             what,
             millimetres(found.by_m),
-            "not at all, but for plates that it holds",
+            "no overlap, except with plates that it holds",
         )
     }));
     // Overlapping plates may be waived; an obstacle in a plate may not.

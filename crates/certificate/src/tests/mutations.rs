@@ -207,7 +207,7 @@ fn names_a_waived_pair_that_is_too_near() {
 
 /// The sponge may touch the plates that it washes, and a job may waive what it does to them at other times; the handle must keep clear.
 #[test]
-fn waiving_one_pair_waives_no_other() {
+fn waiving_one_pair_does_not_waive_others() {
     let mut plan = good();
     plan.job.requirements.clearance_m = 0.0215;
     plan.job.workcell.exclusions.push(leaves_out(["sponge", "plate 0"]));

@@ -36,7 +36,7 @@ pub(crate) enum Value {
 #[derive(Debug)]
 pub(crate) struct Data {
     pub(crate) place: Place,
-    /// Its type, in small letters.
+    /// Type of the declaration, in lower case.
     pub(crate) type_name: String,
     pub(crate) is_constant: bool,
     /// `None` where none is stated.
@@ -47,7 +47,7 @@ pub(crate) struct Data {
 #[derive(Debug)]
 pub(crate) struct Procedure {
     pub(crate) place: Place,
-    /// Its name, as it stands.
+    /// Name of the procedure, as it is spelled.
     pub(crate) name: String,
     /// Tokens between the brackets behind its name.
     pub(crate) parameters: Vec<PlacedToken>,

@@ -102,7 +102,7 @@ fn flow<const N: usize>(fields: [(&str, String); N], language: Language) -> Stri
     format!("{{{}}}", fields.join(", "))
 }
 
-/// A list within a line.
+/// Formats numbers as a list on one line.
 fn row(values: impl Iterator<Item = String>) -> String {
     format!("[{}]", values.collect::<Vec<_>>().join(", "))
 }
@@ -135,10 +135,10 @@ fn document(fields: Vec<String>, language: Language) -> String {
     }
 }
 
-/// Its name.
+/// File name of the script that sends a goal.
 pub(crate) const NAME: &str = "play.py";
 
-/// Its text.
+/// Text of the script that sends a goal.
 pub(crate) const TEXT: &str = include_str!("play.py");
 
 /// Checks that a file is the script, by its name.

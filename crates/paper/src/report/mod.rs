@@ -26,7 +26,7 @@ use waypoints::{plates, transits};
 pub struct PaperReport {
     /// Name of the scenario.
     pub scenario: String,
-    /// Its seed.
+    /// Seed of the job.
     pub seed: u64,
     /// Name of the arm.
     pub robot: String,
@@ -66,7 +66,7 @@ impl PaperRun {
         self.report_with(&CancelToken::new())
     }
 
-    /// Judges the run for somebody who may give it up.
+    /// Judges the run; a token can cancel it.
     ///
     /// # Errors
     /// As [`PaperRun::report`], and [`PaperError::Cancelled`].

@@ -278,7 +278,8 @@ impl Promise {
         }
     }
 
-    /// The share of a face that is too small, of so many places kept, where `lacking` may lack.
+    /// Returns the first promised share that is not kept: `kept` of `of` sampled points keep each promise, and a share of `lacking` may
+    /// be missing.
     fn short(&self, kept: [u32; 3], of: u32, margin: &Margin, lacking: f64) -> Option<Shortfall> {
         let promised = [
             ContactPromise::Pressed,

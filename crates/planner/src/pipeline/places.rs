@@ -252,7 +252,7 @@ const MOST_LAYOUTS: usize = 200;
 /// Draws layouts until every plate of one can be washed whole under `terms`, whose own plates are ignored.
 ///
 /// # Errors
-/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no layout drawn will do, and the errors of
+/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no drawn layout can be washed, and the errors of
 /// [`check`](crate::check).
 pub fn draw_washable_layout(
     arm: &Arc<RobotModel>,

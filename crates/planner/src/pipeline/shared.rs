@@ -215,7 +215,7 @@ impl<'a> Pipeline<'a> {
         self.check_homes_among(&self.clearance)
     }
 
-    /// The same check among other bodies.
+    /// Checks that both homes are clear of the given bodies.
     pub fn check_homes_among(&self, bodies: &ClearanceModel) -> Result<(), PlanError> {
         for (end, q) in ends(self.terms) {
             let too_near = ClearanceShortfall::at(bodies, q, Stretch::Free, self.clearance_m());

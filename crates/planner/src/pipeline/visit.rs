@@ -35,7 +35,7 @@ const TOUCHING: f64 = 0.99;
 /// Washing of one plate.
 #[derive(Debug)]
 pub(crate) struct Turn {
-    /// Its wash path.
+    /// Wash path of the plate.
     pub path: WashPath,
     /// The configurations along it.
     pub washing: Washing,

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 /// A plate for which no configurations were found.
 #[derive(Debug)]
 pub(crate) struct FailedVisit {
-    /// Its wash path.
+    /// Wash path of the plate.
     pub path: WashPath,
     /// The configuration not far from which it was to start \[rad\].
     pub near: JointVector,

@@ -25,7 +25,7 @@ use std::f64::consts::TAU;
 pub struct MovedPlate<'a> {
     /// The scene, with the plates as they lie.
     pub scene: &'a Scene<'a>,
-    /// Its bodies, to be moved.
+    /// Bodies of the scene; the plate is moved among them.
     pub clearance: &'a ClearanceModel,
     /// The wash path on the plate to move.
     pub path: &'a WashPath,

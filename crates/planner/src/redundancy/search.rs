@@ -52,13 +52,13 @@ pub(crate) struct Graph {
 pub(crate) struct GraphPath {
     /// Index of the tilt, per layer.
     pub tilt: Vec<usize>,
-    /// The tilts around it that will do without a gap, per layer \[rad\].
+    /// Range of feasible tilts around it without a gap, per layer \[rad\].
     pub ranges: Vec<[f64; 2]>,
     /// The configuration at the first layer \[rad\].
     pub first: JointVector,
 }
 
-/// A configuration that will do.
+/// A feasible configuration.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Vertex {
     pub q: JointVector,
@@ -151,7 +151,7 @@ impl Graph {
         layer
     }
 
-    /// Leaves the vertices of an end of the wash path over which there is a line.
+    /// Removes the vertices of an end of the wash path over which there is no approach or retreat line.
     fn remove_vertices_without_line(&self, task: &Task<'_>, k: usize, layer: &mut Layer, start: &Start) {
         let contact = task.samples.at(self.theta[k]);
         for (slot, &tilt) in layer.iter_mut().zip(&self.tilts) {
@@ -169,7 +169,7 @@ impl Graph {
         tilts
     }
 
-    /// The configuration of the least of a layer's tilts that will do, continued from `start`.
+    /// The feasible configuration of the least tilt of a layer, continued from `start`.
     pub fn least_tilt(&self, task: &Task<'_>, k: usize, start: &Start) -> Option<JointVector> {
         let contact = task.samples.at(self.theta[k]);
         let inverse = &task.scene.inverse;
@@ -250,7 +250,7 @@ impl Graph {
         Some(GraphPath { tilt, ranges, first })
     }
 
-    /// The tilts around index `j` that will do without a gap \[rad\].
+    /// Range of feasible tilts around index `j` without a gap \[rad\].
     fn range(&self, layer: &Trail, j: usize) -> [f64; 2] {
         let least = layer[..j].iter().rposition(Option::is_none).map_or(0, |gap| gap + 1);
         let most = layer[j..]

@@ -202,12 +202,12 @@ impl<'a> Task<'a> {
         surroundings.is_clear(q, self.stretch(), self.required_m())
     }
 
-    /// The same check; the error names the pair that is too near.
+    /// Checks that a configuration \[rad\] keeps the clearance; the error names the pair that is too near.
     pub(crate) fn check_clear(&self, q: &JointVector) -> Result<(), Hindrance> {
         self.check_clear_in(q, self.stretch())
     }
 
-    /// The same check in another stretch.
+    /// Checks that a configuration \[rad\] keeps the clearance of a stretch; the error names the pair that is too near.
     pub(crate) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
         let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
         if surroundings.is_clear(q, stretch, required_m) {

@@ -79,7 +79,7 @@ impl Washing {
 /// Finds configurations and tilts that wash a plate.
 ///
 /// # Errors
-/// [`RedundancyError`]: the contact points where nothing will do, and why; or the search was given up.
+/// [`RedundancyError`]: the contact points without a feasible configuration, and the reason; or the search was cancelled.
 pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     let found = washing_by_any(task);
     let Err(error) = &found else {
@@ -169,7 +169,7 @@ fn first_of(task: &Task<'_>, policies: &[TiltPolicy], width: Width) -> Result<Op
     Ok(None)
 }
 
-/// The washing by one policy, on the first branch that will do.
+/// The washing by one policy, on the first feasible branch.
 fn with_policy(task: &Task<'_>, policy: &TiltPolicy, width: Width) -> Result<Option<Washing>, Cancelled> {
     let profile = Profile::Policy(*policy);
     let tilts = task.tilts(&profile);

@@ -213,7 +213,7 @@ impl<'a> Scene<'a> {
     /// Distance of a point \[m\] from axis 1 \[m\].
     #[must_use]
     pub fn distance(&self, point: &Vector3<f64>) -> f64 {
-        self.from_axis_1(point).norm()
+        self.offset_from_axis_1(point).norm()
     }
 
     /// ρ̂ of a contact point: the direction across its axis n away from axis 1, where n is along that.
@@ -226,7 +226,7 @@ impl<'a> Scene<'a> {
         let (n, [_, a]) = (contact.axis, self.axis_1);
         let across = |v: Vector3<f64>| v - n * n.dot(&v);
         let along = |v: Vector3<f64>| across(v).try_normalize(ON_AXIS_M);
-        let away = self.from_axis_1(&contact.point);
+        let away = self.offset_from_axis_1(&contact.point);
         if n.cross(&a).norm() <= LEVEL {
             return along(away).or_else(|| along(Vector3::x())).unwrap_or_else(Vector3::y);
         }
@@ -239,7 +239,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The vector from axis 1 to a point \[m\].
-    fn from_axis_1(&self, point: &Vector3<f64>) -> Vector3<f64> {
+    fn offset_from_axis_1(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let [origin, direction] = self.axis_1;
         let away = point - origin;
         away - direction * direction.dot(&away)

@@ -380,7 +380,7 @@ pub(crate) fn missing(courses: &[Course], longest_s: f64) -> usize {
     courses.iter().map(|course| course.parts(longest_s) - 1).sum()
 }
 
-/// Checks that a path of so many samples may have so many knots.
+/// Checks that the number of knots is allowed for the number of samples.
 pub(crate) fn affordable(samples: usize, knots: usize) -> bool {
     knots <= samples.saturating_mul(MOST_KNOTS[0]).saturating_add(MOST_KNOTS[1])
 }

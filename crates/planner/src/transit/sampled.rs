@@ -34,7 +34,7 @@ struct Node {
     parent: usize,
 }
 
-/// Free lines from `from` to `to` \[rad\]; otherwise how many configurations were sampled in vain.
+/// Free lines from `from` to `to` \[rad\]; otherwise the number of configurations that were sampled.
 ///
 /// # Errors
 /// [`Cancelled`].

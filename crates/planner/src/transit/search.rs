@@ -312,7 +312,7 @@ impl TransitRules<'_> {
 pub enum TransitKind {
     /// Quintic from top to top in the joints.
     Direct,
-    /// The same over a raised configuration.
+    /// The same connection over a raised configuration.
     Raised,
     /// Round the base.
     Arc,

@@ -308,7 +308,7 @@ fn path_break(reason: &PathBreak) -> (&'static str, Option<usize>) {
 /// A field of an exception.
 type Field<'py> = (&'static str, Option<Bound<'py, PyAny>>);
 
-/// An arm that has no dynamics.
+/// Raises the error of an arm without dynamics.
 pub fn dynamics(py: Python<'_>, error: &DynamicsError) -> PyErr {
     no_dynamics(py, error, &error.to_string())
 }

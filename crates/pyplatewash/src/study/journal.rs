@@ -67,12 +67,12 @@ impl StudyJournalObject {
         self.with(py, |held, _| Ok(held.journal.done()))
     }
 
-    /// The next of the missing rows, so many at most; each is handed out once.
+    /// The next of the missing rows, up to the given number; each is handed out once.
     fn missing(&self, py: Python<'_>, most: usize) -> PyResult<Vec<u64>> {
         self.with(py, |held, _| Ok(held.missing.by_ref().take(most).collect()))
     }
 
-    /// Keeps a row that somebody made, by its line.
+    /// Keeps a row of another process, by its line.
     fn append(
         &self,
         py: Python<'_>,

@@ -403,7 +403,7 @@ impl StudyWorkerObject {
         })
     }
 
-    /// Makes a row; None where it was told to stop.
+    /// Makes a row; None where it was cancelled.
     fn make<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<RowTuple<'py>>> {
         let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
         let resolver = self.resolver.clone();

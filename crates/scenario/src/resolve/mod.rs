@@ -242,7 +242,7 @@ impl Scenario {
         }
     }
 
-    /// The arm with its tool in its mount, and the bodies around it, among so many plates.
+    /// The arm with its tool in its mount, and the bodies around it, for a number of plates.
     ///
     /// # Errors
     /// [`Failure`]: an obstacle that is none, or an arm with a shape that is none.

@@ -165,7 +165,7 @@ impl Scenario {
     /// whole.
     ///
     /// # Errors
-    /// [`Failure`]: no room, too much work, or none of the layouts drawn will do.
+    /// [`Failure`]: no room, too much work, or none of the drawn layouts can be washed.
     pub fn place(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Layout, Failure> {
         if self.lists_plates() || !self.layout.placement().needs_planner() {
             return Ok(self.layout(arm)?);

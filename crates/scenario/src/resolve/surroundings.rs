@@ -62,7 +62,7 @@ impl Scenario {
         self.table.check()
     }
 
-    /// Obstacles around an arm with its tool, among so many plates.
+    /// Obstacles around an arm with its tool, for a number of plates.
     ///
     /// # Errors
     /// [`Failure`]: a mesh that cannot be read or is no body, a name that another body has.

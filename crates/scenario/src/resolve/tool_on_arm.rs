@@ -135,7 +135,10 @@ fn section_shape(index: usize, section: &ToolBodySection) -> Result<ToolBodySour
         SectionShape::Convex(shape) => ToolBodySource::Convex(shape),
         SectionShape::Mesh { file, scale } => ToolBodySource::Mesh { file, scale },
         SectionShape::HalfSpace => {
-            let (keys, detail) = (format!("{at}.shape"), "a half-space is no body of a tool".to_owned());
+            let (keys, detail) = (
+                format!("{at}.shape"),
+                "a half-space cannot be a body of a tool".to_owned(),
+            );
             return Err(Problem::Conflict { keys, detail });
         }
     })
@@ -184,11 +187,11 @@ mod tests {
             ),
             (
                 more("name = \"a\"\nshape = \"sphere\"\nradius_m = 0.01\nlength_m = 0.1"),
-                "tool_body[1].length_m: is no size of a sphere",
+                "tool_body[1].length_m: is not a size of a sphere",
             ),
             (
                 more("name = \"a\"\nshape = \"box\"\nradius_m = 0.01"),
-                "tool_body[1].radius_m: is no size of a box",
+                "tool_body[1].radius_m: is not a size of a box",
             ),
             (
                 more("name = \"plate 1\"\nshape = \"sphere\"\nradius_m = 0.01"),

@@ -179,7 +179,7 @@ impl StatedShape {
             .zip(shape.sizes())
             .find(|((_, stated), has)| *stated && !has);
         match spare {
-            Some(((key, _), _)) => conflict(format!("{at}.{key}"), format!("is no size of {}", shape.words())),
+            Some(((key, _), _)) => conflict(format!("{at}.{key}"), format!("is not a size of {}", shape.words())),
             None => Ok(()),
         }
     }

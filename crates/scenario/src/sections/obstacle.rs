@@ -118,7 +118,7 @@ impl ObstacleSection {
         Ok(stated)
     }
 
-    /// The plates that it holds, of so many.
+    /// Indices of the plates that it holds, among the given number of plates.
     pub(crate) fn held(&self, plates: usize) -> Vec<usize> {
         match &self.holds_plates {
             None => Vec::new(),

@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plant_comes_back_from_its_section() {
+    fn a_plant_survives_writing_and_reading_its_section() {
         for contact in [
             None,
             Some(FoamContact {

@@ -92,7 +92,7 @@ pub enum SimulationError {
         rate_hz: f64,
         /// Steps a sample.
         substeps: usize,
-        /// Steps a sample that do at this rate.
+        /// Least number of integration steps per sample that is stable at this rate.
         least_substeps: usize,
         /// A rate that does with as many steps \[Hz\].
         least_rate_hz: f64,

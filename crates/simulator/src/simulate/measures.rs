@@ -125,7 +125,7 @@ pub struct SegmentTracking {
     pub span_s: [f64; 2],
     /// Samples within it.
     pub samples: usize,
-    /// The errors.
+    /// Tracking errors of the segment.
     #[serde(flatten)]
     pub tracking: Tracking,
 }

@@ -91,7 +91,7 @@ impl Seal {
 pub struct SimulationReport {
     /// Name of the scenario.
     pub scenario: String,
-    /// Its seed.
+    /// Seed of the plan.
     pub seed: u64,
     /// Dry run, if the plan is one: its plates are raised, and nothing is washed.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -26,7 +26,7 @@ test("a scenario is looked at, planned and proved", async () => {
   assert.equal(channel.asked.length, 1);
 });
 
-test("a change stops what runs, and what that still says is not heard", async () => {
+test("a change cancels the running question and ignores its late answers", async () => {
   const { cell, channel } = newCell();
   cell.start();
   const first = channel.last("proof");
@@ -44,7 +44,7 @@ test("a change stops what runs, and what that still says is not heard", async ()
   assert.equal(cell.standing.kind, "proved");
 });
 
-test("what was proved is no verdict on a change", async () => {
+test("an earlier proof is no verdict on a change", async () => {
   const { cell, channel } = newCell();
   cell.start();
   await channel.last("proof").proved();
@@ -76,7 +76,7 @@ test("a drag is one step, whatever was asked on its way", async () => {
   assert.match(cell.text, /0\.15/);
 });
 
-test("one guess at a time, and behind it the newest", async () => {
+test("one preview runs at a time, followed by the newest", async () => {
   const { cell, channel } = newCell();
   cell.start();
   await channel.last("proof").proved();
@@ -150,7 +150,7 @@ test("a drop where the question is already under way does not ask it again", asy
   assert.equal(cell.standing.kind, "proved");
 });
 
-test("a drag that is given up leaves all as it was", async () => {
+test("a cancelled drag changes nothing", async () => {
   const { cell, channel } = newCell();
   cell.start();
   await channel.last("proof").proved();
@@ -226,7 +226,7 @@ test("a refusal keeps everything, and a better value of the same key replaces th
   assert.equal(cell.version.edits.length, 0);
 });
 
-test("a lost connection is told, tried again more and more slowly, and nothing is lost", async () => {
+test("a lost connection is reported and retried ever more slowly without losing changes", async () => {
   const { cell, channel, time } = newCell();
   cell.start();
   await channel.last("proof").end(LOST);
@@ -281,7 +281,7 @@ test("an answer that ends before its end is asked for again", async () => {
   assert.equal(cell.standing.kind, "proved");
 });
 
-test("what is no plan is said as it was said, with where else plates could lie", async () => {
+test("an infeasible cell shows its reason and other positions of the plates", async () => {
   const { cell, channel } = newCell();
   cell.start();
   const asked = channel.last("proof");
@@ -291,7 +291,7 @@ test("what is no plan is said as it was said, with where else plates could lie",
   assert.deepEqual([cell.state, cell.standing.kind, cell.answers.places.length], ["idle", "unplanned", 1]);
 });
 
-test("lines of no known kind, and what is no line, do no harm", async () => {
+test("unknown and invalid lines are ignored", async () => {
   const { cell, channel } = newCell();
   cell.start();
   const asked = channel.last("proof");

@@ -74,7 +74,7 @@ async function lossOf(channel: HttpChannel): Promise<string> {
   return channel.ask("/cell", {}, () => undefined, new AbortController().signal).then(() => "none", (error: unknown) => (error instanceof ChannelError ? error.loss : String(error)));
 }
 
-test("what keeps a question from being answered is told apart", async () => {
+test("the causes of a failed question are distinguished", async () => {
   assert.equal(await lossOf(http({}).channel), "lost");
   assert.equal(await lossOf(http({ "/cell": () => new Response("", { status: 503 }) }).channel), "busy");
   assert.equal(await lossOf(http({ "/cell": () => new Response("too large", { status: 413 }) }).channel), "refused");
@@ -97,7 +97,7 @@ function frame(): { channel: FrameChannel; sent: Record<string, unknown>[]; hear
   return { channel, sent, taken, hear: (data, source = parent) => listeners.forEach((listener) => listener({ source, data })) };
 }
 
-test("a frame asks its parent, and hears nobody else", async () => {
+test("a frame asks its parent and ignores other senders", async () => {
   const { channel, sent, hear, taken } = frame();
   const heard: unknown[] = [];
   let ended = false;
@@ -120,7 +120,7 @@ test("a frame asks its parent, and hears nobody else", async () => {
   assert.deepEqual(taken, ["new"]);
 });
 
-test("a frame tells its parent what it gives up", async () => {
+test("a frame tells its parent which questions it cancels", async () => {
   const { channel, sent, hear } = frame();
   const abort = new AbortController();
   const heard: unknown[] = [];

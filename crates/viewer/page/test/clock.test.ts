@@ -32,7 +32,7 @@ test("a frame that is stamped before the start, or a clock that runs backwards, 
   assert.equal(clock.time, 4);
 });
 
-test("it stops at its end, and starts anew from there", () => {
+test("a film stops at its end and restarts from the beginning", () => {
   const clock = new Clock(2);
   clock.play(0);
   assert.equal(clock.tick(5000), true);
@@ -44,7 +44,7 @@ test("it stops at its end, and starts anew from there", () => {
   assert.equal(clock.time, 0.5);
 });
 
-test("jumps stay within the film, and what is no number changes nothing", () => {
+test("jumps stay within the film and NaN changes nothing", () => {
   const clock = new Clock(2);
   for (const [to, expected] of [[1, 1], [-5, 0], [99, 2], [Number.NaN, 2], [Number.POSITIVE_INFINITY, 2]] as const) {
     clock.seek(to, 0);
@@ -62,7 +62,7 @@ test("a film without length cannot be played", () => {
   assert.equal(clock.playing, false);
 });
 
-test("a hidden page goes on from where it was", () => {
+test("a hidden page continues where it stopped", () => {
   const clock = new Clock(100);
   clock.play(0);
   clock.tick(1000);

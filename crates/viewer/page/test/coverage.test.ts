@@ -28,7 +28,7 @@ test("cells come in the order in which they are swept", () => {
   assert.deepEqual([...decodeCoverage(raster()).order], [2, 1, 3, 5]);
 });
 
-test("a plate that nothing sweeps stays at nothing", () => {
+test("the share of an unswept plate stays 0", () => {
   const never = decodeCoverage(raster([OUTSIDE, NEVER, NEVER, NEVER, NEVER, NEVER], [0, 0, 0, 0, 0, 0]));
   assert.equal(shareAt(never, 1e9), 0);
   assert.equal(dwellScale([never]), 1);
@@ -93,7 +93,7 @@ function greens(canvas: FakeCanvas): number[] {
   return canvas.pixels.filter((_, i) => i % 4 === 1);
 }
 
-test("a map shows y upwards, nothing beyond the rim, and goes back in time", () => {
+test("a map shows y upwards and nothing beyond the rim, at any time", () => {
   const { map, canvas } = mapOf(raster());
   map.paint(0.3);
   assert.deepEqual([canvas.width, canvas.height], [3, 2]);
@@ -105,7 +105,7 @@ test("a map shows y upwards, nothing beyond the rim, and goes back in time", () 
   assert.deepEqual(greens(canvas), [SWEPT, UNSWEPT, SWEPT, 0, SWEPT, SWEPT]);
 });
 
-test("a map that has not changed is not put on its canvas again", () => {
+test("an unchanged map is not drawn again", () => {
   const { map, canvas } = mapOf(raster());
   map.paint(0.3);
   map.paint(0.4);

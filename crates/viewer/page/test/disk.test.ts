@@ -27,7 +27,7 @@ function newDisk(): { disk: Disk; channel: FakeChannel; page: { text: string | n
 const conflictOf = (disk: Disk): Conflict | null => disk.conflict;
 const changed = { kind: "disk", disk: "h2", text: "theirs", words: null };
 
-test("a file that has changed is taken over where nothing is unsaved here", async () => {
+test("a changed file is loaded where there are no unsaved changes", async () => {
   const { disk, page, answer } = newDisk();
   void disk.look();
   await answer(changed);
@@ -65,7 +65,7 @@ test("taking the file's text is a step and leaves nothing unsaved", async () => 
   assert.deepEqual([page.taken, disk.unsaved, disk.conflict], [["theirs"], false, null]);
 });
 
-test("a file that is gone or no text is told, not taken", async () => {
+test("a missing or unreadable file is reported and not loaded", async () => {
   const { disk, page, answer } = newDisk();
   void disk.look();
   await answer({ kind: "disk", disk: null, text: null, words: null });
@@ -74,7 +74,7 @@ test("a file that is gone or no text is told, not taken", async () => {
   assert.deepEqual(page.taken, []);
 });
 
-test("what is refused or not written out is not saved, nor what nobody answers", async () => {
+test("refused, incomplete and unanswered changes are not saved", async () => {
   const { disk, channel, page } = newDisk();
   page.text = null;
   await disk.save();
@@ -87,7 +87,7 @@ test("what is refused or not written out is not saved, nor what nobody answers",
   assert.deepEqual([disk.saving, disk.unsaved, page.notices.length], [false, true, 2]);
 });
 
-test("a look that was under way while something was saved does not count", async () => {
+test("a check of the file during a save is ignored", async () => {
   const { disk, channel, page } = newDisk();
   page.text = "mine";
   void disk.look();

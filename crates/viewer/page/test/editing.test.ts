@@ -93,7 +93,7 @@ function plainly(free: number[][], dead: number[][], half: number): Uint8Array {
   });
 }
 
-test("a place belongs to what is nearest to it, however the points are strewn", () => {
+test("a position belongs to the nearest point", () => {
   const spiral = Array.from({ length: 120 }, (_, i) => [0.001 * i * Math.cos(i / 5), 0.001 * i * Math.sin(i / 5)]);
   const cases: [number[][], number[][]][] = [
     [spiral.slice(0, 70), spiral.slice(70)],
@@ -105,7 +105,7 @@ test("a place belongs to what is nearest to it, however the points are strewn", 
   for (const [free, dead] of cases) assert.deepEqual(deadNearer(free, dead, 0.145), plainly(free, dead, 0.145));
 });
 
-test("nothing is dead without dead points, at equal distances, or where numbers are no numbers", () => {
+test("no area is dead without dead points, at equal distances or for NaN", () => {
   const none = (free: number[][], dead: number[][], half = 0.145): boolean => deadNearer(free, dead, half).every((cell) => cell === 0);
   assert.ok(none([[0, 0]], []));
   assert.ok(none([[0.01, 0.01]], [[0.01, 0.01]]));

@@ -11,7 +11,7 @@ function frame(haste: Haste, now_ms: number, dirty: boolean, held = false): "non
   return hasty ? "hasty" : "full";
 }
 
-test("with a graphics processor no frame is hasty, and none is owed", () => {
+test("with a graphics processor every frame has full quality", () => {
   const haste = new Haste(false);
   for (const now of [0, 10, 20]) {
     haste.hurry();
@@ -32,7 +32,7 @@ test("a change after a rest is drawn in full, those that follow it in haste, and
   assert.equal(frame(haste, 5000, false), "none");
 });
 
-test("frames that follow each other are fast however slow they are", () => {
+test("frames in quick succession have low quality at any speed", () => {
   const haste = new Haste(true);
   const found = [1000, 1600, 2200].map((now) => {
     haste.change();
@@ -44,7 +44,7 @@ test("frames that follow each other are fast however slow they are", () => {
   assert.equal(frame(haste, 2900, true), "full");
 });
 
-test("what somebody waits for is drawn in haste at once; what is set by itself in full", () => {
+test("interactive changes are drawn at once in low quality, others in full", () => {
   const haste = new Haste(true);
   haste.hurry();
   assert.equal(frame(haste, 1000, true), "hasty");
@@ -52,7 +52,7 @@ test("what somebody waits for is drawn in haste at once; what is set by itself i
   assert.equal(frame(haste, 2000, false), "none");
 });
 
-test("while a hand holds something the full frame comes later", () => {
+test("during a drag the full frame comes later", () => {
   const haste = new Haste(true);
   haste.hurry();
   assert.equal(frame(haste, 1000, true, true), "hasty");

@@ -29,7 +29,7 @@ test("undo and redo go through every step, and a new step ends what was undone",
   assert.equal(history.version.text, "0");
 });
 
-test("a step that is written out as the one before is none", () => {
+test("a step equal to the one before is not recorded", () => {
   const history = new History([{ version: text("a"), label: "" }]);
   history.commit({ text: "a", edits: [{ key: "x", value: 1 }] }, "x");
   history.settle(text("a"));
@@ -71,7 +71,7 @@ test("random edits: undo to the start is the first text, redo to the end the las
   }
 });
 
-test("of changes of one key the last counts", () => {
+test("the last change of a key counts", () => {
   const base = { text: "t", edits: [{ key: "a", value: 1 }, { key: "b", value: 2 }] };
   assert.deepEqual(changed(base, [{ key: "a", value: 3 }, { key: "a", value: null }]).edits, [{ key: "b", value: 2 }, { key: "a", value: null }]);
   assert.deepEqual(base.edits.length, 2);
@@ -101,7 +101,7 @@ class Tab implements Store {
 
 const steps = (count: number, size: number): Kept["steps"] => Array.from({ length: count }, (_, k) => ({ version: { text: `${k}`.padEnd(size, "."), edits: [] }, label: `${k}` }));
 
-test("what is kept comes back, for the same file only", () => {
+test("stored steps are restored for the same file only", () => {
   const tab = new Tab();
   const what: Kept = { steps: steps(3, 5), at: 1, disk: "d", saved: "s" };
   new Keeper(tab, "a.toml").save(what);
@@ -109,7 +109,7 @@ test("what is kept comes back, for the same file only", () => {
   assert.equal(new Keeper(tab, "b.toml").load(), null);
 });
 
-test("of more than there is room for, the steps around the one that stands are kept", () => {
+test("where there is no room, the steps around the present one are stored", () => {
   const tab = new Tab(500_000);
   const keeper = new Keeper(tab, "a");
   keeper.save({ steps: steps(100, 30_000), at: 60, disk: null, saved: null });
@@ -119,7 +119,7 @@ test("of more than there is room for, the steps around the one that stands are k
   assert.ok(found.steps.length > 8 && found.steps.length < 17, String(found.steps.length));
 });
 
-test("a tab without room or without a store says so, and does not fail", () => {
+test("a tab without storage reports it and does not fail", () => {
   const full = new Keeper(new Tab(10), "a");
   full.save({ steps: steps(2, 100), at: 0, disk: null, saved: null });
   assert.equal(full.works, false);
@@ -129,7 +129,7 @@ test("a tab without room or without a store says so, and does not fail", () => {
   assert.deepEqual([none.works, none.load()], [false, null]);
 });
 
-test("what somebody else has stored there is not taken", () => {
+test("foreign stored data are ignored", () => {
   const tab = new Tab();
   new Keeper(tab, "a").save({ steps: steps(1, 1), at: 0, disk: null, saved: null });
   const [key] = tab.entries.keys();

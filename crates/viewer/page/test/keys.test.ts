@@ -15,7 +15,7 @@ test("numbers as people type them, and nothing else", () => {
   for (const text of ["", ".", "-", "e5", "1e999", "NaN", "Infinity", "inf", "0x10", "1 2", "1,2,3", "--1", "1e1e1"]) assert.equal(readNumber(text), null, text);
 });
 
-test("what is out of a domain is wrong", () => {
+test("values out of their domain are invalid", () => {
   const closed: Domain = { kind: "number", least: 0, most: 2 };
   assert.deepEqual(["0", "2", "2.1", "-0.1", "x", ""].map((text) => read(closed, text)), [0, 2, "wrong", "wrong", "wrong", "wrong"]);
   assert.deepEqual(["0", "1e-9"].map((text) => read({ kind: "number_above", least: 0, most: 2 }, text)), ["wrong", 1e-9]);
@@ -42,7 +42,7 @@ test("a step is one of the last digit, within the domain, without noise", () => 
   assert.equal(stepped("55", 1, false, { kind: "integer", least: 2, most: 100 }), "56");
 });
 
-test("words that were meant", () => {
+test("misspelled words get the nearest word as a hint", () => {
   assert.deepEqual([distance("", "abc"), distance("tunrs", "turns"), distance("kitten", "sitting"), distance("a", "a")], [3, 1, 3, 0]);
   const keys = ["wash.turns", "wash.tilt_max_deg", "tool.length_m", "layout.plate_radius_m", "job.order"];
   assert.equal(suggestions("trns", keys)[0], "wash.turns");
@@ -64,7 +64,7 @@ test("plates are shifted and turned, the others stay exactly where they are", ()
   assert.deepEqual(turned([[1, 0]], [0], [0, 0], Math.PI / 2), [[0, 1]]);
 });
 
-test("one more plate goes where there is room", () => {
+test("a new plate is placed where there is room", () => {
   const centres: [number, number][] = [];
   for (let k = 0; k < 30; k++) {
     const room = roomFor(centres, 0.145, [0, 0], 0.29);

@@ -84,7 +84,7 @@ test("where the browser gives up, a new stream is opened, later and later", () =
   assert.equal(timers[6]![1], 500);
 });
 
-test("events that make no sense are passed over", () => {
+test("invalid events are ignored", () => {
   for (const data of ["", "{", "null", "3", undefined, '{"state":"flying"}', '{"state":7}']) assert.equal(parseState(data), null);
   for (const data of ["", "[]", '{"samples":7}', '{"samples":[["a"],7,null]}']) assert.deepEqual(parseSamples(data), []);
   for (const data of ["", "{}", '{"headline":7}']) assert.equal(parseEnd(data), null);
@@ -106,7 +106,7 @@ const EMPTY: Execution = {
   coverage: [],
 };
 
-test("samples that come twice count once, and what is no sample is left out", () => {
+test("repeated samples count once and invalid ones are left out", () => {
   const recording = new Recording(EMPTY);
   recording.append([row(0), row(0.5)]);
   assert.equal(recording.count, 2);

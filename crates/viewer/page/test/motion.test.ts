@@ -109,7 +109,7 @@ test("the tip stands off the flange along its z axis, seen from a mount that is 
   }
 });
 
-test("rows of joints give a place each, and what is left over none", () => {
+test("each complete row of joints gives a position", () => {
   const kinematics = new Kinematics(irb120(pose([0, 0, 0])), null);
   const rows = [...STATED.flatMap(({ deg }) => deg.map((angle) => (angle * Math.PI) / 180)), 1, 2];
   near(kinematics.places(rows), STATED.flatMap(({ place }) => place));

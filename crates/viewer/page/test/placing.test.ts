@@ -27,7 +27,7 @@ test("the other face of a plate goes where the one that is moved goes", () => {
   assert.deepEqual(together({ by: "positions" }, WERE, all), all);
 });
 
-test("what is not moved says why", () => {
+test("fixed bodies state the reason", () => {
   assert.equal(unmoved({ by: "positions" }, 7), null);
   assert.equal(unmoved(SECTIONS, 3), null);
   assert.match(unmoved(SECTIONS, 4)!, /\[\[plate\]\] section/);
@@ -37,7 +37,7 @@ test("what is not moved says why", () => {
   assert.deepEqual(putting({ key: "table.at_m", at_m: [1, 2], words: null, holds: [] }, [0.5, 0.25]), [{ key: "table.at_m", value: [0.5, 0.25] }]);
 });
 
-test("what holds a plate goes with it, once all of its plates go the same way", () => {
+test("a holder moves with its plates once all of them move alike", () => {
   const body = (index: number, holds: number[] | null): BodyMove => ({ key: `obstacle[${index}].at_m`, at_m: [0.5, index, 0.1], words: null, holds });
   const bodies = [body(0, [2]), body(1, [0, 1]), body(2, []), body(3, null), { ...body(4, [2]), key: null }];
   const at = (index: number): Centre => [0.5, index];

@@ -52,7 +52,7 @@ function played(more: Partial<View>): { player: Player; controls: Controls; cloc
   return { player, controls, clock };
 }
 
-test("the arm follows the plan or what was carried out, and the other one is its companion", () => {
+test("the arm follows the plan or the execution, and the other one is drawn beside it", () => {
   const { player, controls } = played({ execution: execution("simulated", [0, 4, 10]) });
   controls.seek(3);
   assert.deepEqual(Array.from(player.show().q).map((q) => Number(q.toFixed(9))), six(3));
@@ -62,7 +62,7 @@ test("the arm follows the plan or what was carried out, and the other one is its
   assert.deepEqual(Array.from(player.show().commanded!).map((q) => Number(q.toFixed(9))), six(3));
 });
 
-test("without anything carried out there is only the plan to follow", () => {
+test("without an execution only the plan can be followed", () => {
   const { player, controls } = played({});
   controls.follow("executed");
   assert.equal(player.follows, "planned");
@@ -98,7 +98,7 @@ test("buttons step from segment to segment and back", () => {
   assert.equal(player.time, 2);
 });
 
-test("plates are gone to by the number in their name", () => {
+test("a number key jumps to the plate with that number", () => {
   const { player, controls } = played({});
   assert.equal(controls.plateWith("4"), 1);
   assert.equal(controls.plateWith("9"), -1);
@@ -134,7 +134,7 @@ test("a live run is shown a moment behind its newest sample", () => {
   assert.ok(Math.abs(player.show().q[0]! - player.time) < 1e-9);
 });
 
-test("one can look back in a live run while it goes on, and return to it", () => {
+test("a live run can be rewound while it goes on, and resumed", () => {
   const { player, controls, clock, runTo } = liveRun();
   runTo(3);
   controls.seek(1);
@@ -161,7 +161,7 @@ test("played from behind, a live run is caught up with and followed", () => {
   assert.ok(player.time <= player.edge);
 });
 
-test("a live run that is done stands at its end and is then a film like any other", () => {
+test("a finished live run stands at its end and plays like a film", () => {
   const { player, controls, clock, runTo } = liveRun();
   runTo(4);
   player.phase = "done";
@@ -183,7 +183,7 @@ test("a paused live run stays where it is", () => {
   assert.equal(controls.playing, false);
 });
 
-test("another document goes on at the same time, as far as its film goes", () => {
+test("a new document keeps the time, within its film", () => {
   const view = viewWith({});
   const short = viewWith({ motion: { t_s: f64([0, 4], 2), q_rad: f64([...six(0), ...six(4)], 2, 6), qd_rad_s: f64([...six(1), ...six(1)], 2, 6) } });
   const player = new Player(view);
@@ -199,7 +199,7 @@ test("another document goes on at the same time, as far as its film goes", () =>
   assert.equal(player.time, 4);
 });
 
-test("while there is no film its time and whether it ran wait for the next", () => {
+test("time and playing state are kept while there is no film", () => {
   const player = new Player(viewWith({}));
   player.seek(3, 0);
   player.play(0);

@@ -108,7 +108,7 @@ test("plates of the same shape are moved, others made, and shapes that nobody ha
   assert.ok(freed && plates.count === 1);
 });
 
-test("a plate that is drawn elsewhere counts as moved until it is back", () => {
+test("a displaced plate counts as moved until it is back", () => {
   const plates = new Plates(new Studio(), new FakeRenderer().bin);
   plates.replace([plate(0.3), plate(0.6)]);
   plates.move(1, [0.5, 0.1]);

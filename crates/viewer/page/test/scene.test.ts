@@ -199,7 +199,7 @@ test("a simplified spiral has fewer places, its ends, and stays within the toler
   }
 });
 
-test("what is too short to simplify stays as it is, a way to and fro keeps its turn", () => {
+test("short polylines stay unchanged and a way to and fro keeps its turn", () => {
   assert.equal(simplified([], 1e-3).length, 0);
   assert.deepEqual([...simplified([1, 2, 3], 1e-3)], [1, 2, 3]);
   assert.deepEqual([...simplified([0, 0, 0, 1, 0, 0, 0, 0, 0], 1e-3)], [0, 0, 0, 1, 0, 0, 0, 0, 0]);

@@ -52,7 +52,7 @@ test("the film of before stays while its plan is waited for, with the plates whe
   assert.equal(views[1]!.certificate, null);
 });
 
-test("what cannot be washed is marked, with where else it could lie; a change takes the marks away", async () => {
+test("unwashable plates are marked with other positions until a change", async () => {
   const { cell, channel, said, update } = shown();
   const bad = { plate: 1, proved: true, words: "", causes: [], share: null, free_m: [], dead_m: [[0.4, 0, 0]] };
   const asked = channel.last("proof");

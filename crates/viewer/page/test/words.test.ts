@@ -25,7 +25,7 @@ test("a verdict is never better than its worst requirement", () => {
   assert.equal(verdict(viewWith(["proved", "waived"])).tone, "waived");
 });
 
-test("nothing looks proved that is not: no certificate, an altered plan, a certificate that does not pass", () => {
+test("a missing, failed or outdated certificate never looks proved", () => {
   assert.equal(verdict(viewWith(null)).tone, "none");
   for (const hash of ["violated", "not_proved", "waived"] as const) {
     assert.equal(verdict(viewWith(["proved"], { hash })).tone, "violated");
@@ -36,7 +36,7 @@ test("nothing looks proved that is not: no certificate, an altered plan, a certi
 
 const IN_AIR = "DRY RUN of 221b93b62aa8: 50 mm above the plates, nothing is washed";
 
-test("a dry run says so first, whatever came of its proof, and is never called washed", () => {
+test("a dry run is named first and never called washed", () => {
   const inAir = (view: View): View => ({ ...view, heading: { ...view.heading, dry_run: IN_AIR } });
   const cases: [View, string, string][] = [
     [viewWith(["proved"], { headline: `${IN_AIR}; PROVED: x` }), "proved", "Dry run: proved"],
@@ -56,7 +56,7 @@ test("a dry run says so first, whatever came of its proof, and is never called w
   assert.equal(washed(inAir({ ...viewWith(["proved"]), execution: executed })), null);
 });
 
-test("washing is judged only where it was", () => {
+test("washing is judged only where it was simulated", () => {
   const view = viewWith(["proved"]);
   const with_ = (result: boolean | null): View => ({ ...view, execution: { washed: result, headline: null } as unknown as Execution });
   assert.equal(washed(view), null);
@@ -72,7 +72,7 @@ test("a document that cannot be read says why", () => {
   assert.equal(parseView('{"format":"platewash-view/2"}').format, "platewash-view/2");
 });
 
-test("links go there and back, and garbage goes nowhere", () => {
+test("links survive writing and reading, and garbage is ignored", () => {
   const place = { t: 12.5, speed: 2, show: "executed", panel: "plots", camera: "above" } as const;
   assert.deepEqual(parseLink(linkTo(place)), place);
   const nowhere = { t: null, speed: null, show: null, panel: null, camera: null };
@@ -139,7 +139,7 @@ test("numbers of any kind come in double precision", () => {
   assert.deepEqual([...read], [3, 4]);
 });
 
-test("what is no array of its shape is refused", () => {
+test("arrays of another shape are refused", () => {
   const bad: Numbers[] = [
     { shape: [2], f64: base64([1, 2, 3]) },
     { shape: [1], f64: "" },

@@ -69,7 +69,7 @@ pub fn tick_labels(ticks: &[f64]) -> Vec<String> {
     ticks.iter().map(|tick| fixed(*tick, decimals)).collect()
 }
 
-/// A number with so many decimals and the minus that is as wide as a plus; "-0" is 0.
+/// Formats a number with the given decimals and a minus as wide as a plus; "-0" is 0.
 pub fn fixed(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     match text.strip_prefix('-') {
@@ -110,7 +110,7 @@ impl Axes {
         [self.across.at(across), self.up.at(up)]
     }
 
-    /// Draws the diagram with about so many numbers in either direction, their names where they have some, and the drawing of
+    /// Draws the diagram with about the given number of ticks in either direction, their names where they have some, and the drawing of
     /// `draw` in the frame.
     pub fn draw(
         &self,

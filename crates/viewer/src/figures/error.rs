@@ -23,7 +23,7 @@ pub enum FigureError {
     },
     /// A segment whose plate does not exist, or whose times are not valid.
     #[error(
-        "segment {segment}: plate {plate} of {plates}, from {t_start_s} to {t_end_s} s, is no stretch of the motion"
+        "segment {segment}: plate {plate} of {plates}, from {t_start_s} to {t_end_s} s, is not a part of the motion"
     )]
     Segment {
         /// Index of the segment.

@@ -63,7 +63,10 @@ impl Refusal {
         const OPEN: &str = "403 Forbidden";
         const FULL: &str = "503 Service Unavailable";
         match self {
-            Self::Garbled => ("400 Bad Request", "this is no request of HTTP/1.1 with one Host"),
+            Self::Garbled => (
+                "400 Bad Request",
+                "this is not an HTTP/1.1 request with exactly one Host header",
+            ),
             Self::ForeignHost => (
                 OPEN,
                 "this server answers to its own address and port alone: open the address that the command has printed",

@@ -98,7 +98,7 @@ impl Drop for Place {
     }
 }
 
-/// Turns of long work, of which there are so many at a time.
+/// Limit on simultaneous long work.
 #[derive(Debug, Default)]
 pub struct Turns {
     running: Mutex<usize>,

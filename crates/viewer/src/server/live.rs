@@ -115,7 +115,7 @@ impl LiveRun {
         });
     }
 
-    /// Tells followers that nobody serves them any more.
+    /// Tells followers that the server has ended.
     pub(super) fn close(&self) {
         self.tell(|told| told.is_closed = true);
     }

@@ -37,5 +37,5 @@ pub struct QuestionLimits {
 
 /// Nobody listens any more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("nobody listens to the answer any more")]
+#[error("the client has left")]
 pub struct NoListener;

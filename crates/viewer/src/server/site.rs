@@ -27,7 +27,7 @@ pub struct Site {
 
 /// A page, as HTML.
 pub enum Page {
-    /// The same text each time.
+    /// A fixed text, the same for every request.
     Fixed(String),
     /// Made anew each time; or why it cannot be, which is shown as text.
     Made(Box<PageMaker>),

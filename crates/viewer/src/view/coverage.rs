@@ -79,7 +79,7 @@ pub(super) fn plates(
     order.par_iter().filter_map(one).collect()
 }
 
-/// Cells along an edge of the raster of one of so many plates, each of which may have two.
+/// Number of cells along an edge of a raster, by the number of plates, each of which may have two rasters.
 fn edge(plates: usize) -> usize {
     let cells = CELLS / (2 * plates).max(1);
     cells.isqrt().clamp(EDGE[0], EDGE[1])

@@ -16,7 +16,7 @@ use serde::Serialize;
 /// Time between two samples at least \[s\].
 const LEAST_STEP_S: f64 = 0.01;
 
-/// Samples at most: so many, and so many more a plate.
+/// Greatest number of samples: a base, and an addition per plate.
 const MOST_SAMPLES: [usize; 2] = [1500, 250];
 
 /// Time between two moments of a wash at least \[s\].

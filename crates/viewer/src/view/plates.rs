@@ -42,7 +42,7 @@ pub struct WashPath {
 }
 
 impl Plate {
-    /// The plate of that index.
+    /// Makes the page's plate with an index.
     #[must_use]
     pub fn new(index: usize, plate: &plate::Plate) -> Self {
         Self {

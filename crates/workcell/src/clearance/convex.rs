@@ -59,21 +59,23 @@ impl ConvexHull {
             corners if corners > MOST_CORNERS => return Err(HullFault::ManyCorners(corners)),
             _ => {}
         }
-        let plain = plain.map(|solid| Self::held(solid, points));
+        let plain = plain.map(|solid| Self::checked(solid, points));
         let hull = match plain {
             Some(hull) if hull.is_sound => Some(hull),
             plain => {
-                let drawn_out = frame.hull(points).map(|solid| Self::held(solid, points));
+                let drawn_out = frame.hull(points).map(|solid| Self::checked(solid, points));
                 drawn_out.filter(|hull| hull.is_sound).or(plain)
             }
         };
         hull.ok_or(HullFault::Flat)
     }
 
-    /// Compares a hull with the points that it was computed from. Points are left out only of a solid whose faces close it, and behind each
-    /// of which all its vertices are. If it holds a ball of radius r about c, a point p that is ε beyond faces at most is no farther from
-    /// it than ε ‖p − c‖/r: moved towards c by r/(r + ε) it is behind all of them.
-    fn held(solid: ConvexPolyhedron, points: &[Vector]) -> Self {
+    /// Makes the hull of some points from a computed solid. Points outside the solid are added to its corners.
+    ///
+    /// Points are dropped only where the faces close the solid and every vertex lies behind each face. If such a solid holds a ball of
+    /// radius r about c, then a point p that lies at most ε beyond the faces is at most ε ‖p − c‖/r away from the solid: moved towards c by
+    /// the factor r/(r + ε), it lies behind all faces.
+    fn checked(solid: ConvexPolyhedron, points: &[Vector]) -> Self {
         let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let planes = planes(&solid);
         // The middle of the vertices is within.

@@ -98,7 +98,7 @@ mod tests {
         }
 
         #[test]
-        fn tuples_are_the_sum_they_stand_for(l in configuration(), a in configuration(), b in configuration(), first in 0..3usize) {
+        fn tuples_equal_the_double_sum_over_the_joints(l in configuration(), a in configuration(), b in configuration(), first in 0..3usize) {
             let mut sum = 0.0;
             for i in first..AXES {
                 for j in first..AXES {

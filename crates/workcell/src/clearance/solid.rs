@@ -48,7 +48,7 @@ pub enum SolidError {
     #[error("it has no triangles")]
     Empty,
     /// A coordinate is not a number.
-    #[error("a corner of triangle {triangle} is no number")]
+    #[error("a corner of triangle {triangle} is not a number")]
     NotFinite {
         /// Index of the triangle, from 0.
         triangle: usize,

@@ -72,7 +72,7 @@ pub enum JobError {
     #[error("{}", overlaps(.0))]
     Standing(Vec<FixedOverlap>),
     /// A run of the paper's program is marked as a dry run.
-    #[error("a run of the paper's program is no dry run")]
+    #[error("a run of the paper's program is not a dry run")]
     PaperDryRun,
     /// The parent of a dry run is not the hash of a plan.
     #[error("job: dry_run.parent must be the hash of a plan, 64 digits of lower-case hexadecimal")]

@@ -19,7 +19,7 @@ pub enum Finding {
         b: usize,
         /// Distance between the centres \[m\].
         distance_m: f64,
-        /// Distance that must be exceeded \[m\].
+        /// Least allowed distance, not included \[m\].
         required_m: f64,
     },
     /// A centre is not farther from the base axis than `base_radius_m`. This breaks a rule of the layout; plate and base need not touch.
@@ -28,7 +28,7 @@ pub enum Finding {
         plate: usize,
         /// Distance of its centre from the base axis \[m\].
         distance_m: f64,
-        /// Distance that must be exceeded \[m\].
+        /// Least allowed distance, not included \[m\].
         required_m: f64,
     },
     /// Two plates overlap.

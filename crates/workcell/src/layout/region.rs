@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn the_irb_120_stands_on_its_bounds() {
+    fn the_base_footprint_of_the_irb120_has_its_bounds() {
         let foot = base_footprint(&RobotModel::irb120().unwrap());
         let close = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9;
         assert!(close(foot.x_m, [-0.2115, 0.0905]), "{foot:?}");

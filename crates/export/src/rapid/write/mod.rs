@@ -58,7 +58,7 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     named.map(|(name, text)| ProgramFile { name, text }).collect()
 }
 
-/// A module with the checks before the first motion alone.
+/// Text of a module that contains only the checks before the first motion.
 pub(crate) fn checks() -> String {
     let mut lines = Lines::default();
     lines.line(0, "MODULE checks");
@@ -138,7 +138,7 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// A line, so many steps to the right.
+    /// Appends a line, indented by a number of steps.
     pub fn line(&mut self, steps: usize, line: &str) {
         for _ in 0..steps {
             self.text.push_str("  ");

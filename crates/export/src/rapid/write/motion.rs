@@ -21,7 +21,7 @@ pub struct Routine {
 }
 
 impl Routine {
-    /// Its name.
+    /// Name of the routine.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -184,7 +184,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn principal_axes_give_the_inertia_back(parts in proptest::array::uniform6(-1.0..1.0_f64)) {
+        fn principal_axes_recover_the_inertia(parts in proptest::array::uniform6(-1.0..1.0_f64)) {
             let (axes, moments) = principal(parts);
             let r = axes.to_rotation_matrix();
             let back = r.matrix() * Matrix3::from_diagonal(&Vector3::from(moments)) * r.matrix().transpose();

@@ -65,7 +65,7 @@ proptest! {
 
     /// The level floor at height 0 takes no part in the numbers: heights are z itself, to the bit.
     #[test]
-    fn the_floor_leaves_heights_as_they_are(pose in iso(), radius in 0.01..0.3f64) {
+    fn the_floor_does_not_change_heights(pose in iso(), radius in 0.01..0.3f64) {
         let ball = part(&Shape::Sphere { radius_m: radius }, &pose);
         let found = gap(&half_space(&Isometry3::identity()), &ball);
         let z = pose.translation.z;

@@ -258,7 +258,7 @@ fn has_room_by_grid(region: &Region, spacing: &Spacing, placed: &[[f64; 2]], n: 
 }
 
 #[test]
-fn dead_ends_are_decided_as_by_arcs_and_by_a_grid() {
+fn dead_ends_agree_with_arcs_and_with_a_grid() {
     let mut rng = Pcg64::seed_from_u64(5);
     let (mut dead, mut cases) = (0, 0);
     for region in [Region::PAPER_TEXT, Region::PAPER_APPENDIX] {
