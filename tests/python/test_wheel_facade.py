@@ -36,7 +36,7 @@ PYTHON = {
     "certify": "prove",
     "prove": "prove",
     "PlanError": "PlanError",
-    "Planned": "Planned",
+    "PlannedJob": "Planned",
     "plan": "plan",
     "Failure": "PlatewashError",
     "Scenario": "Scenario",
