@@ -479,7 +479,7 @@ fn never_overwrites_changes_of_others() {
     fs::write(&file, b"\xff").unwrap();
     let seen = look(&Value::Null);
     assert_eq!(seen["text"], Value::Null);
-    assert!(seen["words"].as_str().unwrap().contains("no text"));
+    assert!(seen["words"].as_str().unwrap().contains("not a text file"));
     assert_eq!(save("d", &Value::Null, false)["text"], Value::Null);
     fs::remove_file(&file).unwrap();
     let gone = save("d", &seen["disk"], false);

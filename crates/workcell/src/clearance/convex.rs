@@ -183,7 +183,7 @@ pub(crate) fn has_volume(points: &[Vector]) -> bool {
 
 /// Body given by its triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Triangulated {
+pub struct TriangleMesh {
     /// Corners \[m\].
     pub corners: Vec<Point3<f64>>,
     /// Triangles by their corners' indices, counter-clockwise as seen from outside.
@@ -192,14 +192,14 @@ pub struct Triangulated {
 
 /// Returns the convex hull of points \[m\]; `None` if it has no volume or is too large to judge.
 #[must_use]
-pub fn hull_triangles(points: &[Point3<f64>]) -> Option<Triangulated> {
+pub fn hull_triangles(points: &[Point3<f64>]) -> Option<TriangleMesh> {
     let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
     let (corners, triangles) = ConvexHull::of(&vertices).ok()?.solid.to_trimesh();
     let corners = corners.into_iter().map(|c| Point3::new(c.x, c.y, c.z));
     let triangles = triangles
         .into_iter()
         .map(|triangle| triangle.map(|corner| corner as usize));
-    Some(Triangulated {
+    Some(TriangleMesh {
         corners: corners.collect(),
         triangles: triangles.collect(),
     })

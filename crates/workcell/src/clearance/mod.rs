@@ -42,7 +42,7 @@ mod tests;
 mod tree;
 mod washing;
 
-pub use crate::clearance::convex::{Triangulated, hull_triangles};
+pub use crate::clearance::convex::{TriangleMesh, hull_triangles};
 pub use crate::clearance::excess::excess_m;
 pub use crate::clearance::fixed_bodies::{FixedBody, FixedOverlap, gap_of_plates, standing_overlaps};
 pub use crate::clearance::model::{ClearanceError, ClearanceModel, NearestBodies, PairClearance, is_clear};
