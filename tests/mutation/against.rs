@@ -1,7 +1,7 @@
 //! What a certificate does not tell: whose job a plan does. A job that asks for less is found against its scenario, by name.
 
+use crate::mutation::edit::{JOBS, good, scenario};
 use crate::mutation::edits;
-use crate::mutation::good::{JOBS, good, scenario};
 use nalgebra::Vector3;
 use platewash::certificate::{differences, prove};
 use platewash::kinematics::geometry::Shape;

@@ -1,7 +1,7 @@
 //! What a plan says of contact, of paths along a face and of faces that are not flat, edited field by field: refused by the requirement that the
 //! field concerns, refused as no plan, or kept for a reason.
 
-use crate::mutation::good::scenario;
+use crate::mutation::edit::scenario;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{
     self, ContactDose, ContactForce, ContactHeight, ContactSpeed, ContactTime, PathDeviation, Plates, Pressed, Strain,

@@ -1,7 +1,8 @@
 //! The certificate of an edited plan held against the sampler and against what is known of the edit.
+//!
+//! The summary: a line for each kind of edit.
 
-use crate::mutation::edit::{Edit, ExpectedResult};
-use crate::mutation::good::GoodPlan;
+use crate::mutation::edit::{Edit, ExpectedResult, GoodPlan, Kind};
 use crate::mutation::sampler::{Findings, WorstSample, is_sound};
 use platewash::Plan;
 use platewash::certificate::{Certificate, Check, Requirement, Sense, Status, prove};
@@ -223,4 +224,27 @@ fn encloses(check: &Check, found: &WorstSample) -> bool {
         Sense::AtMost => (found.value - found.slack) / found.limit <= bound / measure.limit + ROUNDING,
         _ => found.value >= bound - found.slack - ROUNDING,
     }
+}
+
+/// Prints how many edits of each kind there were and what came of them; `cargo test --test main mutation -- --nocapture` shows it.
+pub fn print(edits: &[Edit], outcomes: &[Outcome]) {
+    let line = |words: &str, [all, sampled, refused]: [usize; 3]| {
+        println!("{words:<18} {all:>5} {sampled:>9} {refused:>8} {:>7}", all - refused);
+    };
+    println!(
+        "{:<18} {:>5} {:>9} {:>8} {:>7}",
+        "edit of", "edits", "by sample", "refused", "passed"
+    );
+    let mut sum = [0; 3];
+    for kind in Kind::ALL {
+        let of_kind = || edits.iter().zip(outcomes).filter(|(e, _)| e.kind == kind);
+        let counts = [
+            of_kind().count(),
+            of_kind().filter(|(_, o)| !o.sampled.is_empty()).count(),
+            of_kind().filter(|(_, o)| !o.refused.is_empty()).count(),
+        ];
+        line(kind.words(), counts);
+        (0..3).for_each(|i| sum[i] += counts[i]);
+    }
+    line("all", sum);
 }

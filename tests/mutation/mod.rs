@@ -3,27 +3,23 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | the plans that are edited | `good.rs` |
-//! | an edit and what is known of it beforehand; all of them | `edit.rs`, `edits/` |
+//! | the plans that are edited; an edit and what is known of it beforehand; all of them | `edit.rs`, `edits/` |
 //! | edits after which there is no plan | `refused.rs` |
 //! | edits of the job, found against its scenario | `against.rs` |
 //! | contact, paths along a face, faces that are not flat: edited field by field | `contact.rs` |
 //! | the requirements measured on samples | `sampler/` |
-//! | certificate, samples and expectation held against each other | `judge.rs` |
-//! | the summary | `table.rs` |
+//! | certificate, samples and expectation held against each other; the summary | `judge.rs` |
 
 mod against;
 mod contact;
 mod edit;
 mod edits;
-mod good;
 mod judge;
 mod refused;
 mod sampler;
-mod table;
 
-use good::good;
-use judge::{Outcome, STATEMENTS};
+use crate::mutation::edit::good;
+use crate::mutation::judge::{Outcome, STATEMENTS};
 use platewash::certificate::prove;
 use rayon::prelude::*;
 
@@ -42,7 +38,7 @@ fn edited_plans_are_refused_by_the_requirement_that_is_broken() {
         .par_iter()
         .map(|edit| judge::judge(edit, &good()[edit.of]))
         .collect();
-    table::print(&edits, &outcomes);
+    judge::print(&edits, &outcomes);
     let complaints: Vec<_> = outcomes.iter().flat_map(|o| &o.complaints).collect();
     assert!(complaints.is_empty(), "{}: {complaints:#?}", complaints.len());
     let refused = outcomes.iter().filter(|o| !o.refused.is_empty()).count();

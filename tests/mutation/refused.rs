@@ -1,6 +1,6 @@
 //! Edits after which there is no plan to judge: an error that says where, not a certificate.
 
-use crate::mutation::good::good;
+use crate::mutation::edit::good;
 use nalgebra::Point3;
 use platewash::certificate::prove;
 use platewash::kinematics::geometry::Shape;

@@ -1,9 +1,9 @@
 //! Slow and smooth detours, which break nothing but where they lead; and pauses.
 
-use super::knots::split;
-use super::time::scale;
-use super::{knot_at, middle, nth, retime};
 use crate::mutation::edit::{Edits, ExpectedResult, Kind};
+use crate::mutation::edits::knots::split;
+use crate::mutation::edits::time::scale;
+use crate::mutation::edits::{knot_at, middle, nth, retime};
 use platewash::Plan;
 use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
 

@@ -1,7 +1,6 @@
 //! Pairs that need not keep clear: those that follow from the arm left out, and others put in.
 
-use crate::mutation::edit::{Edits, ExpectedResult, Kind};
-use crate::mutation::good::good;
+use crate::mutation::edit::{Edits, ExpectedResult, Kind, good};
 use platewash::Plan;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::workcell::clearance;

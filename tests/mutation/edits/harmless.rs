@@ -1,7 +1,7 @@
 //! What is never judged, and what is too small to break anything.
 
-use super::retime;
 use crate::mutation::edit::{Edits, Kind};
+use crate::mutation::edits::retime;
 use platewash::Plan;
 use platewash::workcell::job::{OrderRule, Planner, PlannerSettings};
 use platewash::workcell::simulation::ControlLawName;

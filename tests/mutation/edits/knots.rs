@@ -1,7 +1,7 @@
 //! Knots moved, exchanged, dropped and added.
 
-use super::{middle, nth, some_knot, within};
 use crate::mutation::edit::{Edits, ExpectedResult, Kind};
+use crate::mutation::edits::{middle, nth, some_knot, within};
 use crate::mutation::sampler::pieces;
 use platewash::Plan;
 use platewash::certificate::Requirement::{HomeToHome, RestAtWashEnds, Segments};

@@ -1,9 +1,8 @@
 //! What stands around: added, moved and removed.
 
-use super::exclusions::{every_pair, leave_out, restate};
-use super::{middle, nth, within};
-use crate::mutation::edit::{Edits, ExpectedResult, Kind};
-use crate::mutation::good::good;
+use crate::mutation::edit::{Edits, ExpectedResult, Kind, good};
+use crate::mutation::edits::exclusions::{every_pair, leave_out, restate};
+use crate::mutation::edits::{middle, nth, within};
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::kinematics::geometry::Shape;

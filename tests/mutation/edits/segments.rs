@@ -1,7 +1,7 @@
 //! Segments in time dropped, doubled, renamed and cut elsewhere; the order.
 
-use super::{nth, within};
 use crate::mutation::edit::{Edits, Kind};
+use crate::mutation::edits::{nth, within};
 use platewash::Plan;
 use platewash::certificate::Requirement::{
     EveryPlateOnce, LineDeviation, PathDeviation, RestAtWashEnds, Segments, WashPaths,

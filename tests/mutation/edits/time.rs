@@ -1,7 +1,7 @@
 //! Time scaled, squeezed and stretched.
 
-use super::{middle, nth, retime, within};
 use crate::mutation::edit::{Edits, ExpectedResult, Kind};
+use crate::mutation::edits::{middle, nth, retime, within};
 use platewash::Plan;
 use platewash::certificate::Requirement::{JointAcceleration, WashSpeed};
 use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};

@@ -1,8 +1,8 @@
 //! The tool: its bodies, its sponge and its tip, alone and together.
 
-use super::asked::narrow;
-use super::exclusions::restate;
 use crate::mutation::edit::{Edits, ExpectedResult, Kind};
+use crate::mutation::edits::asked::narrow;
+use crate::mutation::edits::exclusions::restate;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
     Clearance, ContactHeight, ContactSpeed, Exclusions, LineDeviation, PathDeviation, Reach, Swept, Tilt, Tool,

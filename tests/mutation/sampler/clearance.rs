@@ -1,10 +1,9 @@
 //! Distances of all pairs at single configurations.
 
-use super::LINE_M;
-use super::findings::Findings;
-use super::hermite::{Piece, pieces};
-use super::moments::within;
-use super::schedule::{is_at_plate, path_of, segment_of};
+use crate::mutation::sampler::LINE_M;
+use crate::mutation::sampler::findings::Findings;
+use crate::mutation::sampler::motion::{Piece, pieces, within};
+use crate::mutation::sampler::paths::{is_at_plate, path_of, segment_of};
 use platewash::certificate::Requirement;
 use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{ClearanceModel, JointVector, Plan, RobotModel, Workcell};

@@ -4,25 +4,19 @@
 //! a lower bound of how bad things are: a requirement that it finds broken is broken.
 
 mod clearance;
-mod curve;
 mod findings;
-mod hermite;
-mod moments;
+pub(crate) mod motion;
+pub(crate) mod paths;
 mod places;
-mod rates;
-mod schedule;
-mod standing;
-mod swept;
 mod tests;
 
-pub use findings::{Findings, WorstSample};
-pub use hermite::pieces;
-pub use schedule::is_sound;
+pub use crate::mutation::sampler::findings::{Findings, WorstSample};
+pub use crate::mutation::sampler::motion::pieces;
+pub use crate::mutation::sampler::paths::is_sound;
 
-use clearance::Distances;
-use curve::Curve;
-use hermite::Piece;
-use moments::{Arm, Moment};
+use crate::mutation::sampler::clearance::Distances;
+use crate::mutation::sampler::motion::{Arm, Moment, Piece};
+use crate::mutation::sampler::paths::Curve;
 use platewash::certificate::Requirement;
 use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel};
@@ -54,9 +48,9 @@ impl<'a> Sampler<'a> {
         let mut findings = Findings::default();
         places::ends(plan, &mut findings);
         places::apart(plan, &mut findings);
-        standing::standing(plan, &mut findings);
-        rates::joints(plan, self.robot, &pieces, &moments, &mut findings);
-        rates::tip(plan, &moments, &mut findings);
+        places::standing(plan, &mut findings);
+        motion::joints(plan, self.robot, &pieces, &moments, &mut findings);
+        motion::tip(plan, &moments, &mut findings);
         self.distances.look(plan, &pieces, is_sound, also_at, &mut findings);
         if is_sound {
             places::contacts(plan, &mut findings);
@@ -77,14 +71,14 @@ impl<'a> Sampler<'a> {
 
     fn moments(&self, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
         let arm = Arm::new(self.robot, &plan.job.workcell.tool);
-        moments::all(&arm, plan, pieces, is_sound, also_at)
+        motion::all(&arm, plan, pieces, is_sound, also_at)
     }
 }
 
 /// Whether the tip follows the curves stated.
 fn deviations(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
     for (i, segment) in plan.segments.iter().enumerate() {
-        let path = schedule::path_of(plan, segment.plate);
+        let path = paths::path_of(plan, segment.plate);
         let curve = path.and_then(|path| Curve::new(&plan.job.plates[segment.plate], path, segment.kind));
         let Some(curve) = curve else { continue };
         let here = moments.iter().filter(|m| m.stage == Some(i));

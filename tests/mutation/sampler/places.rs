@@ -1,14 +1,20 @@
 //! Where things are: the arm at its ends and at the plates, the tool over them, the plates themselves.
+//!
+//! Obstacles in plates and in the base: points of each obstacle, and how deep they are in cylinders and boxes, in closed form.
+//!
+//! The swept share of a plate on a raster of points.
 
-use super::findings::Findings;
-use super::hermite::Piece;
-use super::moments::{Arm, Moment};
-use super::schedule::{is_at_plate, path_of, tilt_limit_rad};
-use super::{LINE_M, PATH_M, swept};
-use platewash::Plan;
+use crate::mutation::sampler::findings::Findings;
+use crate::mutation::sampler::motion::{Arm, Moment, Piece};
+use crate::mutation::sampler::paths::{is_at_plate, path_of, tilt_limit_rad};
+use crate::mutation::sampler::{LINE_M, PATH_M};
+use nalgebra::{Point3, Vector3};
 use platewash::certificate::Requirement;
+use platewash::kinematics::geometry::Shape;
 use platewash::workcell::job::Overlap;
 use platewash::workcell::trajectory::SegmentKind;
+use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::{Plan, Plate};
 
 /// Height over a plate that every certified plan keeps \[m\].
 const HEIGHT_M: f64 = 2e-4;
@@ -157,5 +163,114 @@ fn washing<'a>(plan: &Plan, moments: &'a [Moment], plate: usize) -> Vec<&'a Mome
 
 fn share(plan: &Plan, washing: &[&Moment], plate: usize, within_m: f64) -> f64 {
     let path: Vec<_> = washing.iter().map(|m| [m.tip.x, m.tip.y]).collect();
-    swept::share(&plan.job.plates[plate], &path, within_m)
+    swept_share(&plan.job.plates[plate], &path, within_m)
+}
+
+/// Points along each edge of an obstacle.
+const POINTS: usize = 33;
+
+/// The base from its drawing: a cylinder about the axis, radius and height \[m\].
+const BASE_M: [f64; 2] = [0.0905, 0.1665];
+
+/// How far obstacles that reach into a plate, or into the base, do so, as a gap below 0.
+pub fn standing(plan: &Plan, findings: &mut Findings) {
+    let base = |p: &Point3<f64>| cylinder(p, [0.0, 0.0], BASE_M[0], [0.0, BASE_M[1]]);
+    for obstacle in &plan.job.workcell.obstacles {
+        for (i, plate) in plan.job.plates.iter().enumerate() {
+            if obstacle.holds_plates.contains(&i) {
+                continue;
+            }
+            let top = plate.centre().z;
+            let sdf = |p: &Point3<f64>| cylinder(p, plate.centre_xy(), plate.rim_m(), [top - plate.thickness_m, top]);
+            note(findings, gap(obstacle, &sdf));
+        }
+        note(findings, gap(obstacle, &base));
+    }
+}
+
+fn note(findings: &mut Findings, gap_m: Option<f64>) {
+    if let Some(gap_m) = gap_m {
+        findings.at_least(Requirement::PlatesApart, gap_m, -1e-6, 1e-9);
+    }
+}
+
+/// The least signed distance of an obstacle's points \[m\]; `None` of a half-space and of shapes that no edit has.
+fn gap(obstacle: &Obstacle, sdf: &dyn Fn(&Point3<f64>) -> f64) -> Option<f64> {
+    let ObstacleShape::Convex(shape) = &obstacle.shape else {
+        return None;
+    };
+    if let Shape::Sphere { radius_m } = shape {
+        return Some(sdf(&obstacle.pose.translation.vector.into()) - radius_m);
+    }
+    let half = match shape {
+        Shape::Box { half_m } => Vector3::from(*half_m),
+        Shape::Cylinder {
+            radius_m,
+            half_length_m,
+        } => Vector3::new(*radius_m, *radius_m, *half_length_m),
+        _ => return None,
+    };
+    let share = |k: usize| 2.0 * k as f64 / (POINTS - 1) as f64 - 1.0;
+    let mut least = f64::INFINITY;
+    for k in 0..POINTS.pow(3) {
+        let at = Vector3::new(
+            share(k % POINTS),
+            share(k / POINTS % POINTS),
+            share(k / POINTS / POINTS),
+        );
+        if matches!(shape, Shape::Cylinder { .. }) && at.xy().norm() > 1.0 {
+            continue;
+        }
+        least = least.min(sdf(&(obstacle.pose * Point3::from(at.component_mul(&half)))));
+    }
+    Some(least)
+}
+
+/// The signed distance of an upright cylinder.
+fn cylinder(p: &Point3<f64>, [x, y]: [f64; 2], radius: f64, [low, high]: [f64; 2]) -> f64 {
+    let out = (p.x - x).hypot(p.y - y) - radius;
+    let over = (low - p.z).max(p.z - high);
+    out.max(over).min(0.0) + out.max(0.0).hypot(over.max(0.0))
+}
+
+/// Distance between points of the raster \[m\].
+const STEP_M: f64 = 2.5e-3;
+
+/// Share of the plate's points that lie within a distance \[m\] of some point of a path.
+pub fn swept_share(plate: &Plate, path: &[[f64; 2]], within_m: f64) -> f64 {
+    let side = (plate.rim_m() / STEP_M).ceil() as i32;
+    let (width, centre) = ((2 * side + 1) as usize, plate.centre_xy());
+    let mut nearest = vec![f64::INFINITY; width * width];
+    let mut last = [f64::INFINITY; 2];
+    for p in path {
+        if (p[0] - last[0]).hypot(p[1] - last[1]) < 5e-4 {
+            continue;
+        }
+        last = *p;
+        let (x, y) = (p[0] - centre[0], p[1] - centre[1]);
+        let range = |c: f64| {
+            let index = |v: f64| (v / STEP_M).clamp(-1e6, 1e6) as i32;
+            (index(c - within_m) - 1).max(-side)..=(index(c + within_m) + 1).min(side)
+        };
+        for i in range(x) {
+            for j in range(y) {
+                let (dx, dy) = (f64::from(i) * STEP_M - x, f64::from(j) * STEP_M - y);
+                let cell = &mut nearest[(i + side) as usize * width + (j + side) as usize];
+                *cell = cell.min(dx * dx + dy * dy);
+            }
+        }
+    }
+    let (mut inside, mut swept) = (0_u32, 0_u32);
+    for i in -side..=side {
+        for j in -side..=side {
+            let (x, y) = (f64::from(i) * STEP_M, f64::from(j) * STEP_M);
+            if x.hypot(y) > plate.rim_m() {
+                continue;
+            }
+            inside += 1;
+            let off = nearest[(i + side) as usize * width + (j + side) as usize].sqrt();
+            swept += u32::from(off <= within_m);
+        }
+    }
+    f64::from(swept) / f64::from(inside)
 }

@@ -1,9 +1,9 @@
 //! The sampler's own parts against what they must give.
 
-use super::curve::Curve;
-use super::hermite::pieces;
-use super::swept;
-use crate::mutation::good::good;
+use crate::mutation::edit::good;
+use crate::mutation::sampler::motion::pieces;
+use crate::mutation::sampler::paths::Curve;
+use crate::mutation::sampler::places;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::Plate;
 use platewash::workcell::trajectory::SegmentKind;
@@ -71,9 +71,9 @@ fn a_ring_sweeps_its_share() {
     let path: Vec<_> = (0..2000).map(ring).collect();
     // Between the radii 40 and 80 mm of 100 mm.
     let expected = 0.64 - 0.16;
-    assert!((swept::share(&plate, &path, 0.02) - expected).abs() < 4e-3);
-    assert_eq!(swept::share(&plate, &[], 0.02), 0.0);
-    assert_eq!(swept::share(&plate, &[[0.3, -0.1]], 0.2), 1.0);
+    assert!((places::swept_share(&plate, &path, 0.02) - expected).abs() < 4e-3);
+    assert_eq!(places::swept_share(&plate, &[], 0.02), 0.0);
+    assert_eq!(places::swept_share(&plate, &[[0.3, -0.1]], 0.2), 1.0);
 }
 
 #[test]

@@ -1,11 +1,68 @@
-//! The moments at which a motion is looked at, with speed and acceleration of the tip from differences.
+//! Motion at sampled moments: cubic Hermite pieces, speed and acceleration of the joints and, from differences, of the tip.
 
-use super::hermite::Piece;
-use super::schedule;
+use crate::mutation::sampler::findings::Findings;
+use crate::mutation::sampler::paths;
 use nalgebra::Vector3;
+use platewash::certificate::Requirement;
 use platewash::kinematics::Frame;
-use platewash::workcell::trajectory::PlanSegment;
+use platewash::workcell::plan::Knots;
+use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash::{JointVector, Plan, RobotModel, Tool, ToolFrame};
+
+/// Motion between two neighbouring knots.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Time of the first knot \[s\].
+    pub start_s: f64,
+    /// \[s\]
+    pub length_s: f64,
+    /// Positions at both ends \[rad\].
+    pub q: [JointVector; 2],
+    /// Speeds at both ends \[rad/s\].
+    pub qd: [JointVector; 2],
+}
+
+/// The pieces between the knots, in time order.
+pub fn pieces(knots: &Knots) -> Vec<Piece> {
+    let piece = |k: usize| Piece {
+        start_s: knots.t_s[k],
+        length_s: knots.t_s[k + 1] - knots.t_s[k],
+        q: [knots.q_rad[k], knots.q_rad[k + 1]],
+        qd: [knots.qd_rad_s[k], knots.qd_rad_s[k + 1]],
+    };
+    (0..knots.t_s.len() - 1).map(piece).collect()
+}
+
+impl Piece {
+    /// Positions at u in \[0, length\] \[s\].
+    pub fn position(&self, u: f64) -> JointVector {
+        let (s, h) = (u / self.length_s, self.length_s);
+        let ([q0, q1], [v0, v1]) = (&self.q, &self.qd);
+        let way = s * s * (3.0 - 2.0 * s);
+        q0 + (q1 - q0) * way + v0 * (h * s * (1.0 - s) * (1.0 - s)) - v1 * (h * s * s * (1.0 - s))
+    }
+
+    /// Speeds \[rad/s\].
+    pub fn speed(&self, u: f64) -> JointVector {
+        let s = u / self.length_s;
+        let ([q0, q1], [v0, v1]) = (&self.q, &self.qd);
+        (q1 - q0) * (6.0 * s * (1.0 - s) / self.length_s)
+            + v0 * ((1.0 - s) * (1.0 - 3.0 * s))
+            + v1 * (s * (3.0 * s - 2.0))
+    }
+
+    /// Accelerations \[rad/s²\].
+    pub fn acceleration(&self, u: f64) -> JointVector {
+        let (s, h) = (u / self.length_s, self.length_s);
+        let ([q0, q1], [v0, v1]) = (&self.q, &self.qd);
+        ((q1 - q0) * ((6.0 - 12.0 * s) / h) + v0 * (6.0 * s - 4.0) + v1 * (6.0 * s - 2.0)) / h
+    }
+
+    /// Whether another piece is the same motion, whenever it happens.
+    pub fn moves_like(&self, other: &Self) -> bool {
+        (self.length_s - other.length_s).abs() < 1e-12 && self.q == other.q && self.qd == other.qd
+    }
+}
 
 /// Half a difference in time \[s\].
 const DELTA_S: f64 = 2e-5;
@@ -111,7 +168,7 @@ impl<'a> Arm<'a> {
 pub fn all(arm: &Arm<'_>, plan: &Plan, pieces: &[Piece], is_sound: bool, also_at: &[f64]) -> Vec<Moment> {
     let mut all = Vec::with_capacity(6 * pieces.len());
     for (k, piece) in pieces.iter().enumerate() {
-        let stage = is_sound.then(|| schedule::segment_of(plan, piece));
+        let stage = is_sound.then(|| paths::segment_of(plan, piece));
         let mut times = within(piece, also_at);
         let count = (LEAST + (piece.length_s / STEP_S) as usize).min(MOST);
         times.extend((0..count).map(|j| piece.length_s * j as f64 / (count - 1) as f64));
@@ -127,4 +184,53 @@ pub fn within(piece: &Piece, times: &[f64]) -> Vec<f64> {
     let since = times.iter().map(|t| t - piece.start_s);
     let inside = since.filter(|u| *u >= -NEAR_S && *u <= piece.length_s + NEAR_S);
     inside.map(|u| u.clamp(0.0, piece.length_s)).collect()
+}
+
+/// What a value must exceed its limit by to count as broken, as a part of the limit, and \[rad\].
+const EXACT: f64 = 2e-9;
+const MARGIN_RAD: f64 = 1e-9;
+
+/// What differences of the tip are right to, as a part of the limit.
+const DIFFERENCE: f64 = 2e-9;
+
+pub fn joints(plan: &Plan, robot: &RobotModel, pieces: &[Piece], moments: &[Moment], findings: &mut Findings) {
+    let limits = robot.limits();
+    let most = JointVector::from(plan.job.limits.joint_acceleration_rad_s2);
+    for m in moments {
+        let piece = &pieces[m.piece];
+        let (q, qd, qdd) = (piece.position(m.u), piece.speed(m.u), piece.acceleration(m.u));
+        let margin = (q - limits.lower).min().min((limits.upper - q).min());
+        findings.at_least(Requirement::JointPosition, margin, 0.0, MARGIN_RAD);
+        for (name, value, limit) in [
+            (Requirement::JointSpeed, qd, &limits.velocity),
+            (Requirement::JointAcceleration, qdd, &most),
+        ] {
+            let share = value.abs().component_div(limit).imax();
+            findings.at_most(name, value[share].abs(), limit[share], EXACT * limit[share]);
+        }
+    }
+}
+
+/// While it washes against what washing must keep, otherwise against the limits of the tip anywhere.
+pub fn tip(plan: &Plan, moments: &[Moment], findings: &mut Findings) {
+    let (limits, wash) = (&plan.job.limits, &plan.job.requirements);
+    for m in moments {
+        let washes = m.segment(plan).is_some_and(|s| s.kind == SegmentKind::Wash);
+        let [(speed, v), (acceleration, a)] = if washes {
+            [
+                (Requirement::WashSpeed, wash.wash_speed_m_s.min(limits.tip_speed_m_s)),
+                (
+                    Requirement::WashAcceleration,
+                    wash.wash_acceleration_m_s2.min(limits.tip_acceleration_m_s2),
+                ),
+            ]
+        } else {
+            [
+                (Requirement::TipSpeed, limits.tip_speed_m_s),
+                (Requirement::TipAcceleration, limits.tip_acceleration_m_s2),
+            ]
+        };
+        findings.at_most(speed, m.speed, v, DIFFERENCE * v);
+        findings.at_most(acceleration, m.acceleration, a, DIFFERENCE * a);
+    }
 }
