@@ -5,8 +5,8 @@ import os
 import pickle
 import signal
 
-from pyplatewash._studies.engines import processes, worker
-from pyplatewash._studies.engines.worker import Kit, Made, Share
+from pyplatewash._studies.engines import contract, processes
+from pyplatewash._studies.engines.contract import Kit, Made, Share
 
 #: The row that nobody survives.
 DEADLY = 5
@@ -16,7 +16,7 @@ def work(kit: Kit, share: Share) -> list[Made]:
     """As a worker does, but for one row."""
     if DEADLY in share.indices:
         os.kill(os.getpid(), signal.SIGKILL)
-    return worker.work(kit, share)
+    return contract.work(kit, share)
 
 
 def packed(kit: Kit, share: Share) -> bytes:

@@ -14,7 +14,7 @@ import pytest
 
 import pyplatewash as pw
 import study_folders
-from pyplatewash import _core, _program_files
+from pyplatewash import _core, _files
 from pyplatewash._studies import run as runs
 from wheel_plans import paper_run, planned
 
@@ -133,14 +133,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Files of good names, in a folder that may be written to."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(webbrowser, "open", lambda address: True)
-    save = _program_files.save
+    save = _files.save_program
 
     def save_here(folder: Path, files: dict[str, str]) -> None:
         if Path(folder).is_dir() and not Path(folder).resolve().is_relative_to(tmp_path):
             raise pw.FileError("no folder of this test's")  # Whoever may write anywhere would find programs there.
         save(folder, files)
 
-    monkeypatch.setattr(_program_files, "save", save_here)
+    monkeypatch.setattr(_files, "save_program", save_here)
     monkeypatch.setattr(runs, "run", lambda study, out, *others: run_here(tmp_path, study, out, *others))
     Path("study.toml").write_text(STUDY.to_toml())
     Path("arm.urdf").write_text(ROBOT.urdf)

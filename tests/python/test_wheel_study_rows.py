@@ -25,8 +25,7 @@ from matplotlib.colors import to_hex
 import pyplatewash as pw
 from pyplatewash import _figures as palette
 from pyplatewash import _core
-from pyplatewash._studies import frame as frames
-from pyplatewash._studies import parquet
+from pyplatewash._studies import table as tables
 from study_folders import folder, line, row
 
 AXES = ("plate[0].at_m", "robot.model", "tool.length_m")
@@ -233,8 +232,8 @@ def test_a_data_frame_has_every_row(rows: pw.StudyRows) -> None:
 
 def test_a_data_frame_is_built_in_parts(rows: pw.StudyRows, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = rows.to_frame()
-    monkeypatch.setattr(frames, "BATCH_ROWS", 2)
-    monkeypatch.setattr(frames, "MOST_TEXTS", 3)
+    monkeypatch.setattr(tables, "BATCH_ROWS", 2)
+    monkeypatch.setattr(tables, "MOST_TEXTS", 3)
     pd.testing.assert_frame_equal(rows.to_frame(), whole)
 
 
@@ -279,8 +278,8 @@ def test_a_data_set_has_every_row(name: str, rows: pw.StudyRows, tmp_path: Path)
 
 
 def test_a_data_set_is_written_in_files_and_groups(rows: pw.StudyRows, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(parquet, "GROUP_ROWS", 2)
-    monkeypatch.setattr(parquet, "FILE_ROWS", 4)
+    monkeypatch.setattr(tables, "GROUP_ROWS", 2)
+    monkeypatch.setattr(tables, "FILE_ROWS", 4)
     rows.to_parquet(tmp_path / "set")
     assert [pq.read_metadata(file).num_rows for file in sorted((tmp_path / "set").iterdir())] == [4, 3]
     assert pq.read_table(tmp_path / "set").column("index").to_pylist() == list(range(7))
@@ -304,8 +303,8 @@ def test_files_are_written_whole_or_not_at_all(rows: pw.StudyRows, tmp_path: Pat
         yield [[None]]
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(parquet, "batches", full)
-    monkeypatch.setattr(parquet, "imported", lambda: (None, None))
+    monkeypatch.setattr(tables, "batches", full)
+    monkeypatch.setattr(tables, "pyarrow", lambda: (None, None))
     for name in ("old.parquet", "new"):
         with pytest.raises(Exception):
             rows.to_parquet(tmp_path / name)

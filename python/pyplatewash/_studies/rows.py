@@ -13,8 +13,9 @@ from .. import _arguments, _core
 from .._errors import NoKeyError, StudyError
 from .._records import Record
 from .._files import staged
+from . import table
 from .folder import Folder, Row, one_by_one, refused
-from .table import Column, columns, frame, pandas, pyarrow, write_parquet
+from .table import Column, columns
 
 if TYPE_CHECKING:
     import pandas as _pd  # type: ignore[import-untyped]
@@ -144,8 +145,8 @@ class StudyRows:
         Raises MissingError, an ImportError, without pandas.
         """
         with_timings = _arguments.flag("timings", timings)
-        pandas()
-        return frame(self._timed(with_timings), self._columns(with_timings), self.manifest)
+        table.pandas()
+        return table.frame(self._timed(with_timings), self._columns(with_timings), self.manifest)
 
     def to_parquet(self, path: str | os.PathLike[str], *, timings: bool = True, partial: bool = False) -> None:
         """Writes the rows as a Parquet data set, some thousand in memory at a time: a file where the name ends with ``.parquet``, else a folder,
@@ -158,13 +159,13 @@ class StudyRows:
         """
         with_timings = _arguments.flag("timings", timings)
         place = self._ready(path, partial)
-        pyarrow()
+        table.pyarrow()
         as_folder = place.suffix != ".parquet"
         _free(place, self.folder, as_folder)
         of = self._columns(with_timings)
         try:
             with staged(place, as_folder=as_folder) as beside:
-                write_parquet(beside, self._timed(with_timings), of, self._of.manifest)
+                table.write_parquet(beside, self._timed(with_timings), of, self._of.manifest)
         except StudyError:
             raise
         except (OSError, ValueError) as error:
