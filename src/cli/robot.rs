@@ -12,8 +12,8 @@ use platewash::planner::suggest::Sector;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, draw_region};
 use platewash::workcell::clearance::TouchingPairs;
-use platewash::workcell::tool::StraightTool;
-use platewash::{ClearanceModel, RobotModel, Scenario, Tool, ToolFrame, Workcell};
+use platewash::workcell::workcell::Obstacle;
+use platewash::{ClearanceModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -96,15 +96,8 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
 
 /// The clearances of an arm without a tool over the floor.
 pub fn bare_clearance(robot: &RobotModel) -> Result<ClearanceModel, platewash::Failure> {
-    let bare = Tool {
-        // No link needs to be named for a tool that is not there.
-        mounted_on: Some(robot.joints()[AXES - 1].child.clone()),
-        ..Tool::from(StraightTool {
-            length_m: 0.0,
-            ..StraightTool::default()
-        })
-    };
-    Ok(ClearanceModel::new(robot, &Workcell::on_floor(robot, bare)?, &[])?)
+    let bare = Workcell::without_tool(robot, Pose::identity(), vec![Obstacle::floor()])?;
+    Ok(ClearanceModel::new(robot, &bare, &[])?)
 }
 
 impl JointRow {

@@ -68,6 +68,15 @@ pub enum ProveError {
         /// Greatest number allowed.
         most: usize,
     },
+    /// The rules of a motion or its workcell cannot be judged.
+    #[error("{}", printable(&.0.to_string()))]
+    Rules(JobError),
+    /// Two bodies have the same name, by which pairs are left out.
+    #[error("more than one body is named \"{}\"; each must have a name of its own", printable(.name))]
+    NameTwice {
+        /// The name.
+        name: String,
+    },
     /// The collision model cannot be built.
     #[error("clearance: {0}")]
     Clearance(ClearanceError),

@@ -14,8 +14,10 @@
 //! | clearance of every pair of bodies | `clearance` |
 //! | the tip and the sponge on the plates: coverage, contact, force, landing, reach | `washing` |
 //! | the motion that a robot's controller makes of a plan | `program` |
+//! | a motion of an arm alone, by any planner | `arm_motion` |
 //! | the certificate and its texts | `report` |
 
+mod arm_motion;
 mod certified;
 mod clearance;
 mod error;
@@ -29,6 +31,7 @@ mod subject;
 mod tests;
 mod washing;
 
+pub use crate::arm_motion::{ArmMotionProof, MotionRules, Timing, prove_arm_motion};
 pub use crate::certified::{Certified, CertifyError, certify, certify_with};
 pub use crate::clearance::moments::ClearanceRule;
 pub use crate::clearance::pairs::{PairBound, PairRule};

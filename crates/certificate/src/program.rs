@@ -108,10 +108,10 @@ pub fn prove_program(
     let mut subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
     // Speeds are those of the plan's time: what is left of a limit at a share of the speed is more.
     subject.limits.tilt_rad += TILT_RAD;
-    subject.limits.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
+    subject.limits.joints.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
     let tip = Arm::new(arm, &plan.job.workcell.tool, cancel);
     let tips = Tips::new(&tip, &subject, &pieces, Some(&schedule));
-    let [position, speed, _] = joints::checks(&pieces, &subject.limits, Some(&schedule));
+    let [position, speed, _] = joints::checks(&pieces, &subject.limits.joints, Some(&schedule));
     let rates = tips.checks(&subject, &pieces, Some(&schedule));
     let (tilt, rates): (Vec<_>, _) = rates
         .into_iter()

@@ -105,7 +105,7 @@ pub fn prove_motion(
     let tips = Tips::new(&carrier, &subject, &pieces, None);
     let mut clearance = pairs::judge(&subject, &model, &[], &timeline, Work::Nothing, cancel)?;
     cancel.check()?;
-    let mut checks = Vec::from(joints::checks(&pieces, &subject.limits, None));
+    let mut checks = Vec::from(joints::checks(&pieces, &subject.limits.joints, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
     checks.push(pairs::check(subject.limits.clearance_m, &clearance));
     world.checks_to_world(&mut checks);
@@ -176,7 +176,7 @@ impl PlanUnderProof<'_> {
             schedule::rest_at_wash_ends(plan, schedule),             // 10
             plates::plates_apart(subject)?,                          // 11
         ]);
-        checks.extend(joints::checks(pieces, &subject.limits, schedule)); // 12–14: position, speed, acceleration
+        checks.extend(joints::checks(pieces, &subject.limits.joints, schedule)); // 12–14: position, speed, acceleration
         checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
         checks.push(landing::check(&arm, subject, pieces, schedule, &tips)); // 21: contact speed
         checks.extend(deviations); // 22, 23: path, line
@@ -260,12 +260,16 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
 /// Checks that the job can be computed with, and that its bodies are valid.
 fn check_job(job: &JobTerms) -> Result<(), ProveError> {
     job.validate()?;
-    subject::check(job)
+    subject::check(&job.workcell)
 }
 
-/// Returns the pieces of the motion. Refuses a piece so short that divisions by the cube of its duration overflow.
+/// Returns the pieces of the motion.
 fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
-    let pieces = piece::pieces(knots)?;
+    long_enough(piece::pieces(knots)?)
+}
+
+/// Returns the pieces. Refuses a piece so short that divisions by the cube of its duration overflow.
+pub(crate) fn long_enough(pieces: Vec<Piece>) -> Result<Vec<Piece>, ProveError> {
     match pieces.iter().position(|piece| piece.length_s < SHORTEST_S) {
         Some(piece) => Err(ProveError::TooShort {
             piece,

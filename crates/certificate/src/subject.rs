@@ -11,7 +11,7 @@ use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
-use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape};
+use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 
 /// The job under judgement, with its arm.
 #[derive(Debug)]
@@ -60,15 +60,34 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Limits of the motion, from the job and the arm.
+/// Limits of the joints, from the arm and, for accelerations, the job.
 #[derive(Debug, Clone)]
-pub(crate) struct Limits {
+pub(crate) struct JointLimits {
     /// Lowest and highest joint positions \[rad\]; infinite for a continuous joint.
     pub position_rad: [JointVector; 2],
     /// Greatest joint speeds \[rad/s\].
     pub speed_rad_s: JointVector,
     /// Greatest joint accelerations \[rad/s²\]: an assumption.
     pub acceleration_rad_s2: JointVector,
+}
+
+impl JointLimits {
+    /// Returns the limits of an arm with the given greatest accelerations \[rad/s²\].
+    pub fn new(robot: &RobotModel, acceleration_rad_s2: JointVector) -> Self {
+        let limits = robot.limits();
+        Self {
+            position_rad: [limits.lower, limits.upper],
+            speed_rad_s: limits.velocity,
+            acceleration_rad_s2,
+        }
+    }
+}
+
+/// Limits of the motion, from the job and the arm.
+#[derive(Debug, Clone)]
+pub(crate) struct Limits {
+    /// Limits of the joints.
+    pub joints: JointLimits,
     /// Greatest speed of the tip anywhere \[m/s\].
     pub tip_speed_m_s: f64,
     /// Greatest acceleration of the tip anywhere \[m/s²\].
@@ -88,11 +107,8 @@ pub(crate) struct Limits {
 impl Limits {
     /// Returns the limits of a job and its arm.
     pub fn new(job: &JobTerms, robot: &RobotModel) -> Self {
-        let joints = robot.limits();
         Self {
-            position_rad: [joints.lower, joints.upper],
-            speed_rad_s: joints.velocity,
-            acceleration_rad_s2: JointVector::from(job.limits.joint_acceleration_rad_s2),
+            joints: JointLimits::new(robot, JointVector::from(job.limits.joint_acceleration_rad_s2)),
             tip_speed_m_s: job.limits.tip_speed_m_s,
             tip_acceleration_m_s2: job.limits.tip_acceleration_m_s2,
             wash_speed_m_s: job.wash_speed_m_s(),
@@ -114,8 +130,7 @@ const POINTS: [usize; 2] = [4, 100_000];
 ///
 /// # Errors
 /// [`ProveError::Body`].
-pub(crate) fn check(job: &JobTerms) -> Result<(), ProveError> {
-    let world = &job.workcell;
+pub(crate) fn check(world: &Workcell) -> Result<(), ProveError> {
     let tool = world.tool.bodies.iter().map(|b| (&b.name, Some(&b.shape), &b.pose));
     let obstacles = world.obstacles.iter().map(|o| match &o.shape {
         ObstacleShape::HalfSpace | ObstacleShape::Parts(_) => (&o.name, None, &o.pose),

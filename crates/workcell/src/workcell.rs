@@ -9,8 +9,8 @@ pub use crate::obstacle::{Obstacle, ObstacleShape};
 
 use crate::clearance::{self, ClearanceError};
 use crate::pose;
-use crate::tool::Tool;
-use platewash_kinematics::{Pose, RobotModel};
+use crate::tool::{StraightTool, Tool};
+use platewash_kinematics::{AXES, Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -109,6 +109,18 @@ impl Workcell {
         };
         workcell.exclusions = workcell.own_exclusions(robot)?;
         Ok(workcell)
+    }
+
+    /// Returns the workcell of a bare arm mounted at `T_world_base`, among obstacles in the world frame. The links behind joint 6 are all that
+    /// it carries.
+    ///
+    /// # Errors
+    /// As [`Workcell::new`].
+    pub fn without_tool(robot: &RobotModel, mount: Pose, obstacles: Vec<Obstacle>) -> Result<Self, ClearanceError> {
+        // No link needs to be named for a tool that is not there.
+        let last = robot.joints()[AXES - 1].child.clone();
+        let tool = Tool::from(StraightTool::default()).mounted(Some(last));
+        Self::new(robot, tool, mount, obstacles)
     }
 
     /// Returns the workcell of an arm that stands on the floor at the world's origin, with its tool.

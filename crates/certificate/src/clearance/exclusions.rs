@@ -6,7 +6,7 @@ use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Discrepancy, Status};
 use crate::report::requirement::Requirement;
 use crate::subject::Subject;
-use platewash_kinematics::AXES;
+use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::clearance::{self, ClearanceError, ClearanceModel};
 use platewash_workcell::words::millimetres;
 use platewash_workcell::workcell::{Exclusion, Workcell};
@@ -101,35 +101,48 @@ fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {
 
 /// Finds bodies of the arm without a shape. They keep clear of nothing.
 fn shapeless(subject: &Subject<'_>) -> Vec<Discrepancy> {
-    let links = subject.robot.links();
-    let has_shape = |body: &usize| links.iter().any(|l| l.frame.body() == *body && !l.collision.is_empty());
-    let without = (0..=AXES).filter(|body| !has_shape(body));
-    let wrong = without.map(|body| {
-        let names = links
-            .iter()
-            .filter(|l| l.frame.body() == body)
-            .map(|l| format!("{:?}", l.name));
-        let what = format!("collision geometry of {}", names.collect::<Vec<_>>().join(", "));
+    let wrong = bodies_without_shape(subject.robot).into_iter().map(|names| {
+        let names: Vec<_> = names.iter().map(|name| format!("{name:?}")).collect();
+        let what = format!("collision geometry of {}", names.join(", "));
         Discrepancy::new(what, "none", "a shape, so that its clearance can be proved")
     });
     wrong.collect()
 }
 
+/// Returns the names of the links of each rigid body of the arm of which none has a shape.
+pub(crate) fn bodies_without_shape(robot: &RobotModel) -> Vec<Vec<&str>> {
+    let links = robot.links();
+    let has_shape = |body: &usize| links.iter().any(|l| l.frame.body() == *body && !l.collision.is_empty());
+    let without = (0..=AXES).filter(|body| !has_shape(body));
+    let names = |body| {
+        links
+            .iter()
+            .filter(move |l| l.frame.body() == body)
+            .map(|l| l.name.as_str())
+    };
+    without.map(|body| names(body).collect()).collect()
+}
+
 /// Finds names that more than one body has. Exclusions refer to bodies by name.
 fn twice(subject: &Subject<'_>) -> Vec<Discrepancy> {
-    let world = &subject.job.workcell;
-    let links = subject.robot.links().iter().filter(|link| !link.collision.is_empty());
+    let again = bodies_named_twice(subject.robot, &subject.job.workcell, subject.plates().len());
+    let wrong = again
+        .into_iter()
+        .map(|name| Discrepancy::new(format!("bodies named {name:?}"), "more than one", "one"));
+    wrong.collect()
+}
+
+/// Returns the names that more than one body has, in a workcell with so many plates.
+pub(crate) fn bodies_named_twice(robot: &RobotModel, world: &Workcell, plates: usize) -> Vec<String> {
+    let links = robot.links().iter().filter(|link| !link.collision.is_empty());
     let names = links
         .map(|link| link.name.clone())
         .chain(world.tool.bodies.iter().map(|body| body.name.clone()))
         .chain(["sponge".to_owned()])
         .chain(world.obstacles.iter().map(|obstacle| obstacle.name.clone()))
-        .chain((0..subject.plates().len()).map(|i| format!("plate {i}")));
+        .chain((0..plates).map(|i| format!("plate {i}")));
     let mut known = BTreeSet::new();
-    let again = names.filter(|name| !known.insert(name.clone()));
-    again
-        .map(|name| Discrepancy::new(format!("bodies named {name:?}"), "more than one", "one"))
-        .collect()
+    names.filter(|name| !known.insert(name.clone())).collect()
 }
 
 /// True if an exclusion is that of the two bodies, in either order.

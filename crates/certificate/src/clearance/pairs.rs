@@ -15,6 +15,7 @@ use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
 use crate::washing::reach;
+use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::clearance::motion::{PairKind, PartPairs};
@@ -102,8 +103,47 @@ pub(crate) fn judge(
     work: Work<'_>,
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
-    let limit_m = subject.limits.clearance_m;
     let tasks = tasks(subject, model, waived, timeline, work);
+    judge_tasks(
+        subject.robot,
+        subject.limits.clearance_m,
+        model,
+        &tasks,
+        timeline,
+        cancel,
+    )
+}
+
+/// Judges every pair of a motion at which nothing may touch: one line for each pair.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn judge_all(
+    robot: &RobotModel,
+    limit_m: f64,
+    model: &ClearanceModel,
+    timeline: &Timeline<'_>,
+    cancel: &CancelToken,
+) -> Result<Vec<PairBound>, Cancelled> {
+    let whole = 0..timeline.count();
+    let task = |pair| Task {
+        pair,
+        rule: PairRule::Clearance,
+        during: Some(vec![whole.clone()]),
+        working_on: Vec::new(),
+    };
+    let tasks: Vec<_> = (0..model.pair_count()).map(task).collect();
+    judge_tasks(robot, limit_m, model, &tasks, timeline, cancel)
+}
+
+fn judge_tasks(
+    robot: &RobotModel,
+    limit_m: f64,
+    model: &ClearanceModel,
+    tasks: &[Task],
+    timeline: &Timeline<'_>,
+    cancel: &CancelToken,
+) -> Result<Vec<PairBound>, Cancelled> {
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
     let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
@@ -112,7 +152,7 @@ pub(crate) fn judge(
             enough_m,
             budget,
         };
-        Search::run(subject.robot, cancel, timeline, parts, during, goal)
+        Search::run(robot, cancel, timeline, parts, during, goal)
     };
     let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
     let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
@@ -122,11 +162,11 @@ pub(crate) fn judge(
         .map(|task| if beside(task) { None } else { searched(task) })
         .collect();
     let beside_obstacles: Vec<_> = tasks.iter().filter(|task| beside(task)).map(|task| task.pair).collect();
-    let needed_m = far_from_m(limit_m, least_seen(&found, &tasks));
-    let far = far(subject.robot, cancel, model, timeline, &beside_obstacles, needed_m);
+    let needed_m = far_from_m(limit_m, least_seen(&found, tasks));
+    let far = far(robot, cancel, model, timeline, &beside_obstacles, needed_m);
     found
         .par_iter_mut()
-        .zip(&tasks)
+        .zip(tasks)
         .filter(|(_, task)| beside(task))
         .for_each(|(found, task)| {
             *found = match far.get(&task.pair) {
@@ -135,9 +175,9 @@ pub(crate) fn judge(
             };
         });
     // The pairs that might be the nearest one, once more and finely.
-    let least = least_seen(&found, &tasks);
+    let least = least_seen(&found, tasks);
     let enough_m = least - FINE_M;
-    found.par_iter_mut().zip(&tasks).for_each(|(found, task)| {
+    found.par_iter_mut().zip(tasks).for_each(|(found, task)| {
         if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
             let parts = model.parts_of(task.pair);
             // For bodies of many parts the limit is enough: a fine bound takes long.

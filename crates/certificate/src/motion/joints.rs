@@ -7,7 +7,7 @@ use crate::motion::piece::Piece;
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::Schedule;
-use crate::subject::Limits;
+use crate::subject::JointLimits;
 use platewash_kinematics::AXES;
 
 /// The worst joint so far, compared by margin for positions, and by share of the limit for speeds and accelerations.
@@ -30,7 +30,7 @@ impl Extreme {
 }
 
 /// Checks the three requirements, in the order position, speed, acceleration.
-pub(crate) fn checks(pieces: &[Piece], limits: &Limits, schedule: Option<&Schedule>) -> [Check; 3] {
+pub(crate) fn checks(pieces: &[Piece], limits: &JointLimits, schedule: Option<&Schedule>) -> [Check; 3] {
     let (speed, acceleration) = (&limits.speed_rad_s, &limits.acceleration_rad_s2);
     let [lower, upper] = &limits.position_rad;
     let mut worst: [Option<Extreme>; 3] = [None, None, None];
@@ -126,9 +126,12 @@ mod tests {
     use crate::report::check::Status;
     use platewash_kinematics::JointVector;
 
-    fn limits() -> Limits {
+    fn limits() -> JointLimits {
         let job = platewash_workcell::fixtures::kitchen();
-        Limits::new(job.terms(), job.arm())
+        JointLimits::new(
+            job.arm(),
+            JointVector::from(job.terms().limits.joint_acceleration_rad_s2),
+        )
     }
 
     fn judged(times: [f64; 2], q: [f64; 2], v: [f64; 2]) -> [Check; 3] {

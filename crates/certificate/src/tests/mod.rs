@@ -1,6 +1,7 @@
 //! The certificate against a hand-made plan, its mutations, an independent sampler, and files that are no plans.
 
 mod adversarial;
+mod arm_motion;
 mod asked;
 mod contact;
 mod contact_around;

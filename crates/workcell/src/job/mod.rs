@@ -11,5 +11,5 @@ pub use crate::job::requirements::{
     ContactRequirements, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M, PatternName, Planner,
     PlannerSettings, ReachBorders, Requirements, Treatment,
 };
-pub use crate::job::terms::{JobTerms, MAX_SEED, PlateOverlap};
+pub use crate::job::terms::{JobTerms, MAX_SEED, PlateOverlap, check_workcell};
 pub use crate::job::wash_job::WashJob;

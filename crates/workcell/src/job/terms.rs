@@ -128,7 +128,7 @@ impl JobTerms {
             return Err(JobError::Seed { found: self.seed });
         }
         self.check_tool()?;
-        self.check_world()?;
+        check_workcell(&self.workcell, self.plates.len())?;
         self.check_dry_run()?;
         let count = self.plates.len();
         if !(1..=MAX_PLATES).contains(&count) {
@@ -222,27 +222,28 @@ impl JobTerms {
             _ => Ok(()),
         }
     }
+}
 
-    /// Checks that the mount, the bodies and the obstacles are valid.
-    fn check_world(&self) -> Result<(), JobError> {
-        let workcell = &self.workcell;
-        let is_near = |pose: &Pose| pose.translation.vector.iter().all(|at| at.abs() <= GREATEST_M);
-        if !(pose::is_sound(&workcell.mount) && is_near(&workcell.mount)) {
-            return Err(JobError::Mount);
-        }
-        let found = workcell.bodies();
-        if found > MOST_BODIES {
-            return Err(JobError::TooManyBodies { found });
-        }
-        let plates = self.plates.len();
-        for obstacle in &workcell.obstacles {
-            if let Some(fault) = obstacle.fault(plates) {
-                let name = obstacle.name.clone();
-                return Err(JobError::Obstacle { name, fault });
-            }
-        }
-        Ok(())
+/// Checks that the mount, the bodies and the obstacles of a workcell with `plates` plates are valid.
+///
+/// # Errors
+/// [`JobError`] with the first error.
+pub fn check_workcell(workcell: &Workcell, plates: usize) -> Result<(), JobError> {
+    let is_near = |pose: &Pose| pose.translation.vector.iter().all(|at| at.abs() <= GREATEST_M);
+    if !(pose::is_sound(&workcell.mount) && is_near(&workcell.mount)) {
+        return Err(JobError::Mount);
     }
+    let found = workcell.bodies();
+    if found > MOST_BODIES {
+        return Err(JobError::TooManyBodies { found });
+    }
+    for obstacle in &workcell.obstacles {
+        if let Some(fault) = obstacle.fault(plates) {
+            let name = obstacle.name.clone();
+            return Err(JobError::Obstacle { name, fault });
+        }
+    }
+    Ok(())
 }
 
 fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), JobError> {

@@ -1,0 +1,215 @@
+//! Judgement of a motion of an arm alone: no plates, no sponge, no job. Any planner may have made it.
+//!
+//! Requirements 12–14 and 24 of `docs/certificate.md`. The motion is made of cubics that meet in position, not necessarily in speed: a jump
+//! of speed is part of the bound of the clearance (24.3), and no acceleration limit holds where a speed jumps.
+
+use crate::clearance::exclusions::{bodies_named_twice, bodies_without_shape};
+use crate::clearance::pairs::{self, PairBound};
+use crate::error::ProveError;
+use crate::motion::joints;
+use crate::motion::piece::Piece;
+use crate::prove::{long_enough, timeline};
+use crate::report::certificate::World;
+use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
+use crate::report::requirement::Requirement;
+use crate::subject::{self, JointLimits};
+use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::job::{JobError, check_workcell};
+use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_workcell::workcell::{Exclusion, Workcell};
+
+/// What a motion of an arm must keep, besides the limits of the arm's description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionRules {
+    /// Required clearance of every pair of bodies \[m\], 0 to 1. With 0 the bodies must not touch.
+    pub clearance_m: f64,
+    /// Greatest joint accelerations \[rad/s²\]; `None` to judge none.
+    pub acceleration_rad_s2: Option<JointVector>,
+    /// Meaning of the motion's times.
+    pub timing: Timing,
+}
+
+/// Meaning of the times of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Timing {
+    /// The arm moves at these times. Speeds are judged.
+    Stated,
+    /// The times only order the positions. Neither speeds nor accelerations are judged; positions and clearance hold for any timing.
+    Free,
+}
+
+/// Proof about a motion of an arm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArmMotionProof {
+    /// Checks of joint positions, of joint speeds unless the timing is free, of joint accelerations where limits are stated, and of the
+    /// clearance.
+    pub checks: Vec<Check>,
+    /// Clearance of each pair.
+    pub clearance: Vec<PairBound>,
+    /// Pairs of bodies that are not judged, with the reason of each.
+    pub excluded: Vec<Exclusion>,
+    /// Names of the links of the arm that keep clear of nothing, as neither they nor the links that move with them have a shape.
+    pub shapeless: Vec<String>,
+    /// Least distance at the knots of the motion \[m\], where the clearance is violated: a check of these alone finds no less.
+    pub least_at_knots_m: Option<f64>,
+}
+
+impl ArmMotionProof {
+    /// Returns the status of the whole: violated if a check is, not proved if a check is not proved or a link has no shape.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        let has = |status| self.checks.iter().any(|check| check.status == status);
+        if has(Status::Violated) {
+            Status::Violated
+        } else if has(Status::Proved)
+            && self.checks.iter().all(|check| check.status.is_kept())
+            && self.shapeless.is_empty()
+        {
+            Status::Proved
+        } else {
+            Status::NotProved
+        }
+    }
+
+    /// Returns the check of a requirement, if it was judged.
+    #[must_use]
+    pub fn check(&self, requirement: Requirement) -> Option<&Check> {
+        self.checks.iter().find(|check| check.requirement == requirement)
+    }
+}
+
+/// Judges a motion of an arm in a workcell: joint limits, and the clearance of every pair of bodies at all times. Pairs that follow from
+/// the arm, its SRDF and the tool are left out; exclusions that the workcell states are ignored.
+///
+/// ```
+/// use platewash_certificate::{MotionRules, Status, Timing, prove_arm_motion};
+/// use platewash_kinematics::{JointVector, Pose, RobotModel};
+/// use platewash_workcell::cancel::CancelToken;
+/// use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
+/// use platewash_workcell::workcell::Workcell;
+///
+/// let arm = RobotModel::irb120()?;
+/// let cell = Workcell::without_tool(&arm, Pose::identity(), Vec::new())?;
+/// let ends = [JointVector::zeros(), JointVector::repeat(0.5)];
+/// let motion = PiecewiseMotion::new(vec![MotionPiece::line([0.0, 1.0], ends)])?;
+/// let rules = MotionRules { clearance_m: 0.005, acceleration_rad_s2: None, timing: Timing::Stated };
+/// let proof = prove_arm_motion(&motion, &cell, &arm, &rules, &CancelToken::new())?;
+/// assert_eq!(proof.status(), Status::Proved);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ProveError`] for a motion, a workcell or rules that cannot be judged, and when it is given up. A motion that breaks a rule is no error.
+pub fn prove_arm_motion(
+    motion: &PiecewiseMotion,
+    workcell: &Workcell,
+    arm: &RobotModel,
+    rules: &MotionRules,
+    cancel: &CancelToken,
+) -> Result<ArmMotionProof, ProveError> {
+    check_rules(rules)?;
+    check_workcell(workcell, 0).map_err(ProveError::Rules)?;
+    subject::check(workcell)?;
+    if let Some(name) = bodies_named_twice(arm, workcell, 0).into_iter().next() {
+        return Err(ProveError::NameTwice { name });
+    }
+    let world = World::of(&workcell.mount);
+    let seen = workcell.seen_from_base().into_owned();
+    let excluded = seen.own_exclusions(arm)?;
+    let seen = Workcell {
+        exclusions: excluded.clone(),
+        ..seen
+    };
+    let model = ClearanceModel::new(arm, &seen, &[])?;
+    let pieces = long_enough(motion.pieces().iter().map(Piece::from).collect())?;
+    let timeline = timeline(&pieces, pieces.len())?;
+    let mut clearance = pairs::judge_all(arm, rules.clearance_m, &model, &timeline, cancel)?;
+    cancel.check()?;
+    let mut checks = joint_checks(arm, &pieces, rules);
+    checks.push(pairs::check(rules.clearance_m, &clearance));
+    let is_violated = checks.last().is_some_and(|check| check.status == Status::Violated);
+    let least_at_knots_m = if is_violated {
+        least_at_knots_m(&model, motion.pieces())
+    } else {
+        None
+    };
+    world.checks_to_world(&mut checks);
+    world.tell_pairs(&mut clearance);
+    Ok(ArmMotionProof {
+        checks,
+        clearance,
+        excluded,
+        shapeless: bodies_without_shape(arm)
+            .into_iter()
+            .flatten()
+            .map(str::to_owned)
+            .collect(),
+        least_at_knots_m,
+    })
+}
+
+/// Checks that the rules are numbers to compare with.
+fn check_rules(rules: &MotionRules) -> Result<(), ProveError> {
+    let refused = |name, expected: &str, found| {
+        let expected = expected.to_owned();
+        Err(ProveError::Rules(JobError::Number { name, expected, found }))
+    };
+    if !(0.0..=1.0).contains(&rules.clearance_m) {
+        return refused("the required clearance", "from 0 to 1 m", rules.clearance_m);
+    }
+    let stated = rules.acceleration_rad_s2.iter().flatten().copied();
+    match stated.into_iter().find(|limit| !(*limit > 0.0 && limit.is_finite())) {
+        Some(found) => refused("an acceleration limit", "finite and above 0", found),
+        None => Ok(()),
+    }
+}
+
+/// Checks positions, speeds and accelerations, as far as the rules ask for them.
+fn joint_checks(arm: &RobotModel, pieces: &[Piece], rules: &MotionRules) -> Vec<Check> {
+    let stated = rules.acceleration_rad_s2.filter(|_| rules.timing == Timing::Stated);
+    let limits = JointLimits::new(arm, stated.unwrap_or_else(|| JointVector::repeat(f64::INFINITY)));
+    let [position, speed, acceleration] = joints::checks(pieces, &limits, None);
+    let mut checks = vec![position];
+    if rules.timing == Timing::Stated {
+        checks.push(speed);
+    }
+    if let Some(limits) = stated {
+        checks.push(jump(pieces, &limits).unwrap_or(acceleration));
+    }
+    checks
+}
+
+/// Returns the violated check of accelerations at the first knot where a speed jumps by more than its rounding, if there is one.
+fn jump(pieces: &[Piece], limits: &JointVector) -> Option<Check> {
+    pieces.windows(2).find_map(|pair| {
+        let by = pair[0].jump_to(&pair[1]);
+        let rounding = pair[0].rounding().speed + pair[1].rounding().speed;
+        let joint = (0..AXES).find(|&joint| by[joint] > rounding[joint])?;
+        let worst = WorstCase {
+            time_s: Some(pair[1].start_s),
+            joint: Some(joint),
+            ..WorstCase::default()
+        };
+        let measure = Measure {
+            bound: None,
+            seen: None,
+            limit: limits[joint],
+            sense: Sense::AtMost,
+            unit: Unit::RadianPerSecondSquared,
+        };
+        Some(Check {
+            status: Status::Violated,
+            ..Check::measured(Requirement::JointAcceleration, measure, worst)
+        })
+    })
+}
+
+/// Least distance over all pairs at the ends of the pieces \[m\].
+fn least_at_knots_m(model: &ClearanceModel, pieces: &[MotionPiece]) -> Option<f64> {
+    let first = pieces.iter().take(1).map(|piece| piece.q_rad[0]);
+    let knots = first.chain(pieces.iter().map(|piece| piece.q_rad[1]));
+    let distances = knots.filter_map(|q| Some(model.smallest(&q, &[])?.distance_m));
+    distances.min_by(f64::total_cmp)
+}

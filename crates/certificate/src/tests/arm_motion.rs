@@ -1,0 +1,225 @@
+//! Motions of an arm alone, against dense samples.
+
+use crate::{ArmMotionProof, MotionRules, ProveError, Requirement, Status, Timing, prove_arm_motion};
+use nalgebra::Vector3;
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::clearance::{ClearanceModel, ITERATIVE_ERROR_M};
+use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
+use proptest::prelude::*;
+
+const CLEARANCE_M: f64 = 0.005;
+
+fn cell(arm: &RobotModel, mount: Pose) -> Workcell {
+    let bar = |name: &str, at: [f64; 3], half_m: [f64; 3]| {
+        let shape = Shape::Box { half_m };
+        let pose = mount * Pose::translation(at[0], at[1], at[2]);
+        Obstacle::new(name, ObstacleShape::Convex(shape), pose)
+    };
+    let obstacles = vec![
+        bar("post", [0.35, 0.25, 0.3], [0.02, 0.02, 0.3]),
+        bar("beam", [0.3, 0.0, 0.85], [0.02, 0.4, 0.02]),
+    ];
+    Workcell::without_tool(arm, mount, obstacles).unwrap()
+}
+
+fn rules() -> MotionRules {
+    MotionRules {
+        clearance_m: CLEARANCE_M,
+        acceleration_rad_s2: None,
+        timing: Timing::Stated,
+    }
+}
+
+fn judged(motion: &PiecewiseMotion, cell: &Workcell, arm: &RobotModel, rules: &MotionRules) -> ArmMotionProof {
+    prove_arm_motion(motion, cell, arm, rules, &CancelToken::new()).unwrap()
+}
+
+fn joint_1(angle: f64) -> JointVector {
+    JointVector::new(angle, 0.6, 0.0, 0.0, 0.0, 0.0)
+}
+
+fn lines(q: &[JointVector], step_s: f64) -> PiecewiseMotion {
+    let line = |k: usize| MotionPiece::line([k as f64 * step_s, (k + 1) as f64 * step_s], [q[k], q[k + 1]]);
+    PiecewiseMotion::new((0..q.len() - 1).map(line).collect()).unwrap()
+}
+
+fn cubics(q: &[JointVector], v: &[JointVector], step_s: f64) -> PiecewiseMotion {
+    let piece = |k: usize| MotionPiece {
+        t_s: [k as f64 * step_s, (k + 1) as f64 * step_s],
+        q_rad: [q[k], q[k + 1]],
+        qd_rad_s: [v[k], v[k + 1]],
+    };
+    PiecewiseMotion::new((0..q.len() - 1).map(piece).collect()).unwrap()
+}
+
+/// Both ends of the line are clear; the post stands between them.
+#[test]
+fn names_a_collision_between_two_clear_points() {
+    let arm = RobotModel::irb120().unwrap();
+    let proof = judged(
+        &lines(&[joint_1(0.0), joint_1(1.3)], 2.0),
+        &cell(&arm, Pose::identity()),
+        &arm,
+        &rules(),
+    );
+    assert_eq!(proof.status(), Status::Violated);
+    let check = proof.check(Requirement::Clearance).unwrap();
+    assert!(
+        check.worst.pair.as_ref().unwrap().contains(&"post".to_owned()),
+        "{check:?}"
+    );
+    assert!(check.worst.time_s.is_some_and(|t| t > 0.2 && t < 1.8), "{check:?}");
+    assert!(proof.least_at_knots_m.unwrap() > 0.05, "{proof:?}");
+}
+
+/// The same motion about a mount that is turned: places are in the world.
+#[test]
+fn a_mounted_arm_has_the_same_proof() {
+    let arm = RobotModel::irb120().unwrap();
+    let mount = Pose::new(Vector3::new(1.0, -2.0, 0.5), Vector3::new(0.3, -0.2, 1.0));
+    let motion = lines(&[joint_1(0.0), joint_1(0.2)], 2.0);
+    let [here, there] = [Pose::identity(), mount].map(|mount| judged(&motion, &cell(&arm, mount), &arm, &rules()));
+    assert_eq!((here.status(), there.status()), (Status::Proved, Status::Proved));
+    let least = |proof: &ArmMotionProof| {
+        proof
+            .check(Requirement::Clearance)
+            .unwrap()
+            .measure
+            .unwrap()
+            .bound
+            .unwrap()
+    };
+    assert!((least(&here) - least(&there)).abs() < 2e-4);
+    let place = |proof: &ArmMotionProof| proof.check(Requirement::Clearance).unwrap().worst.place_m.unwrap();
+    let moved = mount * nalgebra::Point3::from(place(&here));
+    assert!((moved.coords - Vector3::from(place(&there))).norm() < 0.02);
+}
+
+#[test]
+fn no_acceleration_limit_holds_where_a_speed_jumps() {
+    let arm = RobotModel::irb120().unwrap();
+    let cell = cell(&arm, Pose::identity());
+    let motion = lines(&[joint_1(0.0), joint_1(0.1), joint_1(0.1)], 1.0);
+    let stated = MotionRules {
+        acceleration_rad_s2: Some(JointVector::repeat(1e6)),
+        ..rules()
+    };
+    let check = |motion: &PiecewiseMotion, rules| {
+        judged(motion, &cell, &arm, rules)
+            .check(Requirement::JointAcceleration)
+            .cloned()
+    };
+    let plain = rules();
+    assert_eq!(check(&motion, &plain), None);
+    let found = check(&motion, &stated).unwrap();
+    assert_eq!(
+        (found.status, found.worst.joint, found.worst.time_s),
+        (Status::Violated, Some(0), Some(1.0))
+    );
+    let straight = lines(&[joint_1(0.0), joint_1(0.1), joint_1(0.2)], 1.0);
+    assert_eq!(check(&straight, &stated).unwrap().status, Status::Proved);
+    let free = MotionRules {
+        timing: Timing::Free,
+        ..stated
+    };
+    assert_eq!(check(&motion, &free), None);
+}
+
+#[test]
+fn speeds_are_judged_where_times_are_stated_alone() {
+    let arm = RobotModel::irb120().unwrap();
+    let cell = cell(&arm, Pose::identity());
+    let fast = lines(&[joint_1(0.0), joint_1(0.2)], 1e-3);
+    let free = MotionRules {
+        timing: Timing::Free,
+        ..rules()
+    };
+    assert_eq!(judged(&fast, &cell, &arm, &rules()).status(), Status::Violated);
+    assert_eq!(judged(&fast, &cell, &arm, &free).status(), Status::Proved);
+}
+
+#[test]
+fn refuses_what_cannot_be_judged() {
+    let arm = RobotModel::irb120().unwrap();
+    let good = cell(&arm, Pose::identity());
+    let motion = lines(&[joint_1(0.0), joint_1(0.1)], 1.0);
+    let refused = |motion: &PiecewiseMotion, cell: &Workcell, rules: MotionRules| -> ProveError {
+        prove_arm_motion(motion, cell, &arm, &rules, &CancelToken::new()).unwrap_err()
+    };
+    let mut rules_of = rules();
+    rules_of.clearance_m = f64::NAN;
+    assert!(refused(&motion, &good, rules_of).to_string().contains("clearance"));
+    rules_of = rules();
+    rules_of.acceleration_rad_s2 = Some(JointVector::repeat(-1.0));
+    assert!(refused(&motion, &good, rules_of).to_string().contains("acceleration"));
+    let mut twice = good.clone();
+    twice.obstacles[0].name = "link_2".to_owned();
+    assert!(matches!(
+        refused(&motion, &twice, rules()),
+        ProveError::NameTwice { .. }
+    ));
+    let mut lost = good.clone();
+    lost.obstacles[0].pose.translation.x = f64::NAN;
+    assert!(refused(&motion, &lost, rules()).to_string().contains("post"));
+    assert!(matches!(
+        refused(&PiecewiseMotion::default(), &good, rules()),
+        ProveError::NoMotion { .. }
+    ));
+    let cancelled = CancelToken::new();
+    cancelled.cancel();
+    let given_up = prove_arm_motion(&motion, &good, &arm, &rules(), &cancelled);
+    assert!(matches!(given_up, Err(ProveError::Cancelled(_))));
+}
+
+fn vector(size: f64) -> impl Strategy<Value = JointVector> {
+    prop::array::uniform6(-size..size).prop_map(JointVector::from)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Nothing is proved where a sample is below the clearance, and everything is where all samples exceed it by 0.1 mm: for straight lines,
+    /// whose speeds jump, and for cubics. No bound of a pair is above a sample of it.
+    #[test]
+    fn agrees_with_dense_samples(
+        start in vector(0.5), steps in prop::collection::vec(vector(0.7), 1..5), v in prop::collection::vec(vector(1.0), 5), is_cubic: bool,
+    ) {
+        let arm = RobotModel::irb120().unwrap();
+        let cell = cell(&arm, Pose::identity());
+        let mut q = vec![start];
+        for step in &steps {
+            q.push(q[q.len() - 1] + step);
+        }
+        let motion = if is_cubic { cubics(&q, &v, 1.0) } else { lines(&q, 1.0) };
+        let proof = judged(&motion, &cell, &arm, &rules());
+        let check = proof.check(Requirement::Clearance).unwrap();
+        let model = ClearanceModel::new(&arm, &cell, &[]).unwrap();
+        let mut least = f64::INFINITY;
+        let mut least_of_pair = vec![f64::INFINITY; model.pair_count()];
+        for piece in motion.pieces() {
+            for k in 0..=200 {
+                let [q, _] = piece.at(piece.t_s[0] + piece.length_s() * f64::from(k) / 200.0);
+                for (least_of_pair, pair) in least_of_pair.iter_mut().zip(model.all(&q)) {
+                    *least_of_pair = least_of_pair.min(pair.distance_m);
+                    least = least.min(pair.distance_m);
+                }
+            }
+        }
+        if check.status == Status::Proved {
+            prop_assert!(least >= CLEARANCE_M - ITERATIVE_ERROR_M, "{least} {check:?}");
+        }
+        if least > CLEARANCE_M + 1e-4 {
+            prop_assert_eq!(check.status, Status::Proved, "{} {:?}", least, check);
+        }
+        if least < CLEARANCE_M - 1e-4 {
+            prop_assert_eq!(check.status, Status::Violated, "{} {:?}", least, check);
+        }
+        prop_assert_eq!(proof.clearance.len(), least_of_pair.len());
+        for (bound, sampled) in proof.clearance.iter().zip(&least_of_pair) {
+            prop_assert!(bound.at_least_m.is_none_or(|m| m <= sampled + ITERATIVE_ERROR_M), "{:?} {}", bound, sampled);
+        }
+    }
+}
