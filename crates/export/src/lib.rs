@@ -23,6 +23,7 @@
 //! | all of it, one after the other; the reasons that a plan is not handed over | `export`, `refusal` |
 //! | a program that may have been changed since | `compare` |
 //! | ROS 2 | `ros2` |
+//! | trajectories of any planner, to be judged alone | `trajectory` |
 
 pub mod compare;
 pub mod csv;
@@ -40,6 +41,7 @@ mod settings;
 #[allow(clippy::unwrap_used)]
 mod tests;
 mod tool_frame;
+pub mod trajectory;
 pub mod urscript;
 
 pub use crate::compare::{Change, CompareError, ProgramComparison, compare};

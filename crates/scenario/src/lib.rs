@@ -4,7 +4,7 @@
 //! [`keys`] is the one table of keys, units, ranges and meanings: it checks files and makes
 //! `docs/scenario.md`. The defaults are those of the types here.
 //!
-//! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and
+//! [`ObstacleText`] reads obstacles alone, for a motion without plates. [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and
 //! `job_on` for callers that need the steps one by one. [`Draft`] changes a scenario's text key by key. Errors of other crates
 //! become a [`Failure`] by `?`; its words name the keys.
 
@@ -13,6 +13,7 @@ mod error;
 mod failure;
 pub mod keys;
 mod load;
+mod obstacle_file;
 mod remedy;
 mod resolve;
 mod scenario;
@@ -27,6 +28,7 @@ pub use crate::keys::document::{FormDomain, FormKey, form, reference};
 pub use crate::keys::value::values_of;
 pub use crate::keys::{LISTS, List};
 pub use crate::load::{SHIPPED, ScenarioSource, ShippedScenario, source};
+pub use crate::obstacle_file::ObstacleText;
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
 pub use crate::resolve::arm::{ArmError, load_arm, load_description};
 pub use crate::resolve::certified::MAX_CONTACT_CHECKS;

@@ -74,7 +74,7 @@ impl Scenario {
             .map_err(|e| ScenarioError { line: None, ..e })
     }
 
-    fn resolve_paths(&mut self, folder: &Path) {
+    pub(crate) fn resolve_paths(&mut self, folder: &Path) {
         let files = [&mut self.robot.urdf, &mut self.robot.srdf].into_iter().flatten();
         for path in files.chain(&mut self.robot.package_path) {
             *path = folder.join(&*path);
@@ -186,7 +186,7 @@ impl Scenario {
     }
 }
 
-fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
+pub(crate) fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfit> {
     for (name, value) in table {
         let path = format!("{prefix}{}", name.get_ref());
         let inside = format!("{path}.");
@@ -268,7 +268,7 @@ pub fn source(name_or_file: &str) -> Result<ScenarioSource, ScenarioError> {
     })
 }
 
-fn unread(error: FileError) -> Problem {
+pub(crate) fn unread(error: FileError) -> Problem {
     match error {
         FileError::TooLong { limit } => Problem::TooLarge { limit },
         other => Problem::Unreadable {

@@ -10,9 +10,9 @@
 //! | numbers in messages | `number` |
 //! | YAML as a tree with lines; that as a reading | `node`; `read` |
 
-mod node;
-mod number;
-mod read;
+pub(crate) mod node;
+pub(crate) mod number;
+pub(crate) mod read;
 pub mod write;
 
 use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};

@@ -51,17 +51,22 @@ pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Readin
     Ok(Reading { speed_share, ..reading })
 }
 
-/// Reads one file.
-fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
-    let Some(language) = Language::of(&file.name) else {
-        let reason = "expected a file .yaml, .yml or .json, or play.py; found another name";
-        return Err(Fault::new(1, reason));
+/// Reads a text as a tree, by the end of its file's name. `other` is the reason to refuse another name.
+pub(crate) fn document<'a>(name: &str, text: &'a str, other: &str) -> Result<Node<'a>, Fault> {
+    let Some(language) = Language::of(name) else {
+        return Err(Fault::new(1, other));
     };
-    if language == Language::Json && file.text.len() <= node::MAX_BYTES {
-        let json = serde_json::from_str::<serde::de::IgnoredAny>(&file.text);
+    if language == Language::Json && text.len() <= node::MAX_BYTES {
+        let json = serde_json::from_str::<serde::de::IgnoredAny>(text);
         json.map_err(|e| Fault::new(e.line(), format!("not JSON: {e}")))?;
     }
-    let root = node::read(&file.text, language)?;
+    node::read(text, language)
+}
+
+/// Reads one file.
+fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
+    let other = "expected a file .yaml, .yml or .json, or play.py; found another name";
+    let root = document(&file.name, &file.text, other)?;
     let known: Vec<&str> = arm.joints().iter().map(|joint| joint.name.as_str()).collect();
     let is_goal = entries(&root, "a message")?
         .iter()
@@ -327,7 +332,7 @@ fn speed_share(text: &str) -> Option<Result<f64, Fault>> {
 }
 
 /// A text: in quotes, or a word that no reader takes for anything else.
-fn text(node: &Node<'_>) -> Result<String, Fault> {
+pub(crate) fn text(node: &Node<'_>) -> Result<String, Fault> {
     match &node.kind {
         Kind::Quoted(text) => Ok(text.to_string()),
         Kind::Plain(text) if is_word(text) => Ok(text.to_string()),
@@ -346,7 +351,7 @@ fn is_word(text: &str) -> bool {
         && !OTHERS.contains(&text.to_ascii_lowercase().as_str())
 }
 
-fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
+pub(crate) fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
     match &node.kind {
         Kind::List(nodes) => Ok(nodes),
         other => Err(Fault::new(
@@ -356,7 +361,7 @@ fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
     }
 }
 
-fn parse_number(node: &Node<'_>) -> ParsedNumber {
+pub(crate) fn parse_number(node: &Node<'_>) -> ParsedNumber {
     match &node.kind {
         Kind::Plain(text) | Kind::OfJson(text) => number::read(text),
         _ => ParsedNumber::Nothing,
@@ -379,7 +384,7 @@ fn float(node: &Node<'_>) -> Result<f64, Fault> {
     Err(Fault::new(node.line, reason))
 }
 
-fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fault> {
+pub(crate) fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fault> {
     match &node.kind {
         Kind::Table(entries) => Ok(entries),
         other => Err(Fault::new(
@@ -390,14 +395,14 @@ fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fa
 }
 
 /// A table whose keys are known.
-struct Fields<'n, 'a> {
+pub(crate) struct Fields<'n, 'a> {
     node: &'n Node<'a>,
     what: &'static str,
     entries: &'n [Entry<'a>],
 }
 
 impl<'n, 'a> Fields<'n, 'a> {
-    fn of(node: &'n Node<'a>, what: &'static str, known: &[&str]) -> Result<Self, Fault> {
+    pub(crate) fn of(node: &'n Node<'a>, what: &'static str, known: &[&str]) -> Result<Self, Fault> {
         let entries = entries(node, what)?;
         match entries.iter().find(|entry| !known.contains(&entry.key.as_ref())) {
             Some(entry) => {
@@ -409,14 +414,14 @@ impl<'n, 'a> Fields<'n, 'a> {
         }
     }
 
-    fn get(&self, key: &str) -> Option<&'n Node<'a>> {
+    pub(crate) fn get(&self, key: &str) -> Option<&'n Node<'a>> {
         self.entries
             .iter()
             .find(|entry| entry.key == key)
             .map(|entry| &entry.value)
     }
 
-    fn needed(&self, key: &str) -> Result<&'n Node<'a>, Fault> {
+    pub(crate) fn needed(&self, key: &str) -> Result<&'n Node<'a>, Fault> {
         self.get(key).ok_or_else(|| {
             Fault::new(
                 self.node.line,

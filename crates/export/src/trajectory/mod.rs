@@ -1,0 +1,306 @@
+//! Joint trajectories of any planner: points in a file or in memory, and the motion that a controller makes of them.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | points; the motion between them; reading by a file's name | here |
+//! | tables: times, positions and speeds as CSV | `csv` |
+//! | ROS messages as YAML and JSON: `JointTrajectory`, `RobotTrajectory`, `FollowJointTrajectory` goals | `ros` |
+
+mod csv;
+mod ros;
+
+use crate::dialect::{ProgramFile, ReadError};
+use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_workcell::trajectory::KnotError;
+
+/// Points that an arm reaches one after the other, with the joints in the arm's order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct JointPoints {
+    /// Joint positions \[rad\].
+    pub q_rad: Vec<JointVector>,
+    /// Times \[s\], in ascending order; `None` where the points have none.
+    pub t_s: Option<Vec<f64>>,
+    /// Joint speeds \[rad/s\]; `None` where the points have none.
+    pub qd_rad_s: Option<Vec<JointVector>>,
+    /// True where the points state accelerations. These are not read.
+    pub has_accelerations: bool,
+}
+
+/// Motion of each joint between two points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// At constant speed: a straight line in joint space. The speed jumps at the points.
+    Linear,
+    /// Along the cubic that has the positions and the speeds of both points.
+    Cubic,
+}
+
+/// Motion through points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointMotion {
+    /// The motion, from 0 s. Without times each piece takes 1 s.
+    pub motion: PiecewiseMotion,
+    /// Motion between two points.
+    pub interpolation: Interpolation,
+    /// Time of the first point \[s\]; `None` where the points have no times.
+    pub start_s: Option<f64>,
+}
+
+/// Reason that points are no motion. Points are counted from 0.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PointsError {
+    /// There are fewer than two points.
+    #[error("expected two points at least; found {found}")]
+    TooFew {
+        /// Number of points found.
+        found: usize,
+    },
+    /// There are not as many times or speeds as positions.
+    #[error("expected as many {what} as positions, {expected}; found {found}")]
+    Count {
+        /// Times or speeds.
+        what: &'static str,
+        /// Number of positions.
+        expected: usize,
+        /// Number found.
+        found: usize,
+    },
+    /// A number is NaN or infinite.
+    #[error("point {point}: expected finite numbers; found NaN or infinity")]
+    NotFinite {
+        /// Index of the point.
+        point: usize,
+    },
+    /// A time is not after the one before.
+    #[error("point {point}: expected a time after {before_s} s, that of the point before; found {t_s} s")]
+    TimeOrder {
+        /// Index of the point.
+        point: usize,
+        /// Its time \[s\].
+        t_s: f64,
+        /// Time of the point before \[s\].
+        before_s: f64,
+    },
+    /// Positions are so far beyond their limits that they must be degrees.
+    #[error(
+        "point {point}: joint {joint} at {found} rad, far beyond its limits of {} to {} rad; these look like degrees, and positions must be \
+         in radians",
+        told(.limits_rad)[0], told(.limits_rad)[1]
+    )]
+    Degrees {
+        /// Index of the point.
+        point: usize,
+        /// Name of the joint.
+        joint: String,
+        /// Number found.
+        found: f64,
+        /// Limits of the joint \[rad\].
+        limits_rad: [f64; 2],
+    },
+    /// The points have speeds and no times.
+    #[error("the points have speeds and no times; give times, or leave the speeds out")]
+    SpeedsWithoutTimes,
+    /// Cubics need times and speeds.
+    #[error("cubic interpolation needs times and speeds at every point; the points have no {missing}")]
+    NotCubic {
+        /// Times or speeds.
+        missing: &'static str,
+    },
+    /// The points state accelerations, between which a controller draws quintics.
+    #[error(
+        "the points state accelerations: a controller draws quintics between them, which are not supported yet; choose linear or cubic \
+         interpolation where the controller uses that, or leave the accelerations out"
+    )]
+    Quintic,
+}
+
+/// Rounds limits \[rad\] for a message.
+fn told(limits_rad: &[f64; 2]) -> [f64; 2] {
+    limits_rad.map(|limit| (1e4 * limit).round() / 1e4)
+}
+
+impl PointsError {
+    /// Index of the point at fault, if it is a single one.
+    #[must_use]
+    pub fn point(&self) -> Option<usize> {
+        match self {
+            Self::NotFinite { point } | Self::TimeOrder { point, .. } | Self::Degrees { point, .. } => Some(*point),
+            _ => None,
+        }
+    }
+}
+
+/// Least distance beyond a joint's limits at which a position may be one in degrees \[rad\].
+const FAR_RAD: f64 = std::f64::consts::PI;
+
+impl JointPoints {
+    /// Returns the motion through the points. Without a choice it is cubic where there are speeds, otherwise linear, as ROS 2's
+    /// joint_trajectory_controller moves.
+    ///
+    /// # Errors
+    /// [`PointsError`] with the first fault.
+    pub fn motion(&self, arm: &RobotModel, choice: Option<Interpolation>) -> Result<PointMotion, PointsError> {
+        self.check(arm)?;
+        let interpolation = match (choice, &self.qd_rad_s) {
+            (Some(choice), _) => choice,
+            (None, _) if self.has_accelerations => return Err(PointsError::Quintic),
+            (None, Some(_)) => Interpolation::Cubic,
+            (None, None) => Interpolation::Linear,
+        };
+        let start_s = self.t_s.as_ref().and_then(|all| all.first()).copied();
+        let time = |k: usize| match (&self.t_s, start_s) {
+            (Some(all), Some(start_s)) => all[k] - start_s,
+            _ => k as f64,
+        };
+        let piece = |k: usize| {
+            let (t_s, q_rad) = ([time(k), time(k + 1)], [self.q_rad[k], self.q_rad[k + 1]]);
+            // Times that differ by less than rounding once they start from 0.
+            if t_s[1] <= t_s[0] {
+                return Err(self.time_order(k + 1));
+            }
+            match (interpolation, &self.t_s, &self.qd_rad_s) {
+                (Interpolation::Linear, ..) => Ok(MotionPiece::line(t_s, q_rad)),
+                (Interpolation::Cubic, Some(_), Some(speeds)) => Ok(MotionPiece {
+                    t_s,
+                    q_rad,
+                    qd_rad_s: [speeds[k], speeds[k + 1]],
+                }),
+                (Interpolation::Cubic, None, _) => Err(PointsError::NotCubic { missing: "times" }),
+                (Interpolation::Cubic, _, None) => Err(PointsError::NotCubic { missing: "speeds" }),
+            }
+        };
+        let pieces: Vec<_> = (0..self.q_rad.len() - 1).map(piece).collect::<Result<_, _>>()?;
+        let motion = PiecewiseMotion::new(pieces).map_err(|error| PointsError::NotFinite {
+            point: match error {
+                KnotError::NotFinite { knot } | KnotError::Apart { knot } | KnotError::Time { knot, .. } => knot,
+                _ => 0,
+            },
+        })?;
+        Ok(PointMotion {
+            motion,
+            interpolation,
+            start_s,
+        })
+    }
+
+    /// Checks that there are two points at least, as many times and speeds, and that all numbers make sense.
+    fn check(&self, arm: &RobotModel) -> Result<(), PointsError> {
+        let expected = self.q_rad.len();
+        let count = |what, found| match found {
+            found if found == expected => Ok(()),
+            found => Err(PointsError::Count { what, expected, found }),
+        };
+        self.t_s.as_ref().map_or(Ok(()), |all| count("times", all.len()))?;
+        self.qd_rad_s
+            .as_ref()
+            .map_or(Ok(()), |all| count("speeds", all.len()))?;
+        let is_finite = |point: usize| {
+            let (time, speeds) = (self.t_s.as_ref(), self.qd_rad_s.as_ref());
+            let numbers = self.q_rad[point]
+                .iter()
+                .chain(speeds.iter().flat_map(|all| all[point].iter()));
+            numbers.chain(time.iter().map(|all| &all[point])).all(|v| v.is_finite())
+        };
+        if let Some(point) = (0..expected).find(|point| !is_finite(*point)) {
+            return Err(PointsError::NotFinite { point });
+        }
+        if let Some(times) = &self.t_s
+            && let Some(point) = (1..expected).find(|&point| times[point] <= times[point - 1])
+        {
+            return Err(self.time_order(point));
+        }
+        if self.t_s.is_none() && self.qd_rad_s.is_some() {
+            return Err(PointsError::SpeedsWithoutTimes);
+        }
+        if let Some(error) = self.degrees(arm) {
+            return Err(error);
+        }
+        match expected {
+            0 | 1 => Err(PointsError::TooFew { found: expected }),
+            _ => Ok(()),
+        }
+    }
+
+    fn time_order(&self, point: usize) -> PointsError {
+        let time = |k: usize| {
+            self.t_s
+                .as_ref()
+                .and_then(|all| all.get(k))
+                .copied()
+                .unwrap_or(f64::NAN)
+        };
+        PointsError::TimeOrder {
+            point,
+            t_s: time(point),
+            before_s: time(point.saturating_sub(1)),
+        }
+    }
+
+    /// Finds the first position far beyond the joint's limits, where all positions are within their limits if they are read as degrees.
+    fn degrees(&self, arm: &RobotModel) -> Option<PointsError> {
+        let limits = arm.limits();
+        let beyond =
+            |q: &JointVector, joint: usize| (limits.lower[joint] - q[joint]).max(q[joint] - limits.upper[joint]);
+        let is_far = |q: &JointVector| (0..AXES).find(|&joint| beyond(q, joint) > FAR_RAD);
+        let (point, joint) = (0..)
+            .zip(&self.q_rad)
+            .find_map(|(point, q)| Some((point, is_far(q)?)))?;
+        let fits = |q: &JointVector| (0..AXES).all(|joint| beyond(&q.map(f64::to_radians), joint) <= 1e-6);
+        self.q_rad.iter().all(fits).then(|| PointsError::Degrees {
+            point,
+            joint: arm.joints()[joint].name.clone(),
+            found: self.q_rad[point][joint],
+            limits_rad: [limits.lower[joint], limits.upper[joint]],
+        })
+    }
+}
+
+/// Points of a file, with the line of each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrajectoryFile {
+    /// Name of the file.
+    name: String,
+    /// The points.
+    pub points: JointPoints,
+    /// Line of each point, from 1.
+    pub lines: Vec<usize>,
+}
+
+impl TrajectoryFile {
+    /// Reads a trajectory of an arm from a text, by the end of the file's name: `.csv`, or a ROS message as `.yaml`, `.yml` or `.json`.
+    /// Joints are matched by name, and every joint of the arm must be there.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the line.
+    pub fn read(name: &str, text: String, arm: &RobotModel) -> Result<Self, ReadError> {
+        let file = ProgramFile {
+            name: name.to_owned(),
+            text,
+        };
+        let (points, lines) = match file.name.to_ascii_lowercase().ends_with(".csv") {
+            true => csv::read(&file, arm)?,
+            false => ros::read(&file, arm)?,
+        };
+        let name = file.name;
+        Ok(Self { name, points, lines })
+    }
+
+    /// Returns the motion through the points: see [`JointPoints::motion`].
+    ///
+    /// # Errors
+    /// [`ReadError`] with the line.
+    pub fn motion(&self, arm: &RobotModel, choice: Option<Interpolation>) -> Result<PointMotion, ReadError> {
+        self.points.motion(arm, choice).map_err(|error| {
+            let line = error
+                .point()
+                .and_then(|point| self.lines.get(point))
+                .or(self.lines.first());
+            ReadError::at(&self.name, line.copied().unwrap_or(1), error.to_string())
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,191 @@
+//! Trajectories as ROS messages in YAML or JSON, of ROS 1 and ROS 2: `trajectory_msgs/JointTrajectory`, `moveit_msgs/RobotTrajectory`, and
+//! goals of `control_msgs/action/FollowJointTrajectory`.
+//!
+//! Joints are matched by name. Headers, tolerances and efforts are not read.
+
+use crate::dialect::{ProgramFile, ReadError};
+use crate::ros2::node::{Fault, Node};
+use crate::ros2::number::ParsedNumber;
+use crate::ros2::read::{Fields, document, entries, list, parse_number, refused, text};
+use crate::ros2::write::{NS_PER_S, seconds_between};
+use crate::trajectory::JointPoints;
+use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_workcell::words::quoted;
+
+/// Reads a message: the points, and the line of each.
+pub(super) fn read(file: &ProgramFile, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), ReadError> {
+    // `ros2 topic echo` ends each message so.
+    let ended = file.text.trim_end().strip_suffix("\n---").unwrap_or(&file.text);
+    let root = document(
+        &file.name,
+        ended,
+        "expected a trajectory .csv, .yaml, .yml or .json; found another name",
+    );
+    let read = root.and_then(|root| message(&root, arm));
+    read.map_err(|fault| refused(file, fault))
+}
+
+/// Finds the `JointTrajectory` of a message.
+fn message(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), Fault> {
+    let has = |key: &str| Ok(entries(root, "a message")?.iter().any(|entry| entry.key == key));
+    if has("joint_trajectory")? {
+        let robot = ["joint_trajectory", "multi_dof_joint_trajectory"];
+        let fields = Fields::of(root, "a RobotTrajectory", &robot)?;
+        if let Some(other) = fields.get("multi_dof_joint_trajectory") {
+            check_no_points(other)?;
+        }
+        return trajectory(fields.needed("joint_trajectory")?, arm);
+    }
+    if has("trajectory")? {
+        let goal = [
+            "trajectory",
+            "multi_dof_trajectory",
+            "path_tolerance",
+            "component_path_tolerance",
+            "goal_tolerance",
+            "component_goal_tolerance",
+            "goal_time_tolerance",
+        ];
+        let fields = Fields::of(root, "a FollowJointTrajectory goal", &goal)?;
+        if let Some(other) = fields.get("multi_dof_trajectory") {
+            check_no_points(other)?;
+        }
+        return trajectory(fields.needed("trajectory")?, arm);
+    }
+    trajectory(root, arm)
+}
+
+/// Refuses a motion of joints with more than one degree of freedom.
+fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
+    let fields = Fields::of(node, "a MultiDOFJointTrajectory", &["header", "joint_names", "points"])?;
+    match fields.get("points").map(list).transpose()? {
+        Some([point, ..]) => Err(Fault::new(
+            point.line,
+            "expected no motion of joints with more than one degree of freedom; found points of one",
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn trajectory(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), Fault> {
+    let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
+    let order = order(fields.needed("joint_names")?, arm)?;
+    let nodes = list(fields.needed("points")?)?;
+    let (mut points, mut lines) = (JointPoints::default(), Vec::new());
+    let (mut times_ns, mut speeds) = (Vec::new(), Vec::new());
+    for node in nodes {
+        let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
+        let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
+        let joints = |row: Vec<f64>| JointVector::from_fn(|joint, _| row[order[joint]]);
+        let row = |name| row(&point, name);
+        let Some(positions) = row("positions")? else {
+            return Err(Fault::new(node.line, format!("expected {AXES} positions; found none")));
+        };
+        points.q_rad.push(joints(positions));
+        speeds.extend(row("velocities")?.map(joints));
+        points.has_accelerations |= row("accelerations")?.is_some();
+        if let Some(time) = point.get("time_from_start") {
+            times_ns.push(duration_ns(time)?);
+        }
+        for (what, found) in [("velocities", speeds.len()), ("time_from_start", times_ns.len())] {
+            if found != 0 && found != points.q_rad.len() {
+                let reason =
+                    format!("expected {what} at every point or at none; some points have them and others do not");
+                return Err(Fault::new(node.line, reason));
+            }
+        }
+        if let [.., before, found] = times_ns[..]
+            && found <= before
+        {
+            let [before_s, found_s] = [before, found].map(|ns| seconds_between(0, ns));
+            let line = point.get("time_from_start").map_or(node.line, |time| time.line);
+            let reason = format!("expected a time after {before_s} s, that of the point before; found {found_s} s");
+            return Err(Fault::new(line, reason));
+        }
+        lines.push(node.line);
+    }
+    let second = |ns: &i128| seconds_between(0, *ns);
+    points.t_s = (!times_ns.is_empty()).then(|| times_ns.iter().map(second).collect());
+    points.qd_rad_s = (!speeds.is_empty()).then_some(speeds);
+    Ok((points, lines))
+}
+
+/// Place in the message of each joint of the arm.
+fn order(node: &Node<'_>, arm: &RobotModel) -> Result<[usize; AXES], Fault> {
+    let known = arm.joints().each_ref().map(|joint| joint.name.as_str());
+    let all = known.join(", ");
+    let mut names: Vec<String> = Vec::new();
+    for name in list(node)? {
+        let (line, name) = (name.line, text(name)?);
+        let found = quoted(&name);
+        if names.contains(&name) {
+            return Err(Fault::new(
+                line,
+                format!("expected each joint once; found {found} again"),
+            ));
+        }
+        if !known.contains(&name.as_str()) {
+            let reason = format!("expected the arm's joints {all}; found {found}, which is none of them");
+            return Err(Fault::new(line, reason));
+        }
+        names.push(name);
+    }
+    let mut places = [0; AXES];
+    for (place, joint) in places.iter_mut().zip(known) {
+        let Some(found) = names.iter().position(|name| name == joint) else {
+            let reason = format!("expected the arm's joints {all}; {} is missing", quoted(joint));
+            return Err(Fault::new(node.line, reason));
+        };
+        *place = found;
+    }
+    Ok(places)
+}
+
+/// Numbers of a point, one for each joint; `None` for a row that is left out or empty.
+fn row(point: &Fields<'_, '_>, name: &str) -> Result<Option<Vec<f64>>, Fault> {
+    let Some(node) = point.get(name) else { return Ok(None) };
+    let row: Vec<_> = list(node)?.iter().map(number).collect::<Result<_, _>>()?;
+    match row.len() {
+        0 => Ok(None),
+        AXES => Ok(Some(row)),
+        found => Err(Fault::new(node.line, format!("expected {AXES} {name}; found {found}"))),
+    }
+}
+
+fn number(node: &Node<'_>) -> Result<f64, Fault> {
+    match parse_number(node) {
+        ParsedNumber::Float(value) | ParsedNumber::TextInYaml11(value) => Ok(value),
+        ParsedNumber::Whole(value) => Ok(value as f64),
+        ParsedNumber::Nothing => {
+            let found = node.kind.message();
+            Err(Fault::new(
+                node.line,
+                format!("expected a finite number in decimals; found {found}"),
+            ))
+        }
+    }
+}
+
+/// A duration of ROS 2 (`sec`, `nanosec`) or ROS 1 (`secs`, `nsecs`) \[ns\].
+fn duration_ns(node: &Node<'_>) -> Result<i128, Fault> {
+    let fields = Fields::of(node, "a Duration", &["sec", "nanosec", "secs", "nsecs"])?;
+    let whole = |keys: [&str; 2]| {
+        let Some(node) = keys.into_iter().find_map(|key| fields.get(key)) else {
+            return Err(Fault::new(
+                node.line,
+                format!("expected a Duration with {}; it is missing", keys[0]),
+            ));
+        };
+        match parse_number(node) {
+            ParsedNumber::Whole(found) if found >= 0 => Ok(i128::from(found)),
+            _ => {
+                let found = node.kind.message();
+                Err(Fault::new(
+                    node.line,
+                    format!("expected a whole number from 0 on; found {found}"),
+                ))
+            }
+        }
+    };
+    Ok(whole(["sec", "secs"])? * i128::from(NS_PER_S) + whole(["nanosec", "nsecs"])?)
+}

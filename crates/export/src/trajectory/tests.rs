@@ -1,0 +1,248 @@
+//! Trajectories of files: what is read, and what is refused with its line.
+
+use super::*;
+
+fn arm() -> RobotModel {
+    RobotModel::irb120().unwrap()
+}
+
+fn read(name: &str, text: &str) -> Result<TrajectoryFile, String> {
+    TrajectoryFile::read(name, text.to_owned(), &arm()).map_err(|e| e.to_string())
+}
+
+fn motion(name: &str, text: &str) -> Result<PointMotion, String> {
+    read(name, text)?.motion(&arm(), None).map_err(|e| e.to_string())
+}
+
+fn error(name: &str, text: &str) -> String {
+    motion(name, text).unwrap_err()
+}
+
+const ZEROS: &str = "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]";
+
+/// A message whose joints are in the reverse order, with some lines for its second point.
+fn message(second: &str) -> String {
+    format!(
+        "joint_names: [joint_6, joint_5, joint_4, joint_3, joint_2, joint_1]\npoints:\n- positions: {ZEROS}\n  velocities: {ZEROS}\n  \
+         time_from_start: {{sec: 0, nanosec: 500000000}}\n- {second}\n"
+    )
+}
+
+const SECOND: &str = "positions: [0.6, 0.5, 0.4, 0.3, 0.2, 1e-1]\n  velocities: [0, 0.0, 0.0, 0.0, 0.0, 0.25]\n  time_from_start:\n    sec: 2\n    nanosec: 0";
+
+#[test]
+fn reads_messages_with_joints_by_name() {
+    let expected = JointVector::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.6);
+    let bare = message(SECOND);
+    let indented: String = bare.lines().map(|line| format!("  {line}\n")).collect();
+    let robot = format!("joint_trajectory:\n{indented}multi_dof_joint_trajectory: {{joint_names: [], points: []}}\n");
+    let goal = format!("trajectory:\n{indented}path_tolerance: []\ngoal_time_tolerance: {{sec: 1, nanosec: 0}}\n");
+    for text in [bare.clone(), format!("{bare}---\n"), robot, goal] {
+        let found = motion("a.yaml", &text).unwrap();
+        assert_eq!((found.interpolation, found.start_s), (Interpolation::Cubic, Some(0.5)));
+        let [piece] = found.motion.pieces() else {
+            panic!("{found:?}")
+        };
+        assert_eq!(
+            (piece.t_s, piece.q_rad[1], piece.qd_rad_s[1][0]),
+            ([0.0, 1.5], expected, 0.25)
+        );
+    }
+    let json = r#"{"joint_names": ["joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6"], "points": [
+        {"positions": [0, 0, 0, 0, 0, 0], "time_from_start": {"secs": 0, "nsecs": 0}},
+        {"positions": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], "time_from_start": {"secs": 1, "nsecs": 0}, "effort": []}]}"#;
+    let found = motion("a.json", json).unwrap();
+    assert_eq!(
+        (found.interpolation, found.motion.pieces()[0].q_rad[1]),
+        (Interpolation::Linear, expected)
+    );
+}
+
+#[test]
+fn reads_tables_by_column() {
+    let full = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,qd1_rad_s,qd2_rad_s,qd3_rad_s,qd4_rad_s,qd5_rad_s,qd6_rad_s\n\
+                1,0,0,0,0,0,0,0,0,0,0,0,0\n2,1,0.2,0.3,0.4,0.5,0.6,0.7,0,0,0,0,0\n";
+    let found = motion("a.csv", full).unwrap();
+    assert_eq!(
+        (found.interpolation, found.start_s, found.motion.duration_s()),
+        (Interpolation::Cubic, Some(1.0), 1.0)
+    );
+    assert_eq!(found.motion.pieces()[0].qd_rad_s[1][0], 0.7);
+    // Names of joints, in any order, without times; with a comment.
+    let named = "# a path\njoint_2,joint_1,joint_3,joint_4,joint_5,joint_6\n0,0,0,0,0,0\n0.2,0.1,0.3,0.4,0.5,0.6\n0.2,0.1,0.3,0.4,0.5,0.6\n";
+    let found = motion("A.CSV", named).unwrap();
+    assert_eq!((found.interpolation, found.start_s), (Interpolation::Linear, None));
+    let pieces = found.motion.pieces();
+    assert_eq!(pieces[0].q_rad[1], JointVector::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
+    assert_eq!((pieces.len(), pieces[1].t_s), (2, [1.0, 2.0]));
+    assert_eq!(pieces[1].qd_rad_s, [JointVector::zeros(); 2]);
+}
+
+#[test]
+fn refuses_messages_with_the_line() {
+    let second = |from: &str, to: &str| message(&SECOND.replace(from, to));
+    let accelerations = format!(
+        "positions: {ZEROS}\n  velocities: {ZEROS}\n  accelerations: {ZEROS}\n  time_from_start: {{sec: 2, nanosec: 0}}"
+    );
+    let cases = [
+        (
+            message(SECOND).replace("joint_6,", "finger,"),
+            "a.yaml:1: expected the arm's joints",
+            "\"finger\"",
+        ),
+        (
+            message(SECOND).replace("joint_6, ", ""),
+            "a.yaml:1:",
+            "\"joint_6\" is missing",
+        ),
+        (
+            message(SECOND).replace("joint_6", "joint_5"),
+            "a.yaml:1:",
+            "\"joint_5\" again",
+        ),
+        (second("0.6, 0.5", "0.6"), "a.yaml:6: expected 6 positions; found 5", ""),
+        (second("0.6,", ".nan,"), "a.yaml:6:", "expected a finite number"),
+        (
+            second("velocities", "velocity"),
+            "a.yaml:7:",
+            "found the key \"velocity\"",
+        ),
+        (
+            second("sec: 2", "sec: 0"),
+            "a.yaml:9: expected a time after 0.5 s",
+            "found 0 s",
+        ),
+        (second("sec: 2", "sec: -2"), "a.yaml:9:", "whole number"),
+        (
+            second("velocities: [0, 0.0, 0.0, 0.0, 0.0, 0.25]", "effort: []"),
+            "a.yaml:6:",
+            "velocities at every point or at none",
+        ),
+        (message(&accelerations), "a.yaml:3:", "quintic"),
+        (
+            second("[0.6, 0.5", "[60.0, 50.0"),
+            "a.yaml:6: point 1: joint joint_5 at 50 rad",
+            "look like degrees",
+        ),
+        (
+            "joint_names: []\npoints: []\n".to_owned(),
+            "a.yaml:1:",
+            "\"joint_1\" is missing",
+        ),
+        (
+            message(SECOND).split("\n- ").next().unwrap().to_owned() + "\n",
+            "a.yaml:2: expected a list; found nothing",
+            "",
+        ),
+        ("{".to_owned(), "a.yaml", "YAML"),
+    ];
+    for (text, start, words) in cases {
+        let found = error("a.yaml", &text);
+        assert!(
+            found.starts_with(start) && found.contains(words),
+            "{start} {words}: {found}"
+        );
+    }
+    assert!(error("a.json", "{").contains("not JSON"));
+    assert!(error("a.txt", "x").contains("another name"));
+    let chosen = read("a.yaml", &message(&accelerations))
+        .unwrap()
+        .motion(&arm(), Some(Interpolation::Cubic));
+    assert_eq!(chosen.unwrap().interpolation, Interpolation::Cubic);
+}
+
+#[test]
+fn refuses_tables_with_the_line() {
+    let head = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n";
+    let cases = [
+        (
+            format!("{head}0,0,0,0,0,0,0\n"),
+            "a.csv:2:",
+            "two points at least; found 1",
+        ),
+        (
+            format!("{head}0,0,0,0,0,0,0\n0,0,0,0,0,0,0.1\n"),
+            "a.csv:3:",
+            "must come after",
+        ),
+        (
+            format!("{head}0,0,0,0,0,0,0\n1,0,0,NaN,0,0,0.1\n"),
+            "a.csv:3: column 4 (q3_rad)",
+            "\"NaN\"",
+        ),
+        (
+            format!("{head}0,0,0,0,0,0,0\n1,0,0,0,0,0\n"),
+            "a.csv:3:",
+            "found 6 columns; expected 7",
+        ),
+        (
+            format!("{head}0,0,0,0,0,0,0\n1,90,0,45,0,0,180\n"),
+            "a.csv:3: point 1: joint joint_1 at 90 rad",
+            "degrees",
+        ),
+        (
+            head.replace("q6_rad", "q7_rad"),
+            "a.csv:1: column \"q7_rad\" is unknown",
+            "",
+        ),
+        (
+            "joint_1,joint_2\n0,0\n".to_owned(),
+            "a.csv:1: column \"joint_3\" is missing",
+            "",
+        ),
+        (
+            head.replace("t_s,", "")
+                .replace('\n', ",qd1_rad_s,qd2_rad_s,qd3_rad_s,qd4_rad_s,qd5_rad_s,qd6_rad_s\n")
+                + "0,0,0,0,0,0,0,0,0,0,0,0\n",
+            "a.csv:2:",
+            "speeds and no times",
+        ),
+    ];
+    for (text, start, words) in cases {
+        let found = error("a.csv", &text);
+        assert!(
+            found.starts_with(start) && found.contains(words),
+            "{start} {words}: {found}"
+        );
+    }
+    let times = format!("{head}0,0,0,0,0,0,0\n1,0,0,0,0,0,0.1\n");
+    let cubic = read("a.csv", &times)
+        .unwrap()
+        .motion(&arm(), Some(Interpolation::Cubic));
+    assert!(cubic.unwrap_err().to_string().contains("no speeds"));
+}
+
+#[test]
+fn refuses_arrays_that_do_not_fit() {
+    let q = vec![JointVector::zeros(), JointVector::repeat(0.1)];
+    let made = |t_s, qd_rad_s| JointPoints {
+        q_rad: q.clone(),
+        t_s,
+        qd_rad_s,
+        has_accelerations: false,
+    };
+    let error = |points: JointPoints| points.motion(&arm(), None).unwrap_err();
+    assert_eq!(
+        error(made(Some(vec![0.0]), None)),
+        PointsError::Count {
+            what: "times",
+            expected: 2,
+            found: 1
+        }
+    );
+    assert_eq!(
+        error(made(Some(vec![0.0, f64::NAN]), None)),
+        PointsError::NotFinite { point: 1 }
+    );
+    assert!(matches!(
+        error(made(Some(vec![0.0, -1.0]), None)),
+        PointsError::TimeOrder { point: 1, .. }
+    ));
+    // The last two differ by less than their distance from the first can tell.
+    let close = JointPoints {
+        q_rad: vec![JointVector::zeros(); 3],
+        t_s: Some(vec![-1e17, 0.0, 0.5]),
+        ..JointPoints::default()
+    };
+    assert!(matches!(error(close), PointsError::TimeOrder { point: 2, .. }));
+}
