@@ -17,6 +17,7 @@ mod options;
 mod output;
 mod page;
 mod plan_file;
+mod prove_motion;
 mod reproduce;
 mod robot;
 mod run;
@@ -82,6 +83,14 @@ enum Verb {
     /// --program judges an exported robot program, changed or not: exit code 0 if its motion keeps the requirements that the answer lists,
     /// else 4.
     Verify(verify::VerifyArguments),
+    /// Prove a trajectory of any planner: joint limits, and clearance of every pair of bodies at every moment
+    ///
+    /// The arm is that of --urdf (default: the IRB 120), with the links of its description and no other tool; the obstacles are those of
+    /// --obstacles, in the frame of the arm's base. Joints are matched by name.
+    ///
+    /// Exit code 0 if the motion is proved, else 4: broken at a stated moment, or not proved. Without times in the trajectory, positions
+    /// and clearance are proved for any timing of straight lines. docs/prove-motion.md has the formats and the assumptions.
+    ProveMotion(prove_motion::ProveMotionArguments),
     /// Compare two plan files: job, cycle time and proved bounds
     ///
     /// Both plans are proved. The exit code is 0 whatever differs; the first lines say what is proved.
@@ -260,6 +269,7 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode> {
         Verb::Validate => scenario::validate(options),
         Verb::Scenario(arguments) => scenario::show(options, &arguments),
         Verb::Verify(arguments) => verify::run(options, &arguments),
+        Verb::ProveMotion(arguments) => prove_motion::run(options, &arguments),
         Verb::Compare(arguments) => compare::run(options, &arguments),
         Verb::DryRun(arguments) => dry_run::run(options, &arguments),
         Verb::Align(arguments) => align::run(options, &arguments),

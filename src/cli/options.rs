@@ -205,7 +205,7 @@ pub const PLAN_STATES: &str =
     "the plan file states its job and its seed; leave it out (verify --against compares them with a scenario)";
 
 /// Verbs, the options that they do not take, and the reason.
-const REFUSED: [(&str, &str, &str); 7] = [
+const REFUSED: [(&str, &str, &str); 8] = [
     (
         "verify simulate tune view figures export dry-run compare",
         "scenario tool_mount",
@@ -216,6 +216,11 @@ const REFUSED: [(&str, &str, &str); 7] = [
         "align",
         "scenario seed urdf package_path srdf tool_mount out",
         "align works from the points of its file alone, without a scenario or a seed, and writes no file; leave it out",
+    ),
+    (
+        "prove-motion",
+        "scenario seed tool_mount out",
+        "prove-motion judges a trajectory of the bare arm, without a scenario, and writes no file; leave it out",
     ),
     (
         "study",

@@ -23,6 +23,7 @@ mod messages;
 mod one_run;
 mod other_arms;
 mod page;
+mod prove_motion;
 mod reader;
 mod remedies;
 mod scenarios;

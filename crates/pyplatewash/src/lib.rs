@@ -17,6 +17,7 @@ mod errors;
 mod export;
 mod job;
 mod layout;
+mod motion_proof;
 mod page;
 mod paper;
 mod plan;
@@ -56,6 +57,8 @@ mod _core {
     use crate::job::{PaperJobObject, WashJobObject};
     #[pymodule_export]
     use crate::layout::LayoutObject;
+    #[pymodule_export]
+    use crate::motion_proof::prove_motion;
     #[pymodule_export]
     use crate::page::{_configuration_page, _plan_page, _save};
     #[pymodule_export]

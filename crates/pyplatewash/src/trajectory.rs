@@ -14,7 +14,8 @@ const TIMES: ExpectedShape = ExpectedShape {
     item: &[],
     count: Count::Any,
 };
-const MANY_TIMES: ExpectedShape = ExpectedShape {
+/// A stack of times.
+pub const MANY_TIMES: ExpectedShape = ExpectedShape {
     item: &[],
     count: Count::Stack,
 };

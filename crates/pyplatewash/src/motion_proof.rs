@@ -1,0 +1,146 @@
+//! `prove_motion`: a trajectory of any planner, proved over its whole time.
+
+use crate::argument;
+use crate::arrays::{self, MANY_JOINTS, Numbers};
+use crate::errors;
+use crate::robot::Robot;
+use crate::trajectory::MANY_TIMES;
+use crate::value::{from_mapping, to_record};
+use crate::work::patiently;
+use platewash::export::trajectory::{Interpolation, JointPoints, PointsError};
+use platewash::scenario::ObstacleText;
+use platewash::{Failure, JointVector, ProveError};
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyMapping, PyString, PyTuple};
+
+/// Clearance that is required unless another one is given [m].
+const CLEARANCE_M: f64 = 0.005;
+
+const INTERPOLATIONS: [(&str, Interpolation); 2] = [("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)];
+
+/// Proves a motion of an arm, of any planner, at every moment and not at samples: joint limits, and the clearance of every pair of bodies, the
+/// arm's own links included.
+///
+/// `q`, shape (N, 6) [rad], are the points in the order of the arm's joints; `t`, shape (N,) [s], their times, and `qd`, shape (N, 6) [rad/s],
+/// their speeds. Between points the motion is `"linear"` (straight in joint space) or `"cubic"` (with the positions and speeds of both
+/// points), by default cubic where there is `qd`. Without `t` positions and clearance are proved for any timing, and speeds are not judged.
+/// `obstacles` is the path of a TOML file with `[[obstacle]]`, `[floor]` and `[table]` sections, a list of dictionaries with the keys of
+/// `[[obstacle]]`, or a dictionary of all three sections; they are in the frame of the arm's base, and nothing else is there.
+/// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given.
+///
+/// Returns a record: `proved`, `verdict` (`"proved"`, `"broken"`, `"not_proved"`), `headline`, `rules` (each with `requirement`, `status`,
+/// `measure`, and the `worst` moment with `time_s`, `point`, `share`, `q_rad`), `clearance` pair by pair, `excluded` pairs and `assumptions`. Its
+/// text is what the command prints.
+///
+/// Raises InputError for points that are no motion; ScenarioError for obstacles that do not fit.
+#[pyfunction]
+#[pyo3(signature = (q, t=None, qd=None, *, robot=None, obstacles=None, clearance_m=None, interpolation=None, acceleration_limits=None),
+    text_signature = "(q, t=None, qd=None, *, robot=None, obstacles=None, clearance_m=0.005, interpolation=None, acceleration_limits=None)")]
+#[allow(clippy::too_many_arguments)] // They have names in Python.
+pub fn prove_motion<'py>(
+    py: Python<'py>,
+    q: &Bound<'py, PyAny>,
+    t: Option<&Bound<'py, PyAny>>,
+    qd: Option<&Bound<'py, PyAny>>,
+    robot: Option<&Bound<'py, PyAny>>,
+    obstacles: Option<&Bound<'py, PyAny>>,
+    clearance_m: Option<&Bound<'py, PyAny>>,
+    interpolation: Option<&Bound<'py, PyAny>>,
+    acceleration_limits: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let joints = |name: &str, value: &Bound<'py, PyAny>| -> PyResult<Vec<JointVector>> {
+        Ok(Numbers::read(name, value, MANY_JOINTS)?.joints()?.to_vec())
+    };
+    let times = t.map(|t| -> PyResult<_> { Ok(Numbers::read("t", t, MANY_TIMES)?.values()?.to_vec()) });
+    let points = JointPoints {
+        q_rad: joints("q", q)?,
+        t_s: times.transpose()?,
+        qd_rad_s: qd.map(|qd| joints("qd", qd)).transpose()?,
+        has_accelerations: false,
+    };
+    let clearance_m = argument::number_or("clearance_m", clearance_m, CLEARANCE_M)?;
+    if !(0.0..=1.0).contains(&clearance_m) {
+        let problem = format!("a number from 0 to 1 is needed [m]; found {clearance_m}");
+        return Err(errors::input(py, "clearance_m", &problem));
+    }
+    let choice = interpolation.map(|word| argument::word("interpolation", word, &INTERPOLATIONS));
+    let choice = choice.transpose()?;
+    let limits = acceleration_limits.map(|limits| arrays::joint_vector("acceleration_limits", limits));
+    let limits = limits.transpose()?;
+    if let Some(found) = limits
+        .iter()
+        .flatten()
+        .find(|limit| !(**limit > 0.0 && limit.is_finite()))
+    {
+        let problem = format!("finite numbers above 0 are needed [rad/s²]; found {found}");
+        return Err(errors::input(py, "acceleration_limits", &problem));
+    }
+    if limits.is_some() && points.t_s.is_none() {
+        let problem = "accelerations cannot be judged without times: give t, or leave the limits out";
+        return Err(errors::input(py, "acceleration_limits", problem));
+    }
+    let arm = match Robot::given(robot)? {
+        Some(robot) => robot.get().model().clone(),
+        None => Robot::built_in(py)?.get().model().clone(),
+    };
+    let text = obstacles.map(obstacle_text).transpose()?;
+    let motion = points.motion(&arm, choice);
+    let motion = motion.map_err(|error| errors::input(py, argument_of(&error), &error.to_string()))?;
+    let judged = patiently(py, move |cancel| -> Result<_, Failure> {
+        let obstacles = match text {
+            Some(text) => text.obstacles(&arm, &[])?,
+            None => Vec::new(),
+        };
+        Ok(platewash::prove_motion(
+            &motion,
+            &arm,
+            obstacles,
+            clearance_m,
+            limits,
+            cancel,
+        ))
+    })?;
+    let judged = judged.map_err(|failure| errors::failure(py, &failure))?;
+    let report = judged.map_err(|error| match error {
+        ProveError::Cancelled(_) => errors::failure(py, &error.into()),
+        other => errors::input(py, "q", &other.to_string()),
+    })?;
+    to_record(py, &report, Some(report.to_string()))
+}
+
+/// Argument that a fault of the points belongs to.
+fn argument_of(error: &PointsError) -> &'static str {
+    match error {
+        PointsError::TimeOrder { .. } | PointsError::Count { what: "times", .. } => "t",
+        PointsError::SpeedsWithoutTimes | PointsError::Count { .. } => "qd",
+        PointsError::NotCubic { .. } => "interpolation",
+        _ => "q",
+    }
+}
+
+/// Obstacles of a file, of a list of `[[obstacle]]` sections, or of a table of all sections.
+fn obstacle_text(obstacles: &Bound<'_, PyAny>) -> PyResult<ObstacleText> {
+    let py = obstacles.py();
+    let is_list = obstacles.is_instance_of::<PyList>() || obstacles.is_instance_of::<PyTuple>();
+    if !is_list && obstacles.cast::<PyMapping>().is_err() {
+        if obstacles.is_instance_of::<PyString>() || obstacles.hasattr("__fspath__")? {
+            let path = argument::path("obstacles", obstacles)?;
+            return ObstacleText::load(&path).map_err(|e| errors::scenario(py, &e));
+        }
+        let needed = "a path, a list of dictionaries or a dictionary";
+        return Err(argument::wrong_type("obstacles", obstacles, needed));
+    }
+    let table = match is_list {
+        true => {
+            let table = pyo3::types::PyDict::new(py);
+            table.set_item("obstacle", obstacles)?;
+            from_mapping("", &table)?
+        }
+        false => from_mapping("obstacles", obstacles)?,
+    };
+    Ok(ObstacleText {
+        name: "obstacles".to_owned(),
+        text: toml::to_string(&table).map_err(|e| errors::input(py, "obstacles", &e.to_string()))?,
+        folder: None,
+    })
+}

@@ -1,0 +1,521 @@
+//! The proof of a motion of an arm alone, of any planner: for people and as data.
+
+use platewash_certificate::{
+    ArmMotionProof, Check, Measure, MotionRules, PairBound, ProveError, Requirement, Status, Timing, prove_arm_motion,
+};
+use platewash_export::trajectory::{Interpolation, PointMotion};
+use platewash_kinematics::words::{decimals_down, distinct_decimals, rounded};
+use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::piecewise::PiecewiseMotion;
+use platewash_workcell::words::count_with_noun;
+use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, Workcell};
+use serde::Serialize;
+use std::fmt;
+
+/// Verdict on a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionVerdict {
+    /// Every rule holds at every moment.
+    Proved,
+    /// A rule is broken at a stated moment.
+    Broken,
+    /// Neither a proof nor a broken rule was found.
+    NotProved,
+}
+
+/// Moment of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MotionMoment {
+    /// Time, as the points state it \[s\]; `None` where they state none.
+    pub time_s: Option<f64>,
+    /// Index of the point before, from 0.
+    pub point: usize,
+    /// Share of the piece from that point to the next that is done, 0 to 1: in time, or of the line where the points have no times.
+    pub share: f64,
+    /// Joint positions \[rad\].
+    pub q_rad: [f64; AXES],
+}
+
+/// Rule that a motion was judged by, with its worst case.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JudgedRule {
+    /// The rule.
+    pub requirement: Requirement,
+    /// Result.
+    pub status: Status,
+    /// Bound, worst value seen and limit: for positions the margin from the limit \[rad\], for speeds and accelerations the greatest value
+    /// \[rad/s, rad/s²\], for the clearance the least distance \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measure: Option<Measure>,
+    /// Name of the worst joint.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// Names of the nearest bodies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pair: Option<[String; 2]>,
+    /// Moment of the worst value seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worst: Option<MotionMoment>,
+    /// Midpoint between the nearest bodies then, in the frame of the base \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place_m: Option<[f64; 3]>,
+}
+
+/// Proof of a motion of an arm among obstacles. Lengths in metres, angles in radians, times in seconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotionReport {
+    /// True where every rule holds at every moment.
+    pub proved: bool,
+    /// The verdict.
+    pub verdict: MotionVerdict,
+    /// The first line.
+    pub headline: String,
+    /// Name of the arm.
+    pub robot: String,
+    /// Number of points.
+    pub points: usize,
+    /// Motion between two points: `linear` or `cubic`.
+    pub interpolation: &'static str,
+    /// Times of the first and the last point \[s\]; `None` where the points state none.
+    pub span_s: Option<[f64; 2]>,
+    /// Required clearance \[m\].
+    pub required_clearance_m: f64,
+    /// Names of the obstacles.
+    pub obstacles: Vec<String>,
+    /// The rules, each with its result.
+    pub rules: Vec<JudgedRule>,
+    /// True where the clearance is broken, and a check of the points alone finds nothing.
+    pub only_between_points: bool,
+    /// Links that keep clear of nothing, as their description has no shape for them.
+    pub shapeless: Vec<String>,
+    /// Clearance of each pair of bodies.
+    pub clearance: Vec<PairBound>,
+    /// Pairs of bodies that are not judged, with the reason of each.
+    pub excluded: Vec<Exclusion>,
+    /// What the verdict rests on; one sentence each.
+    pub assumptions: Vec<String>,
+}
+
+/// Judges the motion of a bare arm, whose base is the origin of the world, among obstacles: joint limits, and the clearance of every pair of
+/// bodies, at every moment. The tool is part of the arm's description, or not there.
+///
+/// ```
+/// use platewash::export::trajectory::JointPoints;
+/// use platewash::{CancelToken, JointVector, RobotModel, prove_motion};
+///
+/// let arm = RobotModel::irb120()?;
+/// let points = JointPoints { q_rad: vec![JointVector::zeros(), JointVector::repeat(0.5)], ..JointPoints::default() };
+/// let motion = points.motion(&arm, None)?;
+/// let report = prove_motion(&motion, &arm, Vec::new(), 0.005, None, &CancelToken::new())?;
+/// assert!(report.headline.starts_with("PROVED"), "{report}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// `acceleration_rad_s2` are the greatest joint accelerations, if they are to be judged. Without times only positions and clearance are.
+///
+/// # Errors
+/// [`ProveError`] for what cannot be judged, and when it is given up. A motion that breaks a rule is no error.
+pub fn prove_motion(
+    motion: &PointMotion,
+    arm: &RobotModel,
+    obstacles: Vec<Obstacle>,
+    clearance_m: f64,
+    acceleration_rad_s2: Option<JointVector>,
+    cancel: &CancelToken,
+) -> Result<MotionReport, ProveError> {
+    let names = obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
+    let workcell = Workcell::without_tool(arm, Pose::identity(), obstacles)?;
+    let rules = MotionRules {
+        clearance_m,
+        acceleration_rad_s2,
+        timing: motion.start_s.map_or(Timing::Free, |_| Timing::Stated),
+    };
+    let proof = prove_arm_motion(&motion.motion, &workcell, arm, &rules, cancel)?;
+    Ok(MotionReport::new(motion, arm, names, &rules, proof))
+}
+
+impl MotionReport {
+    fn new(
+        motion: &PointMotion,
+        arm: &RobotModel,
+        obstacles: Vec<String>,
+        rules: &MotionRules,
+        proof: ArmMotionProof,
+    ) -> Self {
+        let verdict = match proof.status() {
+            Status::Violated => MotionVerdict::Broken,
+            Status::Proved => MotionVerdict::Proved,
+            Status::NotProved | Status::Waived => MotionVerdict::NotProved,
+        };
+        let shift = |time_s: Option<f64>| time_s.and_then(|t_s| Some(t_s + motion.start_s?));
+        let mut clearance = proof.clearance;
+        for pair in &mut clearance {
+            pair.time_s = shift(pair.time_s);
+        }
+        let mut report = Self {
+            proved: verdict == MotionVerdict::Proved,
+            verdict,
+            headline: String::new(),
+            robot: arm.name().to_owned(),
+            points: motion.motion.pieces().len() + 1,
+            interpolation: match motion.interpolation {
+                Interpolation::Linear => "linear",
+                Interpolation::Cubic => "cubic",
+            },
+            span_s: motion
+                .start_s
+                .map(|start_s| [start_s, start_s + motion.motion.duration_s()]),
+            required_clearance_m: rules.clearance_m,
+            rules: proof.checks.iter().map(|check| judged(check, motion, arm)).collect(),
+            only_between_points: proof
+                .least_at_knots_m
+                .is_some_and(|least_m| least_m >= rules.clearance_m && least_m > 0.0),
+            shapeless: proof.shapeless,
+            clearance,
+            assumptions: assumptions(motion, &obstacles, rules, &proof.excluded),
+            excluded: proof.excluded,
+            obstacles,
+        };
+        report.headline = report.first_line(arm);
+        report
+    }
+
+    /// The rule at fault: one that is broken, or else one that is not proved.
+    fn at_fault(&self) -> Option<&JudgedRule> {
+        let of = |status| self.rules.iter().rev().find(|rule| rule.status == status);
+        of(Status::Violated).or_else(|| of(Status::NotProved))
+    }
+
+    fn first_line(&self, arm: &RobotModel) -> String {
+        let required = self.required_words();
+        let (fault, points) = (self.at_fault(), count_with_noun(self.points, "point"));
+        match (self.verdict, fault) {
+            (MotionVerdict::Proved, _) => {
+                let bound_m = self.bound_m().map(|m| m.max(self.required_clearance_m));
+                let least = bound_m.map_or_else(String::new, |m| format!("at least {}", millimetres_down(m)));
+                let span = self.span_s.map_or("for any timing".to_owned(), |[from, to]| {
+                    format!("over {} s", rounded(to - from, 6))
+                });
+                format!(
+                    "PROVED: a motion through {points} {span} keeps its joint limits, and clearance {least} ({required})"
+                )
+            }
+            (MotionVerdict::Broken, Some(rule)) => format!("BROKEN: {}", self.fault_words(rule, arm)),
+            (_, Some(rule)) => format!("NOT PROVED: {}", self.fault_words(rule, arm)),
+            (_, None) => format!(
+                "NOT PROVED: {} of the arm's description without a collision shape: {}",
+                count_with_noun(self.shapeless.len(), "link"),
+                self.shapeless.join(", ")
+            ),
+        }
+    }
+
+    /// The least clearance that is proved over all pairs \[m\].
+    fn bound_m(&self) -> Option<f64> {
+        let rule = self
+            .rules
+            .iter()
+            .find(|rule| rule.requirement == Requirement::Clearance)?;
+        rule.measure?.bound
+    }
+
+    fn required_words(&self) -> String {
+        match self.required_clearance_m {
+            0.0 => "no contact allowed".to_owned(),
+            required_m => format!("{} mm required", rounded(1e3 * required_m, 6)),
+        }
+    }
+
+    fn fault_words(&self, rule: &JudgedRule, arm: &RobotModel) -> String {
+        let at = rule
+            .worst
+            .as_ref()
+            .map_or_else(String::new, |moment| format!(" {moment}"));
+        if rule.requirement == Requirement::Clearance {
+            return self.clearance_words(rule, &at);
+        }
+        let (joint, Some(measure)) = (rule.joint.as_deref().unwrap_or("a joint"), rule.measure) else {
+            return format!("{} cannot be judged", rule.requirement.words());
+        };
+        let (_, unit) = measure.unit.scale();
+        let proved = match rule.status {
+            Status::NotProved => " (seen, and not excluded)",
+            _ => "",
+        };
+        match (rule.requirement, rule.worst, measure.seen) {
+            (Requirement::JointPosition, Some(moment), _) => {
+                let limits = arm.limits();
+                let index = arm.joints().iter().position(|other| other.name == joint).unwrap_or(0);
+                let q = moment.q_rad[index];
+                let [lower, upper] = [limits.lower[index], limits.upper[index]];
+                let limit = if q - upper > lower - q { upper } else { lower };
+                let [q, limit] = distinct_decimals(q, limit, 4);
+                format!("{joint} is at {q} rad, its limit is {limit} rad{proved},{at}")
+            }
+            (Requirement::JointAcceleration, _, None) => {
+                format!(
+                    "the speed of {joint} jumps{at}, so no acceleration limit holds; leave --acceleration-limits out, or use cubics"
+                )
+            }
+            (_, _, Some(seen)) => {
+                let [seen, limit] = distinct_decimals(seen, measure.limit, 4);
+                format!(
+                    "{} of {joint} is {seen} {unit}, its limit is {limit} {unit}{proved},{at}",
+                    rule.requirement.words()
+                )
+            }
+            _ => format!("{} of {joint} is not bounded", rule.requirement.words()),
+        }
+    }
+
+    fn clearance_words(&self, rule: &JudgedRule, at: &str) -> String {
+        let required = self.required_words();
+        let (Some(measure), Some([a, b])) = (rule.measure, &rule.pair) else {
+            return match rule.measure {
+                Some(_) => format!("clearance is not bounded ({required})"),
+                None => "no bodies could meet: the arm's description has no collision shapes, or they are all left out"
+                    .to_owned(),
+            };
+        };
+        let seen_m = measure.seen.unwrap_or(f64::NAN);
+        if rule.status == Status::Violated {
+            let how = match seen_m <= 0.0 {
+                true => "touch".to_owned(),
+                false => {
+                    let [seen, _] = distinct_decimals(1e3 * seen_m, 1e3 * measure.limit, 2);
+                    format!("come within {seen} mm")
+                }
+            };
+            let between = match self.only_between_points {
+                true => "; at the points all is clear",
+                false => "",
+            };
+            return format!("{a} and {b} {how} ({required}){at}{between}");
+        }
+        let bound = measure.bound.map_or("nothing".to_owned(), millimetres_down);
+        format!(
+            "clearance is proved to be at least {bound} ({required}); the nearest seen are {a} and {b}, {} mm{at}",
+            rounded(1e3 * seen_m, 5)
+        )
+    }
+}
+
+/// A length in millimetres, rounded down to hundredths.
+fn millimetres_down(length_m: f64) -> String {
+    format!("{} mm", decimals_down(1e3 * length_m, 2))
+}
+
+fn judged(check: &Check, motion: &PointMotion, arm: &RobotModel) -> JudgedRule {
+    JudgedRule {
+        requirement: check.requirement,
+        status: check.status,
+        measure: check.measure,
+        joint: check
+            .worst
+            .joint
+            .and_then(|joint| Some(arm.joints().get(joint)?.name.clone())),
+        pair: check.worst.pair.clone(),
+        worst: check
+            .worst
+            .time_s
+            .and_then(|t_s| moment(&motion.motion, motion.start_s, t_s)),
+        place_m: check.worst.place_m,
+    }
+}
+
+/// The moment of a motion at a time from its start \[s\].
+fn moment(motion: &PiecewiseMotion, start_s: Option<f64>, t_s: f64) -> Option<MotionMoment> {
+    let point = motion
+        .pieces()
+        .partition_point(|piece| piece.t_s[0] <= t_s)
+        .saturating_sub(1);
+    let piece = motion.pieces().get(point)?;
+    let [q, _] = piece.at(t_s);
+    Some(MotionMoment {
+        time_s: start_s.map(|start_s| start_s + t_s),
+        point,
+        share: ((t_s - piece.t_s[0]) / piece.length_s()).clamp(0.0, 1.0),
+        q_rad: q.into(),
+    })
+}
+
+/// Sentences on what the verdict rests on.
+fn assumptions(motion: &PointMotion, obstacles: &[String], rules: &MotionRules, excluded: &[Exclusion]) -> Vec<String> {
+    let timed = motion.start_s.is_some();
+    let mut all = vec![match (motion.interpolation, timed) {
+        (Interpolation::Linear, true) => {
+            "The controller moves every joint at constant speed from each point to the next, a straight line in joint space, and follows it \
+             exactly; the speed jumps at the points."
+        }
+        (Interpolation::Linear, false) => {
+            "The arm moves from each point to the next along the straight line in joint space and follows it exactly, at any speed: the \
+             points have no times, and speeds are not judged."
+        }
+        (Interpolation::Cubic, _) => {
+            "The controller moves every joint along the cubic that has the positions and the speeds of two neighbouring points, and follows \
+             it exactly."
+        }
+    }
+    .to_owned()];
+    all.push("The motion begins at the first point; how the arm gets there is not judged.".to_owned());
+    all.push(
+        "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull.".to_owned(),
+    );
+    all.push(match obstacles {
+        [] => "Nothing stands around the arm, no floor either.".to_owned(),
+        some => format!(
+            "Nothing stands around the arm but these, which do not move: {}.",
+            some.join(", ")
+        ),
+    });
+    if timed {
+        all.push(match rules.acceleration_rad_s2 {
+            None => "Speed limits are those of the description; no acceleration limits were stated, and accelerations are not judged.",
+            Some(_) => "Speed limits are those of the description; acceleration limits are as they were stated.",
+        }
+        .to_owned());
+    }
+    let count = |reason| excluded.iter().filter(|pair| pair.reason == reason).count();
+    let told = |(reason, words): (ExclusionReason, &str)| match count(reason) {
+        0 => None,
+        count => Some(format!("{count} {words}")),
+    };
+    let reasons = [
+        (ExclusionReason::Srdf, "by the SRDF"),
+        (ExclusionReason::Neighbours, "as neighbours"),
+        (
+            ExclusionReason::AlwaysTouching,
+            "as they touch in every configuration tried",
+        ),
+        (ExclusionReason::NeitherMoves, "as neither body moves"),
+        (
+            ExclusionReason::KeepsItsHeight,
+            "as the link keeps its height over the floor",
+        ),
+    ];
+    let reasons: Vec<_> = reasons.into_iter().filter_map(told).collect();
+    if !reasons.is_empty() {
+        all.push(format!("Pairs of bodies that are not judged: {}.", reasons.join(", ")));
+    }
+    all
+}
+
+impl fmt::Display for MotionMoment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(time_s) = self.time_s {
+            write!(f, "at {} s, ", rounded(time_s, 7))?;
+        }
+        match self.share {
+            0.0 => write!(f, "at point {}", self.point),
+            1.0 => write!(f, "at point {}", self.point + 1),
+            share => write!(
+                f,
+                "{:.1} % of the way from point {} to point {}",
+                1e2 * share,
+                self.point,
+                self.point + 1
+            ),
+        }
+    }
+}
+
+impl fmt::Display for MotionReport {
+    /// Writes one screen; with `{:#}` every pair of bodies, too.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        let worst = self.at_fault().or(self.rules.last()).and_then(|rule| rule.worst);
+        if let Some(moment) = worst {
+            let q: Vec<_> = moment.q_rad.iter().map(|q| rounded(*q, 6).to_string()).collect();
+            writeln!(f, "joint positions there [rad]: {}", q.join(", "))?;
+        }
+        writeln!(
+            f,
+            "\narm {}, {} motion, {}",
+            self.robot,
+            self.interpolation,
+            self.span_words()
+        )?;
+        writeln!(
+            f,
+            "\n{:<20} {:<12} {:>12} {:>12} {:<7} worst",
+            "rule", "status", "bound", "limit", "unit"
+        )?;
+        for rule in &self.rules {
+            rule.fmt(f)?;
+        }
+        if !self.shapeless.is_empty() {
+            writeln!(
+                f,
+                "\nlinks without a collision shape, which keep clear of nothing: {}",
+                self.shapeless.join(", ")
+            )?;
+        }
+        if f.alternate() {
+            writeln!(f, "\nclearance of each pair [mm]: proved, seen")?;
+            for pair in &self.clearance {
+                let [a, b] = &pair.pair;
+                let mm = |m: Option<f64>| m.map_or("–".to_owned(), |m| decimals_down(1e3 * m, 2));
+                writeln!(f, "  {a} – {b}: {}, {}", mm(pair.at_least_m), mm(pair.seen_m))?;
+            }
+            writeln!(f, "\npairs that are not judged")?;
+            for Exclusion { pair: [a, b], reason } in &self.excluded {
+                writeln!(f, "  {a} – {b}: {}", reason_words(*reason))?;
+            }
+        }
+        writeln!(f, "\nassumptions")?;
+        self.assumptions
+            .iter()
+            .try_for_each(|sentence| writeln!(f, "  {sentence}"))
+    }
+}
+
+impl MotionReport {
+    fn span_words(&self) -> String {
+        let points = count_with_noun(self.points, "point");
+        match self.span_s {
+            Some([from, to]) => format!("{points} from {} s to {} s", rounded(from, 7), rounded(to, 7)),
+            None => format!("{points} without times"),
+        }
+    }
+}
+
+impl fmt::Display for JudgedRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = match self.requirement {
+            Requirement::JointPosition => "joint limit margin".to_owned(),
+            other => other.words(),
+        };
+        let status = match self.status {
+            Status::Proved => "proved",
+            Status::Violated => "broken",
+            Status::NotProved | Status::Waived => "not proved",
+        };
+        write!(f, "{name:<20} {status:<12}")?;
+        match &self.measure {
+            Some(measure) => {
+                let words = measure.words();
+                write!(f, " {:>12} {:>12} {:<7}", words.bound, words.limit, words.unit)?;
+            }
+            None => write!(f, " {:>12} {:>12} {:<7}", "–", "–", "")?,
+        }
+        let who = self
+            .joint
+            .clone()
+            .or_else(|| self.pair.as_ref().map(|[a, b]| format!("{a} and {b}")));
+        let at = self.worst.map(|moment| moment.to_string());
+        writeln!(f, " {}", who.into_iter().chain(at).collect::<Vec<_>>().join(", "))
+    }
+}
+
+fn reason_words(reason: ExclusionReason) -> &'static str {
+    match reason {
+        ExclusionReason::Srdf => "the SRDF leaves it out",
+        ExclusionReason::Neighbours => "neighbours",
+        ExclusionReason::AlwaysTouching => "they touch in every configuration tried",
+        ExclusionReason::CarriesTool => "one carries the other",
+        ExclusionReason::NeitherMoves => "neither moves",
+        ExclusionReason::KeepsItsHeight => "the link keeps its height over the floor",
+    }
+}

@@ -1,0 +1,197 @@
+//! Trajectories of any planner, proved or not.
+
+use super::other_arms::UR5;
+use super::*;
+
+const POST: &str =
+    "[[obstacle]]\nname = \"post\"\nshape = \"box\"\nsize_m = [0.04, 0.04, 0.6]\nat_m = [0.35, 0.25, 0.3]\n";
+
+/// Joint 1 turns from 0 to 1.3 rad with the arm bent forward; a post stands between.
+const SWING: &str = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0.5,0,0.6,0,0,0,0\n2.5,1.3,0.6,0,0,0,0\n";
+
+fn write(dir: &Path, name: &str, text: &str) -> String {
+    std::fs::write(dir.join(name), text).unwrap();
+    name.to_owned()
+}
+
+fn prove(dir: &Path, arguments: &[&str]) -> CommandOutput {
+    platewash(dir, &[&["prove-motion"], arguments].concat())
+}
+
+#[test]
+fn a_motion_without_obstacles_is_proved() {
+    let folder = folder();
+    let dir = folder.path();
+    let file = write(dir, "swing.csv", SWING);
+    let found = prove(dir, &[&file]).done();
+    assert!(
+        found.stdout.starts_with("PROVED: a motion through 2 points over 2 s"),
+        "{}",
+        found.stdout
+    );
+    assert!(
+        found.stdout.contains("(5 mm required)") && found.stdout.contains("no floor"),
+        "{}",
+        found.stdout
+    );
+    let data = prove(dir, &[&file, "--json", "--clearance", "0"]).done().json();
+    assert_eq!(
+        (&data["verdict"], &data["interpolation"]),
+        (&"proved".into(), &"linear".into())
+    );
+    assert_eq!(data["span_s"], serde_json::json!([0.5, 2.5]));
+    assert_eq!(names(dir), ["swing.csv"], "no file is written");
+}
+
+#[test]
+fn a_collision_between_two_clear_points_is_found() {
+    let folder = folder();
+    let dir = folder.path();
+    let (file, around) = (write(dir, "swing.csv", SWING), write(dir, "post.toml", POST));
+    let found = prove(dir, &[&file, "--obstacles", &around]);
+    assert_eq!(found.code, 4, "{}", found.stderr);
+    for words in [
+        "BROKEN: ",
+        "and post touch (5 mm required)",
+        "of the way from point 0 to point 1; at the points all is clear",
+    ] {
+        assert!(found.stdout.contains(words), "{words}: {}", found.stdout);
+    }
+    let data = prove(dir, &[&file, "--obstacles", &around, "--json"]).json();
+    assert_eq!(
+        (&data["verdict"], &data["only_between_points"]),
+        (&"broken".into(), &true.into())
+    );
+    let rules = data["rules"].as_array().unwrap();
+    let clearance = rules.iter().find(|rule| rule["requirement"] == "clearance").unwrap();
+    let time_s = clearance["worst"]["time_s"].as_f64().unwrap();
+    let q1 = clearance["worst"]["q_rad"][0].as_f64().unwrap();
+    assert!(
+        (q1 - 1.3 * (time_s - 0.5) / 2.0).abs() < 1e-9 && q1 > 0.1 && q1 < 1.2,
+        "{clearance}"
+    );
+    // A turn the other way keeps clear of it.
+    let away = write(dir, "away.csv", &SWING.replace("1.3", "-1.3"));
+    prove(dir, &[&away, "--obstacles", &around]).done();
+}
+
+#[test]
+fn limits_that_are_broken_are_named() {
+    let folder = folder();
+    let dir = folder.path();
+    let file = write(dir, "far.csv", &SWING.replace("1.3", "3.2"));
+    let found = prove(dir, &[&file]);
+    assert_eq!(found.code, 4);
+    assert!(
+        found.stdout.starts_with("BROKEN: joint_1 is at 3.2"),
+        "{}",
+        found.stdout
+    );
+    let file = write(dir, "fast.csv", &SWING.replace("\n2.5", "\n0.6"));
+    let found = prove(dir, &[&file]);
+    assert!(
+        found.stdout.starts_with("BROKEN: joint speed of joint_1 is 13"),
+        "{}",
+        found.stdout
+    );
+    // Corners of straight lines have no acceleration limit.
+    let file = write(dir, "corner.csv", &format!("{SWING}3.5,1.3,0.6,0,0,0,0\n"));
+    prove(dir, &[&file]).done();
+    let found = prove(dir, &[&file, "--acceleration-limits", "100"]);
+    assert!(
+        found.stdout.starts_with("BROKEN: the speed of joint_1 jumps at 2.5 s"),
+        "{}",
+        found.stdout
+    );
+}
+
+#[test]
+fn points_without_times_are_judged_for_any_timing() {
+    let folder = folder();
+    let dir = folder.path();
+    let text = SWING.replace("t_s,", "").replace("0.5,", "").replace("2.5,", "");
+    let file = write(dir, "path.csv", &text);
+    let found = prove(dir, &[&file]).done();
+    assert!(
+        found.stdout.contains("for any timing") && !found.stdout.contains("joint speed"),
+        "{}",
+        found.stdout
+    );
+    let around = write(dir, "post.toml", POST);
+    let found = prove(dir, &[&file, "--obstacles", &around]);
+    assert!(found.code == 4 && !found.stdout.contains(" s, "), "{}", found.stdout);
+    prove(dir, &[&file, "--acceleration-limits", "100"]).refused(2, &["has no times"]);
+    prove(dir, &[&file, "--interpolation", "cubic"]).refused(2, &["path.csv:2", "no times"]);
+}
+
+/// The motion of a plan, as the export writes it for ROS 2, is its own cubic.
+#[test]
+fn ros_messages_of_another_arm_are_read_by_joint_names() {
+    let folder = folder();
+    let dir = folder.path();
+    let message = |last: f64, names: &str| {
+        let point = |q: f64, t: u32| {
+            format!(
+                "- positions: [{q}, -1.5, 1.5, -1.5, -1.5, 0]\n  velocities: [0, 0, 0, 0, 0, 0]\n  time_from_start: {{sec: {t}, nanosec: 0}}\n"
+            )
+        };
+        format!("joint_names: [{names}]\npoints:\n{}{}", point(0.0, 0), point(last, 3))
+    };
+    let names = "shoulder_pan, shoulder_lift, elbow, wrist_1_joint, wrist_2_joint, wrist_3_joint";
+    let file = write(dir, "ur5.yaml", &message(1.0, names));
+    let found = prove(dir, &[&file, "--urdf", UR5]).done();
+    assert!(found.stdout.contains("cubic motion"), "{}", found.stdout);
+    // Limits of acceleration: a cubic between two rests begins with 6 q / h².
+    prove(dir, &[&file, "--urdf", UR5, "--acceleration-limits", "0.67,1,1,1,1,1"]).done();
+    let found = prove(dir, &[&file, "--urdf", UR5, "--acceleration-limits", "0.66,1,1,1,1,1"]);
+    assert!(
+        found.code == 4 && found.stdout.starts_with("BROKEN: joint acceleration of shoulder_pan"),
+        "{}",
+        found.stdout
+    );
+    // The trajectory of another arm.
+    prove(dir, &[&file]).refused(2, &["ur5.yaml:1", "joint_1", "\"shoulder_pan\", which is none of them"]);
+}
+
+#[test]
+fn bad_input_is_refused_with_file_and_line() {
+    let folder = folder();
+    let dir = folder.path();
+    let good = write(dir, "good.csv", SWING);
+    write(dir, "nan.csv", &SWING.replace("1.3", "NaN"));
+    write(dir, "back.csv", &SWING.replace("2.5", "0.25"));
+    write(dir, "degrees.csv", &SWING.replace("1.3", "75"));
+    write(dir, "one.csv", &SWING[..SWING.len() - 19]);
+    write(dir, "post.toml", &POST.replace("at_m", "at"));
+    write(dir, "scenario.toml", "[wash]\nturns = 3\n");
+    let cases: [(&[&str], &[&str]); 13] = [
+        (&["none.csv"], &["none.csv: cannot be read"]),
+        (&["nan.csv"], &["nan.csv:3: column 2 (q1_rad)", "\"NaN\""]),
+        (&["back.csv"], &["back.csv:3: column 1 (t_s)", "must come after 0.5 s"]),
+        (
+            &["degrees.csv"],
+            &["degrees.csv:3: point 1: joint joint_1 at 75 rad", "look like degrees"],
+        ),
+        (&["one.csv"], &["one.csv:"]),
+        (&["post.toml"], &["post.toml:1", "another name"]),
+        (
+            &[&good, "--obstacles", "post.toml"],
+            &["post.toml, line 5", "obstacle[0]"],
+        ),
+        (
+            &[&good, "--obstacles", "scenario.toml"],
+            &["scenario.toml, line 1", "[[obstacle]]"],
+        ),
+        (&[&good, "--obstacles", "none.toml"], &["none.toml", "cannot be read"]),
+        (&[&good, "--urdf", "none.urdf"], &["none.urdf: cannot be read"]),
+        (&[&good, "--scenario", "kitchen"], &["--scenario", "leave it out"]),
+        (&[&good, "--clearance", "-1"], &["--clearance", "from 0 to 1"]),
+        (
+            &[&good, "--acceleration-limits", "1,2"],
+            &["--acceleration-limits", "six between commas"],
+        ),
+    ];
+    for (arguments, words) in cases {
+        prove(dir, arguments).refused(2, words);
+    }
+}
