@@ -65,6 +65,7 @@ __all__ = [
     "place_plates",
     "plan",
     "prove",
+    "prove_motion",
     "reproduce",
     "run_command",
     "run_paper",
@@ -706,6 +707,17 @@ def place_plates(scenario: Scenario | _Path) -> Layout: ...
 def plan(job: WashJob | Scenario | _Path, *, seed: int | None = None) -> Planned: ...
 def run_paper(job: PaperJob | Scenario | _Path) -> PaperRun: ...
 def prove(plan: Plan | Planned | _Path, robot: Robot | None = None) -> Certificate: ...
+def prove_motion(
+    q: npt.ArrayLike,
+    t: npt.ArrayLike | None = None,
+    qd: npt.ArrayLike | None = None,
+    *,
+    robot: Robot | None = None,
+    obstacles: Any = None,
+    clearance_m: float = 0.005,
+    interpolation: Literal["linear", "cubic"] | None = None,
+    acceleration_limits: npt.ArrayLike | None = None,
+) -> Record: ...
 def differences(plan: Plan | Planned | _Path, job: WashJob | PaperJob | Scenario | _Path) -> list[Record]: ...
 def simulate(
     plan: Plan | Planned | _Path, robot: Robot | None = None, settings: SimulationSettings | None = None

@@ -35,6 +35,8 @@ PYTHON = {
     "Requirement": "Certificate.checks",
     "certify": "prove",
     "prove": "prove",
+    "prove_motion": "prove_motion",
+    "MotionReport": "prove_motion",
     "PlanError": "PlanError",
     "PlannedJob": "Planned",
     "plan": "plan",
