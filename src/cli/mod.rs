@@ -32,6 +32,7 @@ use anyhow::{Error, Result};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::ExitCode;
 use options::Options;
+pub use options::installed_packages;
 use platewash::CancelToken;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};

@@ -7,6 +7,7 @@ use anyhow::{Error, Result, bail};
 use clap::error::{ContextKind, ContextValue};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, value_parser};
+use platewash::kinematics::urdf::Files;
 use platewash::planner::PlanError;
 use platewash::scenario::{Note, SHIPPED, ScenarioError, form};
 use platewash::workcell::words::printable;
@@ -38,7 +39,7 @@ pub struct Options {
     /// URDF of another six-axis arm (xacro files must be expanded first)
     #[arg(long, global = true, value_name = "FILE")]
     pub urdf: Option<PathBuf>,
-    /// Folder that holds the package of package:// mesh names (may be repeated)
+    /// Folder that holds the package of package:// mesh names (may be repeated); folders above the URDF and those of ROS are looked at, too
     #[arg(long, global = true, value_name = "DIR", requires = "urdf")]
     pub package_path: Vec<PathBuf>,
     /// SRDF that lists the link pairs to leave out of the collision check
@@ -98,12 +99,18 @@ impl Options {
             scenario.robot.srdf.clone_from(&self.srdf);
             scenario.robot.package_path.clone_from(&self.package_path);
         }
+        scenario.files = self.files();
         if let Some(link) = &self.tool_mount {
             scenario.tool.mounted_on = Some(link.clone());
         }
         scenario.validate().map_err(|error| self.of_file(error))?;
         self.warn(&scenario.notes());
         Ok(scenario)
+    }
+
+    /// Source of the files of an arm: the disk, with the packages that ROS has installed.
+    pub fn files(&self) -> Files {
+        Files::default().with_installed(installed_packages())
     }
 
     /// The arm of a scenario.
@@ -179,6 +186,21 @@ impl Options {
             ..error
         }
     }
+}
+
+/// Folders in which ROS has packages installed, as the environment states them: ROS_PACKAGE_PATH, and the `share` folder of each prefix in
+/// AMENT_PREFIX_PATH.
+#[must_use]
+pub fn installed_packages() -> Vec<PathBuf> {
+    let folders = |name: &str| -> Vec<PathBuf> {
+        let list = std::env::var_os(name).unwrap_or_default();
+        std::env::split_paths(&list)
+            .filter(|path| !path.as_os_str().is_empty())
+            .collect()
+    };
+    let prefixes = folders("AMENT_PREFIX_PATH").into_iter();
+    let shares = prefixes.map(|prefix| prefix.join("share"));
+    folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect()
 }
 
 /// True where a job was refused because of its scenario, in a message that does not name the scenario.
@@ -293,7 +315,18 @@ fn tip(given: &str) -> Option<String> {
     if SHIPPED.iter().any(|shipped| shipped.name == given) || given.ends_with(".toml") {
         return Some(format!("a scenario is given as '--scenario {given}'"));
     }
+    if given.ends_with(".xacro") {
+        return Some(format!(
+            "xacro is expanded first: 'xacro {given} > ARM.urdf', then '--urdf ARM.urdf'"
+        ));
+    }
+    if given.ends_with(".urdf") {
+        return Some(format!("the description of an arm is given as '--urdf {given}'"));
+    }
     let option = given.strip_prefix("--")?.split('=').next()?.replace('-', "_");
+    if ["arm", "robot", "model"].contains(&&*option) {
+        return Some("another arm is given by its description: '--urdf ARM.urdf'".to_owned());
+    }
     let is_named = |path: &&str| {
         let name = path.rsplit('.').next().and_then(|name| name.strip_prefix(&*option));
         name.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))

@@ -4,7 +4,7 @@ use super::failure::not_verified;
 use super::options::Options;
 use anyhow::{Error, Result, anyhow, bail, ensure};
 use platewash::certificate::prove_with;
-use platewash::kinematics::urdf::{Files, file};
+use platewash::kinematics::urdf::file;
 use platewash::scenario::{Note, load_description};
 use platewash::workcell::workcell::ArmId;
 use platewash::{Certificate, Failure, Plan, RobotModel};
@@ -85,7 +85,7 @@ pub fn refused(path: &Path, error: impl Display) -> Error {
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
 fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> Result<Arc<RobotModel>> {
     if let Some(urdf) = &options.urdf {
-        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path, &Files::default())?;
+        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path, &options.files())?;
         refuse_other(wanted, &ArmId::of(&arm))?;
         return Ok(Arc::new(arm));
     }

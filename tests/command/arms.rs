@@ -67,3 +67,43 @@ fn accepts_any_path_of_the_system() {
     let arguments = ["verify", "plan.json", "--urdf"].map(OsStr::new);
     platewash_os(folder.path(), &[&arguments[..], &[path]].concat()).done();
 }
+
+/// Meshes of ROS packages are found without an option, and what newcomers type leads to `--urdf`.
+#[test]
+fn packages_of_ros_are_found_and_arms_are_given_as_urdf() {
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::create_dir_all(dir.join("ws/support/urdf")).unwrap();
+    std::fs::create_dir_all(dir.join("ws/support/meshes")).unwrap();
+    let mesh = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
+    std::fs::write(dir.join("ws/support/meshes/part.obj"), mesh).unwrap();
+    let body = "<link name=\"tool0\"><collision><geometry><mesh filename=\"package://support/meshes/part.obj\"/></geometry></collision></link>";
+    let urdf = platewash::kinematics::irb120::IRB120_URDF.replace("<link name=\"tool0\"/>", body);
+    assert!(urdf.contains("part.obj"));
+    std::fs::write(dir.join("ws/support/urdf/arm.urdf"), &urdf).unwrap();
+    std::fs::write(dir.join("arm.urdf"), &urdf).unwrap();
+    platewash(dir, &["robot", "--urdf", "ws/support/urdf/arm.urdf"]).done();
+    platewash(dir, &["robot", "--urdf", "arm.urdf"]).refused(2, &[". and the folders above it", "--package-path"]);
+    platewash(dir, &["robot", "--urdf", "arm.urdf", "--package-path", "ws"]).done();
+    for (variable, value) in [("ROS_PACKAGE_PATH", "ws"), ("AMENT_PREFIX_PATH", "prefix")] {
+        if variable == "AMENT_PREFIX_PATH" {
+            std::fs::create_dir_all(dir.join("prefix")).unwrap();
+            std::fs::rename(dir.join("ws"), dir.join("prefix/share")).unwrap();
+        }
+        let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
+        let ran = command
+            .current_dir(dir)
+            .args(["robot", "--urdf", "arm.urdf"])
+            .env(variable, value)
+            .output()
+            .unwrap();
+        assert!(
+            ran.status.success(),
+            "{variable}: {}",
+            String::from_utf8_lossy(&ran.stderr)
+        );
+    }
+    platewash(dir, &["run", "--arm", "ur5e.urdf"]).refused(2, &["--urdf ARM.urdf"]);
+    platewash(dir, &["run", "ur5e.urdf"]).refused(2, &["'--urdf ur5e.urdf'"]);
+    platewash(dir, &["run", "ur5e.urdf.xacro"]).refused(2, &["xacro ur5e.urdf.xacro > ARM.urdf"]);
+}

@@ -3,12 +3,12 @@
 use crate::urdf::{edited, link};
 use nalgebra::Point3;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::urdf::{Files, MeshSource};
 use platewash_kinematics::{RobotModel, UrdfError};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// Corners of a tetrahedron \[m\], exact in single precision.
@@ -192,6 +192,75 @@ fn reads_meshes_of_a_ros_industrial_package() {
             .flat_map(|l| &l.collision)
             .filter(|p| matches!(p.shape, Shape::Hull { .. }));
         assert_eq!(hulls.count(), 6);
+    }
+}
+
+/// Packages are found from the URDF's place, by folder name or manifest, and where they are installed.
+#[test]
+fn finds_packages_above_the_urdf_and_where_they_are_installed() {
+    let text = with_mesh("filename=\"package://support/meshes/part.stl\"");
+    let root = TempDir::new().unwrap();
+    let mesh_in = |package: &str, size: f32| {
+        let meshes = root.path().join(package).join("meshes");
+        std::fs::create_dir_all(&meshes).unwrap();
+        let scaled: Vec<_> = tetrahedron().iter().map(|t| t.map(|p| p.map(|c| c * size))).collect();
+        std::fs::write(meshes.join("part.stl"), ascii_stl("", &scaled)).unwrap();
+    };
+    let urdf_in = |folder: &str| root.path().join(folder);
+    let read = |folder: &str, given: &[PathBuf], installed: Vec<PathBuf>| {
+        let files = Files::default().with_installed(installed);
+        let source = MeshSource::new(given, Some(&urdf_in(folder))).reading(&files);
+        RobotModel::from_urdf(&text, &source).map(|robot| vertices(&robot))
+    };
+    mesh_in("ws/support", 1.0);
+    mesh_in("share/support", 2.0);
+    mesh_in("given/support", 3.0);
+    // In the package, deep in it, and in a neighbour of it.
+    for folder in ["ws/support", "ws/support/urdf/arms", "ws/other/urdf"] {
+        assert_points(&read(folder, &[], vec![]).unwrap(), &CORNERS, [1.0; 3]);
+    }
+    // What is given comes first, what is installed last.
+    let (given, installed) = (vec![root.path().join("given")], vec![root.path().join("share")]);
+    assert_points(
+        &read("ws/support", &given, installed.clone()).unwrap(),
+        &CORNERS,
+        [3.0; 3],
+    );
+    assert_points(&read("ws/support", &[], installed.clone()).unwrap(), &CORNERS, [1.0; 3]);
+    assert_points(&read("elsewhere", &[], installed).unwrap(), &CORNERS, [2.0; 3]);
+    // A folder of another name counts where its manifest states the package's name.
+    mesh_in("support-main", 4.0);
+    assert!(read("support-main/urdf", &[], vec![]).is_err());
+    let manifest = "<package format=\"3\">\n  <name>support</name>\n</package>";
+    std::fs::write(root.path().join("support-main/package.xml"), manifest).unwrap();
+    assert_points(&read("support-main/urdf", &[], vec![]).unwrap(), &CORNERS, [4.0; 3]);
+
+    let message = read("elsewhere/urdf", &["/given".into()], vec!["/opt/ros/share".into()])
+        .unwrap_err()
+        .to_string();
+    let above = format!("{} and the folders above it", urdf_in("elsewhere/urdf").display());
+    for place in [
+        "/given/support/meshes/part.stl",
+        &above,
+        "/opt/ros/share/support/meshes/part.stl",
+        "--package-path",
+    ] {
+        assert!(message.contains(place), "no '{place}' in: {message}");
+    }
+}
+
+/// Collada is refused with the command that converts the file.
+#[test]
+fn collada_is_refused_with_a_command() {
+    let root = TempDir::new().unwrap();
+    std::fs::write(root.path().join("part.dae"), "<COLLADA/>").unwrap();
+    let source = MeshSource::new(&[], Some(root.path()));
+    let message = RobotModel::from_urdf(&with_mesh("filename=\"part.dae\""), &source)
+        .unwrap_err()
+        .to_string();
+    let [dae, stl] = ["part.dae", "part.stl"].map(|name| format!("'{}'", root.path().join(name).display()));
+    for word in ["link 'link_6'", "pip install trimesh pycollada", &dae, &stl] {
+        assert!(message.contains(word), "no '{word}' in: {message}");
     }
 }
 

@@ -6,8 +6,9 @@ use crate::robot::Robot;
 use crate::value::{from_mapping, records, to_python, to_record, warn};
 use crate::work::patiently;
 use crate::{argument, errors};
+use platewash::kinematics::urdf::Files;
 use platewash::planner::Watch;
-use platewash::scenario::{Program, SHIPPED};
+use platewash::scenario::{Program, SHIPPED, ScenarioError};
 use platewash::{Failure, Layout, RobotModel, Scenario};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
@@ -119,7 +120,7 @@ impl ScenarioObject {
         let Some(name) = name_or_file.to_str() else {
             return Err(errors::input(py, "name_or_file", "is not valid Unicode"));
         };
-        let loaded = Scenario::load(name).map_err(|e| errors::scenario(py, &e))?;
+        let loaded = load(name).map_err(|e| errors::scenario(py, &e))?;
         Self::warned(py, loaded)
     }
 
@@ -337,6 +338,13 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
 }
 
 /// Expected forms of a scenario, in messages.
+/// A scenario whose meshes are also looked for in the packages that ROS has installed.
+fn load(name_or_file: &str) -> Result<Scenario, ScenarioError> {
+    let mut scenario = Scenario::load(name_or_file)?;
+    scenario.files = Files::default().with_installed(platewash::cli::installed_packages());
+    Ok(scenario)
+}
+
 const SCENARIO: &str = "a Scenario, the name of a shipped one or the path of a file";
 
 /// [`given`], of an argument of another name, which may be something else besides.
@@ -345,7 +353,7 @@ fn called(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyResult<Scenar
         return Ok(object.get().inner.clone());
     }
     let path: PathBuf = value.extract().map_err(|e| argument::refused(name, value, needed, e))?;
-    let scenario = Scenario::load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))?;
+    let scenario = load(&path.to_string_lossy()).map_err(|e| errors::scenario(value.py(), &e))?;
     warn(value.py(), &scenario.notes())?;
     Ok(scenario)
 }

@@ -128,7 +128,11 @@ pub enum UrdfError {
         found: String,
     },
     /// A mesh cannot be found.
-    #[error("link '{link}': mesh '{file}' not found; looked in {}; give its package's folder as package path", list(.searched))]
+    #[error(
+        "link '{link}': mesh '{file}' not found; looked for {}; give the folder that holds its package as package path \
+         (--package-path, robot.package_path)",
+        list(.searched)
+    )]
     MeshNotFound {
         link: String,
         file: String,

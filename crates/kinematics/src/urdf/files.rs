@@ -8,9 +8,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Files by name, as they were read.
 pub type HeldFiles = BTreeMap<PathBuf, Arc<[u8]>>;
 
-/// Source of input files. It has no effect on the contents, so all sources compare as equal.
+/// Source of input files, and the folders with installed packages. It has no effect on the contents, so all sources compare as equal.
 #[derive(Debug, Clone, Default)]
-pub struct Files(FileSource);
+pub struct Files {
+    source: FileSource,
+    installed: Vec<PathBuf>,
+}
 
 #[derive(Debug, Clone, Default)]
 enum FileSource {
@@ -39,13 +42,33 @@ impl Files {
     /// Returns the disk as a source that keeps everything that is read; [`recorded`](Self::recorded) returns it.
     #[must_use]
     pub fn recording() -> Self {
-        Self(FileSource::Recorded(Arc::default()))
+        Self::of(FileSource::Recorded(Arc::default()))
     }
 
     /// Returns files that were read before, under the same names, as a source; no other files exist in it.
     #[must_use]
     pub fn held(files: Arc<HeldFiles>) -> Self {
-        Self(FileSource::Held(files))
+        Self::of(FileSource::Held(files))
+    }
+
+    fn of(source: FileSource) -> Self {
+        let installed = Vec::new();
+        Self { source, installed }
+    }
+
+    /// Returns the source with folders in which packages are installed (`FOLDER/NAME`), such as those that ROS names. They are looked at
+    /// last.
+    #[must_use]
+    pub fn with_installed(self, folders: Vec<PathBuf>) -> Self {
+        Self {
+            installed: folders,
+            ..self
+        }
+    }
+
+    /// Returns the folders in which packages are installed.
+    pub(crate) fn installed(&self) -> &[PathBuf] {
+        &self.installed
     }
 
     /// Returns the files that were read so far, if this source records them.
@@ -53,7 +76,7 @@ impl Files {
     /// # Errors
     /// The first file that exists and could not be read, with the reason.
     pub fn recorded(&self) -> Result<HeldFiles, (PathBuf, FileError)> {
-        let FileSource::Recorded(record) = &self.0 else {
+        let FileSource::Recorded(record) = &self.source else {
             return Ok(HeldFiles::new());
         };
         let record = record.lock().unwrap_or_else(PoisonError::into_inner);
@@ -66,7 +89,7 @@ impl Files {
     /// True if there is such a regular file.
     #[must_use]
     pub fn is_file(&self, path: &Path) -> bool {
-        match &self.0 {
+        match &self.source {
             FileSource::Disk => path.is_file(),
             FileSource::Held(files) => files.contains_key(path),
             FileSource::Recorded(record) => {
@@ -86,7 +109,7 @@ impl Files {
     /// # Errors
     /// [`FileError`], without the file's name.
     pub fn read_bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
-        match &self.0 {
+        match &self.source {
             FileSource::Disk => file::read_bytes(path, limit),
             FileSource::Recorded(record) => {
                 let read = file::read_bytes(path, limit);

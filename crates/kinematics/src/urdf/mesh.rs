@@ -19,6 +19,12 @@ const MAX_BYTES: u64 = 64 << 20;
 /// Greatest number of triangles of a mesh whose surface counts.
 const MAX_SOLID: usize = 200_000;
 
+/// Greatest length of a package's manifest, `package.xml` \[bytes\].
+const MAX_MANIFEST: u64 = 1 << 20;
+
+/// Number of folders above the working folder in which packages are looked for.
+const LEVELS_ABOVE: usize = 6;
+
 /// Folders in which mesh files are looked for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct MeshSource {
@@ -34,8 +40,9 @@ impl MeshSource {
         Self::default()
     }
 
-    /// Looks for `package://NAME/…` in each folder (as `FOLDER/NAME/…`, or `FOLDER/…` when the folder is
-    /// called NAME), and for relative files beside the URDF.
+    /// Looks for `package://NAME/…` in each folder (as `FOLDER/NAME/…`, or `FOLDER/…` when the folder is called NAME), then in the
+    /// folders above the URDF (`ABOVE/NAME/…`, or `ABOVE/…` where `ABOVE/package.xml` states the name), then where the
+    /// [source](Self::reading) has packages installed; and for relative files beside the URDF.
     #[must_use]
     pub fn new(package_paths: &[PathBuf], urdf_folder: Option<&Path>) -> Self {
         Self {
@@ -148,32 +155,82 @@ impl MeshSource {
     }
 
     fn find(&self, file: &str) -> Result<PathBuf, MeshError> {
-        let candidates = self.candidates(file);
-        candidates
-            .iter()
-            .find(|path| self.files.is_file(path))
-            .cloned()
-            .ok_or_else(|| MeshError::NotFound {
-                file: file.to_owned(),
-                searched: candidates.iter().map(|path| path.display().to_string()).collect(),
-            })
+        let (candidates, places) = match file.strip_prefix("package://") {
+            Some(inside) => self.in_packages(inside),
+            None => {
+                let path = self.beside(file);
+                let place = path.display().to_string();
+                (vec![path], vec![place])
+            }
+        };
+        let found = candidates.into_iter().find(|path| self.files.is_file(path));
+        found.ok_or_else(|| MeshError::NotFound {
+            file: file.to_owned(),
+            searched: places,
+        })
     }
 
-    fn candidates(&self, file: &str) -> Vec<PathBuf> {
-        if let Some(inside) = file.strip_prefix("package://") {
-            let (package, rest) = inside.split_once('/').unwrap_or((inside, ""));
-            let place = |folder: &PathBuf| {
-                let named = folder.file_name().is_some_and(|name| name == package);
-                [Some(folder.join(inside)), named.then(|| folder.join(rest))]
+    /// Returns the paths that `NAME/…` may have, first the likeliest, and the places for a message.
+    fn in_packages(&self, inside: &str) -> (Vec<PathBuf>, Vec<String>) {
+        let (package, rest) = inside.split_once('/').unwrap_or((inside, ""));
+        let of_folder = |folder: &PathBuf| {
+            let named = folder.file_name().is_some_and(|name| name == package);
+            [Some(folder.join(inside)), named.then(|| folder.join(rest))]
+        };
+        let of_folders =
+            |folders: &[PathBuf]| -> Vec<PathBuf> { folders.iter().flat_map(of_folder).flatten().collect() };
+        let shown =
+            |paths: &[PathBuf]| -> Vec<String> { paths.iter().map(|path| path.display().to_string()).collect() };
+        let mut candidates = of_folders(&self.package_paths);
+        let mut places = shown(&candidates);
+        if let Some(folder) = &self.urdf_folder {
+            for above in folders_above(folder) {
+                candidates.push(above.join(inside));
+                if self.is_package(&above, package) {
+                    candidates.push(above.join(rest));
+                }
+            }
+            let folder = if folder.as_os_str().is_empty() {
+                Path::new(".")
+            } else {
+                folder
             };
-            return self.package_paths.iter().flat_map(place).flatten().collect();
+            places.push(format!("{} and the folders above it", folder.display()));
         }
+        let installed = of_folders(self.files.installed());
+        places.extend(shown(&installed));
+        candidates.extend(installed);
+        (candidates, places)
+    }
+
+    /// True where `package.xml` in the folder states the package's name.
+    fn is_package(&self, folder: &Path, name: &str) -> bool {
+        let manifest = folder.join("package.xml");
+        let text = self
+            .files
+            .is_file(&manifest)
+            .then(|| self.files.read_text(&manifest, MAX_MANIFEST));
+        let Some(Ok(text)) = text else { return false };
+        let stated = text
+            .split_once("<name>")
+            .and_then(|(_, rest)| rest.split_once("</name>"));
+        stated.is_some_and(|(stated, _)| stated.trim() == name)
+    }
+
+    fn beside(&self, file: &str) -> PathBuf {
         let path = Path::new(file.strip_prefix("file://").unwrap_or(file));
         match &self.urdf_folder {
-            Some(folder) if path.is_relative() => vec![folder.join(path)],
-            _ => vec![path.to_path_buf()],
+            Some(folder) if path.is_relative() => folder.join(path),
+            _ => path.to_path_buf(),
         }
     }
+}
+
+/// Returns the folder and those above it, as far as its path tells; for a relative one also [`LEVELS_ABOVE`] above the working folder.
+fn folders_above(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let levels = if folder.is_absolute() { 0 } else { LEVELS_ABOVE };
+    let beyond = (1..=levels).map(|levels| PathBuf::from("../".repeat(levels)));
+    folder.ancestors().map(Path::to_path_buf).chain(beyond)
 }
 
 /// Formats of meshes. Collada is not supported: the available readers panic at a wrong index, and put parts elsewhere than the file's nodes
@@ -271,6 +328,16 @@ impl MeshFile {
         match extension.to_lowercase().as_str() {
             "stl" => Ok(Format::Stl),
             "obj" => Ok(Format::Obj),
+            "dae" => {
+                let stl = self.path.with_extension("stl");
+                Err(self.wrong(format!(
+                    "format 'dae' is not handled; convert it to STL or OBJ and name that in the URDF: \
+                     pip install trimesh pycollada && python3 -c \"import sys, trimesh; \
+                     trimesh.load_scene(sys.argv[1]).convert_units('meters').to_mesh().export(sys.argv[2])\" '{}' '{}'",
+                    self.path.display(),
+                    stl.display()
+                )))
+            }
             other => Err(self.wrong(format!("format '{other}' is not handled; convert it to STL or OBJ"))),
         }
     }

@@ -106,7 +106,8 @@ impl Source {
             return RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()));
         };
         let wrong = |e: &dyn std::error::Error| errors::named(py, "UrdfError", &e.to_string());
-        let meshes = MeshSource::new(&description.package_path, description.folder.as_deref());
+        let files = Files::default().with_installed(platewash::cli::installed_packages());
+        let meshes = MeshSource::new(&description.package_path, description.folder.as_deref()).reading(&files);
         let robot = RobotModel::from_urdf(&description.urdf, &meshes).map_err(|e| wrong(&e))?;
         let Some(srdf) = &description.srdf else {
             return Ok(robot);
