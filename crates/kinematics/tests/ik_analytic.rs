@@ -565,6 +565,30 @@ fn rejects_other_structures_by_name() {
         other => panic!("{other}"),
     }
     assert!(AnalyticArm::recognise(&shifted("1e-12")).is_ok());
+    // An angle that is off by rounding is named as such, and only where nothing else is wrong.
+    let rounded = |more: &str| {
+        let text = platewash_kinematics::irb120::IRB120_URDF.replace("xyz=\"0.072 0 0\"", more);
+        let text = ["joint_2", "joint_3"].iter().fold(text, |text, joint| {
+            let at = text.find(&format!("<joint name=\"{joint}\"")).unwrap();
+            let (before, after) = text.split_at(at);
+            let turned = after.replacen("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0.000003\"/>", 1);
+            format!("{before}{turned}")
+        });
+        let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+        AnalyticArm::recognise(&robot).unwrap_err().to_string()
+    };
+    let said = rounded("xyz=\"0.072 0 0\"");
+    assert!(
+        said.starts_with("axes 1 and 2 are not perpendicular, by 3.000e-6 rad: within the rounding"),
+        "{said}"
+    );
+    let said = rounded("xyz=\"0.072 0 0.0997\"");
+    assert!(
+        said.contains("axes 4, 5 and 6 do not meet in one point")
+            && said.contains("axes 5 and 6 miss each other by 99.7000 mm"),
+        "{said}"
+    );
+    assert!(!said.contains("rounding"), "{said}");
     let flat = edited("xyz=\"0 0 0.27\"", "xyz=\"0 0.1 0\"");
     assert!(matches!(
         AnalyticArm::recognise(&flat),

@@ -13,6 +13,7 @@
 //! That is the ortho-parallel basis with spherical wrist (Brandstötter, Angerer & Hofbaur, 2014), with the
 //! direction of axis 4 left open. Each property must hold to [`GEOMETRY_TOLERANCE_M`] and
 //! [`GEOMETRY_TOLERANCE_RAD`]; anything else is refused with the property and its deviation ([`StructureMismatch`]).
+//! Where several fail, one that rounding of the description's numbers (1e-5 rad, 1e-6 m) does not explain is named first.
 //!
 //! # Equations
 //!

@@ -12,7 +12,7 @@ use nalgebra::{Complex, Matrix3, Vector3};
 #[non_exhaustive]
 pub enum StructureMismatch {
     /// Two axes that must be parallel are not.
-    #[error("axes {} and {} are not parallel, by {by_rad:.3e} rad", .joints[0] + 1, .joints[1] + 1)]
+    #[error("axes {} and {} are not parallel, by {by_rad:.3e} rad{}", .joints[0] + 1, .joints[1] + 1, rounded_angle(*.by_rad))]
     NotParallel {
         /// Joint indices, 0 for joint 1.
         joints: [usize; 2],
@@ -20,7 +20,7 @@ pub enum StructureMismatch {
         by_rad: f64,
     },
     /// Two axes that must be perpendicular are not.
-    #[error("axes {} and {} are not perpendicular, by {by_rad:.3e} rad", .joints[0] + 1, .joints[1] + 1)]
+    #[error("axes {} and {} are not perpendicular, by {by_rad:.3e} rad{}", .joints[0] + 1, .joints[1] + 1, rounded_angle(*.by_rad))]
     NotPerpendicular {
         /// Joint indices, 0 for joint 1.
         joints: [usize; 2],
@@ -28,7 +28,10 @@ pub enum StructureMismatch {
         by_rad: f64,
     },
     /// Axes 4, 5 and 6 do not meet in one point.
-    #[error("the wrist is not spherical: axes {} and {} miss each other by {by_m:.3e} m", .joints[0] + 1, .joints[1] + 1)]
+    #[error(
+        "the wrist is not spherical: axes 4, 5 and 6 do not meet in one point, as axes {} and {} miss each other by {:.4} mm{}",
+        .joints[0] + 1, .joints[1] + 1, 1e3 * .by_m, rounded_length(*.by_m)
+    )]
     WristNotSpherical {
         /// Joint indices, 0 for joint 1.
         joints: [usize; 2],
@@ -49,6 +52,41 @@ pub enum StructureMismatch {
     },
 }
 
+/// Greatest deviation of an angle that the rounding of a description explains \[rad\]: printed values of five decimals, such as 1.5708 for
+/// π/2, deviate by 4e-6.
+const ROUNDED_RAD: f64 = 1e-5;
+/// Greatest deviation of a length that the rounding of a description explains \[m\]: half a unit of the sixth decimal, twice.
+const ROUNDED_M: f64 = 1e-6;
+
+fn rounded_angle(by_rad: f64) -> String {
+    within_rounding(by_rad <= ROUNDED_RAD, "rad", ROUNDED_RAD, GEOMETRY_TOLERANCE_RAD)
+}
+
+fn rounded_length(by_m: f64) -> String {
+    within_rounding(by_m <= ROUNDED_M, "m", ROUNDED_M, GEOMETRY_TOLERANCE_M)
+}
+
+fn within_rounding(is_rounding: bool, unit: &str, rounding: f64, needed: f64) -> String {
+    match is_rounding {
+        true => format!(
+            ": within the rounding of printed numbers ({rounding:e} {unit}), but {needed:e} {unit} is needed; state the origins with all \
+             digits"
+        ),
+        false => String::new(),
+    }
+}
+
+impl StructureMismatch {
+    /// True where the rounding of the description's numbers explains the deviation.
+    fn is_rounding(&self) -> bool {
+        match self {
+            Self::NotParallel { by_rad, .. } | Self::NotPerpendicular { by_rad, .. } => *by_rad <= ROUNDED_RAD,
+            Self::WristNotSpherical { by_m, .. } => *by_m <= ROUNDED_M,
+            Self::NoUpperArm { .. } | Self::NoForearm { .. } => false,
+        }
+    }
+}
+
 /// Joint axis as a line in the base frame.
 #[derive(Clone, Copy)]
 struct Line {
@@ -60,7 +98,8 @@ impl AnalyticArm {
     /// Recognises the arm from the folded chain of the model.
     ///
     /// # Errors
-    /// [`StructureMismatch`]: the first property of the [module](super)'s list that fails its tolerance.
+    /// [`StructureMismatch`]: the first property of the [module](super)'s list that fails its tolerance by more than the rounding of the
+    /// description's numbers; if there is none, the first that fails it at all.
     pub fn recognise(robot: &RobotModel) -> Result<Self, StructureMismatch> {
         let folded = *robot.folded();
         let bodies = at_zero(&folded);
@@ -68,11 +107,19 @@ impl AnalyticArm {
             point: body.translation,
             direction: body.rotation.column(2).into(),
         });
-        parallel(&axes, [1, 2])?;
-        for joints in [[0, 1], [3, 4], [4, 5]] {
-            perpendicular(&axes, joints)?;
+        let angles = [
+            parallel(&axes, [1, 2]),
+            perpendicular(&axes, [0, 1]),
+            perpendicular(&axes, [3, 4]),
+            perpendicular(&axes, [4, 5]),
+        ];
+        let wrist = wrist_centre(&axes);
+        let failed = angles.into_iter().chain([wrist.map(drop)]).filter_map(Result::err);
+        let failed: Vec<_> = failed.collect();
+        if let Some(reason) = failed.iter().find(|reason| !reason.is_rounding()).or(failed.first()) {
+            return Err(*reason);
         }
-        let centre = wrist_centre(&axes)?;
+        let centre = wrist?;
         let shoulder = shoulder_frame(&axes, &centre);
         let shoulder_from_base = shoulder.inverse();
         let seen = |point: &Vector3<f64>| shoulder_from_base.rotation * point + shoulder_from_base.translation;
@@ -148,7 +195,8 @@ fn perpendicular(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), Structur
     Err(StructureMismatch::NotPerpendicular { joints, by_rad })
 }
 
-/// Returns the intersection of axes 4 and 5, if axis 6 passes through that point too. Axes 4 and 5 are perpendicular.
+/// Returns the intersection of axes 4 and 5, if axis 6 passes through that point too. Axes 4 and 5 are perpendicular, or the result is not
+/// used unless they are nearly so.
 fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, StructureMismatch> {
     let [fourth, fifth, sixth] = [axes[3], axes[4], axes[5]];
     let between = fifth.point - fourth.point;
