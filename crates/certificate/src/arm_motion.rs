@@ -136,7 +136,7 @@ pub fn prove_arm_motion(
         None
     };
     world.checks_to_world(&mut checks);
-    world.tell_pairs(&mut clearance);
+    world.pairs_to_world(&mut clearance);
     Ok(ArmMotionProof {
         checks,
         clearance,

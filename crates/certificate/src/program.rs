@@ -137,7 +137,7 @@ pub fn prove_program(
     checks.extend(tilt);
     cancel.check()?;
     world.checks_to_world(&mut checks);
-    world.tell_pairs(&mut clearance);
+    world.pairs_to_world(&mut clearance);
     let is_implied = |check: &Check| matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
     Ok(ProgramProof {
         checks,

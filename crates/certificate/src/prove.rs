@@ -79,8 +79,8 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     cancel.check()?;
     let world = World::of(&plan.job.workcell.mount);
     world.checks_to_world(&mut proof.checks);
-    world.tell_pairs(&mut proof.clearance);
-    world.tell_contact(&mut proof.contact);
+    world.pairs_to_world(&mut proof.clearance);
+    world.contact_to_world(&mut proof.contact);
     Ok(certificate(plan, arm, proof))
 }
 
@@ -109,7 +109,7 @@ pub fn prove_motion(
     checks.extend(tips.moving_checks(&subject, &pieces, None));
     checks.push(pairs::check(subject.limits.clearance_m, &clearance));
     world.checks_to_world(&mut checks);
-    world.tell_pairs(&mut clearance);
+    world.pairs_to_world(&mut clearance);
     Ok(MotionProof { checks, clearance })
 }
 

@@ -18,7 +18,7 @@
 //! | a tool as a controller has it, beside the plan's | `tool_frame` |
 //! | settings, and as lines of a program | `settings` |
 //! | the choice of points of a plan that a program names | `points` |
-//! | the assumed motion of an arm along a program, and the proof of that motion | `judged` |
+//! | the assumed motion of an arm along a program, and the proof of that motion | `judgement` |
 //! | the head of a program, as comments | `header` |
 //! | all of it, one after the other; the reasons that a plan is not handed over | `export`, `refusal` |
 //! | a program that may have been changed since | `compare` |

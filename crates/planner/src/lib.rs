@@ -5,6 +5,19 @@
 //! the certificate's, which uses none of it.
 //!
 //! Conventions (units, frames, order of twists) are those of [`platewash_kinematics`].
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | the phases, one after the other | `pipeline` |
+//! | the order of the plates | `order` |
+//! | the curve on each plate | `pattern` |
+//! | tilt, yaw and branch of the arm along it | `redundancy` |
+//! | the arm, its tool and what is around them | `scene` |
+//! | transits between plates | `transit`, `joint_path` |
+//! | timing as fast as the limits allow | `timing` |
+//! | the result | `planned_job` |
+//! | a job that cannot be done, and where its plates could lie | `infeasible`, `outlook`, `washable_map`, `suggest` |
+//! | errors; the caller that waits | `error`, `watch` |
 
 mod error;
 mod infeasible;

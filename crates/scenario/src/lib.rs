@@ -4,9 +4,19 @@
 //! [`keys`] is the one table of keys, units, ranges and meanings: it checks files and makes
 //! `docs/scenario.md`. The defaults are those of the types here.
 //!
-//! [`ObstacleText`] reads obstacles alone, for a motion without plates. [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and
-//! `job_on` for callers that need the steps one by one. [`Draft`] changes a scenario's text key by key. Errors of other crates
+//! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and `job_on` for
+//! callers that need the steps one by one. [`ObstacleText`] reads obstacles alone, for a motion without plates. [`Draft`] changes a scenario's text key by key. Errors of other crates
 //! become a [`Failure`] by `?`; its words name the keys.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | sections, their keys, units, ranges and meanings | `sections`, `keys` |
+//! | reading and checking a file | `load`, `scenario`, `units` |
+//! | from a scenario to its job | `resolve` |
+//! | changing a text key by key | `draft` |
+//! | failures and refusals in the words of the keys | `failure`, `error` |
+//! | keys that would mend a job; a home and a region for an arm | `remedy`, `suggest` |
+//! | obstacles alone | `obstacle_file` |
 
 mod draft;
 mod error;

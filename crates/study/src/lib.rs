@@ -3,6 +3,14 @@
 //! A study file ([`Study`]) states which rows there are; [`Resolver`] makes one of them a [`Row`], which depends on nothing but the study;
 //! [`Journal`] keeps rows in a folder, where a study that was ended goes on; [`run`] works on those that are missing, on rayon's threads.
 //! The rows of a study are the same bytes for every number of threads and every order in which they were done.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | the study: its file, axes and rows | `study`, `statement`, `axis` |
+//! | one row, planned and proved | `resolve`, `row` |
+//! | many rows at once | `run` |
+//! | the folder: which rows are done, and how it goes on after a stop | `journal`, `lines`, `manifest`, `folder_reader` |
+//! | summary; errors | `summary`, `error` |
 
 mod axis;
 mod error;

@@ -172,14 +172,14 @@ impl World {
     }
 
     /// Transforms the nearest positions of pairs to the world frame.
-    pub fn tell_pairs(&self, pairs: &mut [PairBound]) {
+    pub fn pairs_to_world(&self, pairs: &mut [PairBound]) {
         for pair in pairs {
             self.place_to_world(pair.place_m.as_mut());
         }
     }
 
     /// Transforms the positions of contact results to the world frame.
-    pub fn tell_contact(&self, plates: &mut [PlateContact]) {
+    pub fn contact_to_world(&self, plates: &mut [PlateContact]) {
         for plate in plates {
             for place in plate.places_mut() {
                 self.place_to_world(Some(place));

@@ -7,7 +7,7 @@
 //! | all of it; places in the world frame | `certificate` |
 //! | the first line, with what is laxer than usual | `headline` |
 //! | the table | `table` |
-//! | what the verdict rests on | `rests_on` |
+//! | what the verdict rests on | `verdict_basis` |
 //! | numbers and plates in words | `words` |
 
 pub(crate) mod certificate;

@@ -1,5 +1,12 @@
 //! A job: plates, workcell, and requirements of the washing. It is resolved: every number is stated; no defaults and no file references are
 //! left.
+//!
+//! | concept | module |
+//! | --- | --- |
+//! | a job with its arm | `wash_job` |
+//! | everything about a job but the arm; the job in the frame of the base | `terms` |
+//! | requirements and limits | `requirements` |
+//! | errors | `error` |
 
 mod error;
 mod requirements;

@@ -3,8 +3,8 @@
 //! A branch that ends beyond a limit by no more than the uncertainty of its joints is closed onto the limit.
 
 use crate::ik::analytic::branch::{Branch, Degeneracies, Label, OutOfReach};
+use crate::ik::analytic::equations::Turn;
 use crate::ik::analytic::nearest::{Window, nearest_integer};
-use crate::ik::analytic::wrist::Turn;
 use crate::ik::analytic::{AnalyticArm, AnalyticError, CLOSED, LIMIT_ROUNDING_RAD, check_finite};
 use crate::rotation::{RigidTransform, rotation_vector};
 use crate::trig::sin_cos;

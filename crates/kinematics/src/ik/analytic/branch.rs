@@ -3,7 +3,7 @@
 //! Names of the branches, and the borders where they meet.
 
 use crate::JointVector;
-use crate::ik::analytic::wrist::{Bend, Goal, Swing, Turn};
+use crate::ik::analytic::equations::{Bend, Goal, Swing, Turn};
 use crate::ik::analytic::{AnalyticArm, AnalyticError, check_finite};
 use crate::rotation::RigidTransform;
 use serde::Serialize;

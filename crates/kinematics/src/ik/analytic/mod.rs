@@ -20,12 +20,12 @@
 //! The *shoulder frame* S stands on axis 1 at the height of axis 2: z along axis 1, y along ± axis 2, x = y × z to
 //! the *front*. In it axis 2 passes through (a₁, ·, 0) and the wrist centre always has y = b.
 //!
-//! 1. Wrist centre `w` of the target, in S at q₁ = 0. Joint 1 (`position`):
+//! 1. Wrist centre `w` of the target, in S at q₁ = 0. Joint 1 (`equations`, like the steps below):
 //!    `Rot_z(q₁) (X, b, Z) = w`, so `Z = w_z` and `X = ±√(w_x² + w_y² − b²)`: front or back.
 //! 2. In the plane of the arm, with `p = Z + i (X − a₁)` and `θ` the turn about y:
 //!    `p = L₂ e^{i φ₂} + L₃ e^{i (φ₂ + ψ)}`, so `cos ψ = (|p|² − L₂² − L₃²) / (2 L₂ L₃)`, `ψ = ±…`: elbow up or down, and
 //!    `e^{i φ₂} ∥ p · conj(L₂ + L₃ e^{i ψ})`. Joints 2 and 3 are φ₂ and ψ less their values at the zero position.
-//! 3. What is left for the wrist (`wrist`) is a rotation of z–y–z form:
+//! 3. What is left for the wrist is a rotation of z–y–z form:
 //!    `Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R = Rot_z(q₄) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`: plain or flipped.
 //!
 //! Sines and cosines are carried through algebraically; each joint value costs one `atan2`.
@@ -53,18 +53,12 @@
 //! A joint is taken as within its limits up to [`LIMIT_ROUNDING_RAD`] and set onto the limit. Near a singularity a
 //! joint may be uncertain by more than that; a branch within [`LIMIT_NEAR_RAD`] is moved onto the limit and the other
 //! joints closed by Gauss–Newton, and counts only if the pose is met to [`CLOSED`] m and rad.
-//!
-//! Arm with a closed form, in terms of its geometry.
-//!
-//! Tolerances for zero lengths and angles, for limits, and for a pose that is met.
-//!
-//! Errors of the analytic solution.
 
 mod all;
 mod branch;
+mod equations;
 mod nearest;
 mod recognise;
-mod wrist;
 
 pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
 pub use crate::ik::analytic::branch::{
@@ -77,7 +71,7 @@ use crate::rotation::RigidTransform;
 use crate::{AXES, JointVector, LimitViolation};
 use nalgebra::{Complex, Matrix3};
 
-/// Arm whose inverse kinematics has a closed form: see the [module](super) text. Immutable.
+/// Arm whose inverse kinematics has a closed form: see the [module](self) text. Immutable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnalyticArm {
     /// `F_i` of the model.

@@ -4,7 +4,7 @@
 
 use crate::ik::analytic::all::{Rejection, Solutions};
 use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
-use crate::ik::analytic::wrist::{Bend, Goal, Swing};
+use crate::ik::analytic::equations::{Bend, Goal, Swing};
 use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS, check_finite};
 use crate::rotation::RigidTransform;
 use crate::{JointLimits, JointVector, LimitViolation};

@@ -1,8 +1,5 @@
-//! Joints 1 to 3 from the position of the wrist centre.
-//!
-//! Joints 4 to 6 from the orientation of the hand.
-//!
-//! The shoulder singularity under limits: the values of the free joint 1 that are worth trying.
+//! Equations of the closed form, joint by joint: joints 1 to 3 from the position of the wrist centre, joints 4 to 6 from the orientation of
+//! the hand, and the values of joint 1 that are worth trying where the shoulder singularity leaves it free.
 //!
 //! With the wrist centre on axis 1, joints 2 and 3 do not depend on joint 1, and the wrist's rotation is
 //! `E(q₁) = N Rot_z(−q₁) R` with a constant N. The values of q₁ that leave the wrist within its limits form
