@@ -94,7 +94,7 @@ pub struct MotionReport {
     pub clearance: Vec<PairBound>,
     /// Pairs of bodies that are not judged, with the reason of each.
     pub excluded: Vec<Exclusion>,
-    /// What the verdict rests on; one sentence each.
+    /// Assumptions of the verdict; one sentence each.
     pub assumptions: Vec<String>,
 }
 

@@ -20,7 +20,7 @@ use platewash_workcell::job::{JobError, check_workcell};
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::workcell::{Exclusion, Workcell};
 
-/// What a motion of an arm must keep, besides the limits of the arm's description.
+/// Rules that a motion of an arm must keep, besides the limits of the arm's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionRules {
     /// Required clearance of every pair of bodies \[m\], 0 to 1. With 0 the bodies must not touch.

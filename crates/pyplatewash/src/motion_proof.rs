@@ -65,20 +65,9 @@ pub fn prove_motion<'py>(
     }
     let choice = interpolation.map(|word| argument::word("interpolation", word, &INTERPOLATIONS));
     let choice = choice.transpose()?;
-    let limits = acceleration_limits.map(|limits| arrays::joint_vector("acceleration_limits", limits));
-    let limits = limits.transpose()?;
-    if let Some(found) = limits
-        .iter()
-        .flatten()
-        .find(|limit| !(**limit > 0.0 && limit.is_finite()))
-    {
-        let problem = format!("finite numbers above 0 are needed [rad/s²]; found {found}");
-        return Err(errors::input(py, "acceleration_limits", &problem));
-    }
-    if limits.is_some() && points.t_s.is_none() {
-        let problem = "accelerations cannot be judged without times: give t, or leave the limits out";
-        return Err(errors::input(py, "acceleration_limits", problem));
-    }
+    let limits = acceleration_limits
+        .map(|limits| read_acceleration_limits(limits, points.t_s.is_some()))
+        .transpose()?;
     let arm = match Robot::given(robot)? {
         Some(robot) => robot.get().model().clone(),
         None => Robot::built_in(py)?.get().model().clone(),
@@ -108,6 +97,19 @@ pub fn prove_motion<'py>(
     to_record(py, &report, Some(report.to_string()))
 }
 
+/// Acceleration limits \[rad/s²\]. They need times to be judged.
+fn read_acceleration_limits(limits: &Bound<'_, PyAny>, has_times: bool) -> PyResult<JointVector> {
+    let refused = |problem: &str| Err(errors::input(limits.py(), "acceleration_limits", problem));
+    let read = arrays::joint_vector("acceleration_limits", limits)?;
+    if let Some(found) = read.iter().find(|limit| !(**limit > 0.0 && limit.is_finite())) {
+        return refused(&format!("finite numbers above 0 are needed [rad/s²]; found {found}"));
+    }
+    if !has_times {
+        return refused("accelerations cannot be judged without times: give t, or leave the limits out");
+    }
+    Ok(read)
+}
+
 /// Argument that a fault of the points belongs to.
 fn argument_of(error: &PointsError) -> &'static str {
     match error {
@@ -134,7 +136,7 @@ fn obstacle_text(obstacles: &Bound<'_, PyAny>) -> PyResult<ObstacleText> {
         true => {
             let table = pyo3::types::PyDict::new(py);
             table.set_item("obstacle", obstacles)?;
-            from_mapping("", &table)?
+            from_mapping("obstacles", &table)?
         }
         false => from_mapping("obstacles", obstacles)?,
     };
