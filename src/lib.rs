@@ -55,7 +55,6 @@ pub use platewash_paper::{PaperJob, PaperReport, PaperRun};
 pub use platewash_simulator::{DynamicsError, DynamicsModel, Energy};
 pub use platewash_workcell::cancel::CancelToken;
 pub use platewash_workcell::clearance::{ClearanceModel, PairClearance};
-pub use platewash_workcell::coverage::{Coverage, coverage};
 pub use platewash_workcell::job::{JobTerms, WashJob};
 pub use platewash_workcell::layout::Layout;
 pub use platewash_workcell::plan::Plan;
