@@ -1,5 +1,5 @@
+import "./language.ts"; // Before uPlot, which `app.ts` loads.
 import { App } from "./app.ts";
-import "./language.ts";
 import { NumbersError } from "./numbers.ts";
 import { byId, el } from "./shell/dom.ts";
 import { DocumentError, readEdit, readView } from "./view.ts";
