@@ -32,7 +32,7 @@ use anyhow::{Error, Result};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::ExitCode;
 use options::Options;
-pub use options::installed_packages;
+pub use options::installed_files;
 use platewash::CancelToken;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};

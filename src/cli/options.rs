@@ -99,18 +99,13 @@ impl Options {
             scenario.robot.srdf.clone_from(&self.srdf);
             scenario.robot.package_path.clone_from(&self.package_path);
         }
-        scenario.files = self.files();
+        scenario.files = installed_files();
         if let Some(link) = &self.tool_mount {
             scenario.tool.mounted_on = Some(link.clone());
         }
         scenario.validate().map_err(|error| self.of_file(error))?;
         self.warn(&scenario.notes());
         Ok(scenario)
-    }
-
-    /// Source of the files of an arm: the disk, with the packages that ROS has installed.
-    pub fn files(&self) -> Files {
-        Files::default().with_installed(installed_packages())
     }
 
     /// The arm of a scenario.
@@ -188,10 +183,10 @@ impl Options {
     }
 }
 
-/// Folders in which ROS has packages installed, as the environment states them: ROS_PACKAGE_PATH, and the `share` folder of each prefix in
-/// AMENT_PREFIX_PATH.
+/// Source of the files of an arm: the disk, with the folders in which ROS has packages installed, as the environment states them:
+/// ROS_PACKAGE_PATH, and the `share` folder of each prefix in AMENT_PREFIX_PATH.
 #[must_use]
-pub fn installed_packages() -> Vec<PathBuf> {
+pub fn installed_files() -> Files {
     let folders = |name: &str| -> Vec<PathBuf> {
         let list = std::env::var_os(name).unwrap_or_default();
         std::env::split_paths(&list)
@@ -200,7 +195,7 @@ pub fn installed_packages() -> Vec<PathBuf> {
     };
     let prefixes = folders("AMENT_PREFIX_PATH").into_iter();
     let shares = prefixes.map(|prefix| prefix.join("share"));
-    folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect()
+    Files::default().with_installed(folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect())
 }
 
 /// True where a job was refused because of its scenario, in a message that does not name the scenario.

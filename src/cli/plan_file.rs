@@ -1,7 +1,7 @@
 //! Plan files as input, with the arm that they are for.
 
 use super::failure::not_verified;
-use super::options::Options;
+use super::options::{Options, installed_files};
 use anyhow::{Error, Result, anyhow, bail, ensure};
 use platewash::certificate::prove_with;
 use platewash::kinematics::urdf::file;
@@ -85,7 +85,7 @@ pub fn refused(path: &Path, error: impl Display) -> Error {
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
 fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> Result<Arc<RobotModel>> {
     if let Some(urdf) = &options.urdf {
-        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path, &options.files())?;
+        let arm = load_description(urdf, options.srdf.as_deref(), &options.package_path, &installed_files())?;
         refuse_other(wanted, &ArmId::of(&arm))?;
         return Ok(Arc::new(arm));
     }

@@ -2,14 +2,13 @@
 
 use super::failure::ExitCode;
 use super::numbers::within;
-use super::options::Options;
+use super::options::{Options, installed_files};
 use super::output::DetailArguments;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueEnum};
 use platewash::certificate::ProveError;
 use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
-use platewash::kinematics::urdf::Files;
 use platewash::kinematics::urdf::file::read_text;
 use platewash::scenario::{Note, ObstacleText, RobotSection, load_arm};
 use platewash::{Failure, JointVector, prove_motion};
@@ -70,7 +69,7 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
         package_path: options.package_path.clone(),
         ..RobotSection::default()
     };
-    let arm = load_arm(&section, &Files::default()).map_err(Failure::from)?;
+    let arm = load_arm(&section, &installed_files()).map_err(Failure::from)?;
     options.warn(&Note::of_arm(&arm));
     let obstacles = match &arguments.obstacles {
         Some(file) => ObstacleText::load(file)

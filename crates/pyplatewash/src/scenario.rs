@@ -6,7 +6,6 @@ use crate::robot::Robot;
 use crate::value::{from_mapping, records, to_python, to_record, warn};
 use crate::work::patiently;
 use crate::{argument, errors};
-use platewash::kinematics::urdf::Files;
 use platewash::planner::Watch;
 use platewash::scenario::{Program, SHIPPED, ScenarioError};
 use platewash::{Failure, Layout, RobotModel, Scenario};
@@ -341,7 +340,7 @@ pub fn given(value: &Bound<'_, PyAny>) -> PyResult<Scenario> {
 /// A scenario whose meshes are also looked for in the packages that ROS has installed.
 fn load(name_or_file: &str) -> Result<Scenario, ScenarioError> {
     let mut scenario = Scenario::load(name_or_file)?;
-    scenario.files = Files::default().with_installed(platewash::cli::installed_packages());
+    scenario.files = platewash::cli::installed_files();
     Ok(scenario)
 }
 

@@ -155,52 +155,46 @@ impl MeshSource {
     }
 
     fn find(&self, file: &str) -> Result<PathBuf, MeshError> {
-        let (candidates, places) = match file.strip_prefix("package://") {
-            Some(inside) => self.in_packages(inside),
-            None => {
-                let path = self.beside(file);
-                let place = path.display().to_string();
-                (vec![path], vec![place])
-            }
+        let is_file = |path: &PathBuf| self.files.is_file(path);
+        let shown = |path: PathBuf| path.display().to_string();
+        let Some(inside) = file.strip_prefix("package://") else {
+            let path = self.beside(file);
+            return match is_file(&path) {
+                true => Ok(path),
+                false => Err(MeshError::NotFound {
+                    file: file.to_owned(),
+                    searched: vec![shown(path)],
+                }),
+            };
         };
-        let found = candidates.into_iter().find(|path| self.files.is_file(path));
-        found.ok_or_else(|| MeshError::NotFound {
-            file: file.to_owned(),
-            searched: places,
+        let stated = || in_folders(&self.package_paths, inside);
+        let installed = || in_folders(self.files.installed(), inside);
+        // Folders above are looked at only where the stated ones lack the file.
+        let mut candidates = stated().chain(self.above_urdf(inside)).chain(installed());
+        candidates.find(is_file).ok_or_else(|| {
+            let above = self.urdf_folder.as_ref().map(|folder| {
+                let folder = if folder.as_os_str().is_empty() {
+                    Path::new(".")
+                } else {
+                    folder
+                };
+                format!("{} and the folders above it", folder.display())
+            });
+            MeshError::NotFound {
+                file: file.to_owned(),
+                searched: stated().map(shown).chain(above).chain(installed().map(shown)).collect(),
+            }
         })
     }
 
-    /// Returns the paths that `NAME/…` may have, first the likeliest, and the places for a message.
-    fn in_packages(&self, inside: &str) -> (Vec<PathBuf>, Vec<String>) {
+    /// Returns the paths that `NAME/…` may have in the folders above the URDF.
+    fn above_urdf(&self, inside: &str) -> impl Iterator<Item = PathBuf> {
         let (package, rest) = inside.split_once('/').unwrap_or((inside, ""));
-        let of_folder = |folder: &PathBuf| {
-            let named = folder.file_name().is_some_and(|name| name == package);
-            [Some(folder.join(inside)), named.then(|| folder.join(rest))]
-        };
-        let of_folders =
-            |folders: &[PathBuf]| -> Vec<PathBuf> { folders.iter().flat_map(of_folder).flatten().collect() };
-        let shown =
-            |paths: &[PathBuf]| -> Vec<String> { paths.iter().map(|path| path.display().to_string()).collect() };
-        let mut candidates = of_folders(&self.package_paths);
-        let mut places = shown(&candidates);
-        if let Some(folder) = &self.urdf_folder {
-            for above in folders_above(folder) {
-                candidates.push(above.join(inside));
-                if self.is_package(&above, package) {
-                    candidates.push(above.join(rest));
-                }
-            }
-            let folder = if folder.as_os_str().is_empty() {
-                Path::new(".")
-            } else {
-                folder
-            };
-            places.push(format!("{} and the folders above it", folder.display()));
-        }
-        let installed = of_folders(self.files.installed());
-        places.extend(shown(&installed));
-        candidates.extend(installed);
-        (candidates, places)
+        let folders = self.urdf_folder.iter().flat_map(|folder| folders_above(folder));
+        folders.flat_map(move |above| {
+            let named = self.is_package(&above, package).then(|| above.join(rest));
+            std::iter::once(above.join(inside)).chain(named)
+        })
     }
 
     /// True where `package.xml` in the folder states the package's name.
@@ -224,6 +218,15 @@ impl MeshSource {
             _ => path.to_path_buf(),
         }
     }
+}
+
+/// Returns the paths that `NAME/…` may have in folders: `FOLDER/NAME/…`, and `FOLDER/…` where the folder is called NAME.
+fn in_folders(folders: &[PathBuf], inside: &str) -> impl Iterator<Item = PathBuf> {
+    let (package, rest) = inside.split_once('/').unwrap_or((inside, ""));
+    folders.iter().flat_map(move |folder| {
+        let is_named = folder.file_name().is_some_and(|name| name == package);
+        std::iter::once(folder.join(inside)).chain(is_named.then(|| folder.join(rest)))
+    })
 }
 
 /// Returns the folder and those above it, as far as its path tells; for a relative one also [`LEVELS_ABOVE`] above the working folder.

@@ -106,7 +106,7 @@ impl Source {
             return RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()));
         };
         let wrong = |e: &dyn std::error::Error| errors::named(py, "UrdfError", &e.to_string());
-        let files = Files::default().with_installed(platewash::cli::installed_packages());
+        let files = platewash::cli::installed_files();
         let meshes = MeshSource::new(&description.package_path, description.folder.as_deref()).reading(&files);
         let robot = RobotModel::from_urdf(&description.urdf, &meshes).map_err(|e| wrong(&e))?;
         let Some(srdf) = &description.srdf else {
