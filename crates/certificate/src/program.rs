@@ -14,7 +14,7 @@
 
 use crate::certified::Certified;
 use crate::clearance::exclusions::Exclusions;
-use crate::clearance::pairs::{self, PairBound, Work};
+use crate::clearance::pairs::{self, PairBound};
 use crate::error::ProveError;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::joints;
@@ -122,8 +122,7 @@ pub fn prove_program(
     let exclusions = Exclusions::of(&subject)?;
     let model = exclusions.model(&subject)?;
     let waived = exclusions.waived_in(&model);
-    let work = Work::Scheduled(&schedule);
-    let mut clearance = pairs::judge(&subject, &model, &waived, &timeline, work, cancel)?;
+    let mut clearance = pairs::judge(&subject, &model, &waived, &timeline, Some(&schedule), cancel)?;
     let judged = check(&tip, &pieces, &schedule, &planned, limits.deviation_m);
     let mut checks = vec![
         position,

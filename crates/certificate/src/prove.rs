@@ -1,7 +1,7 @@
 //! Judgement of a plan: all requirements, one after the other.
 
 use crate::clearance::exclusions::Exclusions;
-use crate::clearance::pairs::{self, PairBound, Work};
+use crate::clearance::pairs::{self, PairBound};
 use crate::error::ProveError;
 use crate::motion::piece::{self, Piece};
 use crate::motion::timeline::Timeline;
@@ -103,7 +103,7 @@ pub fn prove_motion(
     let model = Exclusions::of(&subject)?.model(&subject)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
     let tips = Tips::new(&carrier, &subject, &pieces, None);
-    let mut clearance = pairs::judge(&subject, &model, &[], &timeline, Work::Nothing, cancel)?;
+    let mut clearance = pairs::judge_all(arm, subject.limits.clearance_m, &model, &timeline, cancel)?;
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits.joints, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
@@ -157,8 +157,7 @@ impl PlanUnderProof<'_> {
         let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
         let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         let waived = exclusions.waived_in(&model);
-        let work = schedule.map_or(Work::Unknown, Work::Scheduled);
-        let clearance = pairs::judge(subject, &model, &waived, self.timeline, work, self.cancel)?;
+        let clearance = pairs::judge(subject, &model, &waived, self.timeline, schedule, self.cancel)?;
         let upright_cosine = |plate| schedule.map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate));
 
         let mut checks = vec![

@@ -72,17 +72,6 @@ pub struct PairBound {
     pub place_m: Option<[f64; 3]>,
 }
 
-/// Plates that the sponge works on, over time.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Work<'a> {
-    /// The sponge works on no plate at any time.
-    Nothing,
-    /// The segments state the plates.
-    Scheduled(&'a Schedule),
-    /// The segments do not state the plates.
-    Unknown,
-}
-
 /// Pair with a rule and the pieces during which it holds; `None` where the segments do not state them.
 struct Task {
     pair: usize,
@@ -100,10 +89,10 @@ pub(crate) fn judge(
     model: &ClearanceModel,
     waived: &[usize],
     timeline: &Timeline<'_>,
-    work: Work<'_>,
+    schedule: Option<&Schedule>,
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
-    let tasks = tasks(subject, model, waived, timeline, work);
+    let tasks = tasks(subject, model, waived, timeline, schedule);
     judge_tasks(
         subject.robot,
         subject.limits.clearance_m,
@@ -283,12 +272,13 @@ pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
     }
 }
 
+/// Returns the rules of each pair, and when they hold. The schedule states when the sponge works on which plate; without one that is unknown.
 fn tasks(
     subject: &Subject<'_>,
     model: &ClearanceModel,
     waived: &[usize],
     timeline: &Timeline<'_>,
-    work: Work<'_>,
+    schedule: Option<&Schedule>,
 ) -> Vec<Task> {
     let mut tasks = Vec::new();
     let whole = 0..timeline.count();
@@ -306,17 +296,17 @@ fn tasks(
                 working_on,
             });
         };
-        let (schedule, plate) = match (work, model.pair_kind(pair)) {
-            (Work::Nothing, _) | (_, PairKind::Other) => {
+        let (schedule, plate) = match (schedule, model.pair_kind(pair)) {
+            (_, PairKind::Other) => {
                 add(keeps, Some(vec![whole.clone()]), Vec::new());
                 continue;
             }
-            (Work::Unknown, PairKind::SpongeAndPlate(_)) => {
+            (None, PairKind::SpongeAndPlate(_)) => {
                 add(keeps, None, Vec::new());
                 add(PairRule::Touching, None, Vec::new());
                 continue;
             }
-            (Work::Scheduled(schedule), PairKind::SpongeAndPlate(plate)) => (schedule, plate),
+            (Some(schedule), PairKind::SpongeAndPlate(plate)) => (schedule, plate),
         };
         let touches = |span: &Span| may_touch(subject, span.kind, span.plate, plate);
         let clear = joined(schedule, |span| !touches(span));
