@@ -1,6 +1,5 @@
-//! The certificate of an edited plan held against the sampler and against what is known of the edit.
-//!
-//! The summary: a line for each kind of edit.
+//! The certificate of an edited plan held against the sampler and against what is known of the edit; and the summary, a line for each
+//! kind of edit.
 
 use crate::mutation::edit::{Edit, ExpectedResult, GoodPlan, Kind};
 use crate::mutation::sampler::{Findings, WorstSample, is_sound};

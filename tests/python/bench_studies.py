@@ -23,9 +23,8 @@ import pyplatewash as pw
 from pyplatewash import _core
 from pyplatewash._studies.engines import drive as driven
 from pyplatewash._studies.engines.drive import drive
-from pyplatewash._studies.engines.contract import Engine
+from pyplatewash._studies.engines.contract import Engine, Kit, Share
 from pyplatewash._studies.run import begin
-from pyplatewash._studies.engines.contract import Kit, Share
 
 ENGINES = ["threads", "processes", "dask", "ray"]
 TOOLS_M = [0.12, 0.13, 0.14, 0.15]

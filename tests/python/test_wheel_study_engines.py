@@ -24,8 +24,7 @@ from pyplatewash import _core
 from pyplatewash._studies.engines import drive as driven
 from pyplatewash._studies.engines import processes
 from pyplatewash._studies import run as runs
-from pyplatewash._studies.engines.contract import Died
-from pyplatewash._studies.engines.contract import Made, Share
+from pyplatewash._studies.engines.contract import Died, Made, Share
 
 ENGINES = ["processes", "dask", "ray"]
 #: Plates that are planned in some hundredths of a second, and one that cannot be.

@@ -1,8 +1,5 @@
-//! Where things are: the arm at its ends and at the plates, the tool over them, the plates themselves.
-//!
-//! Obstacles in plates and in the base: points of each obstacle, and how deep they are in cylinders and boxes, in closed form.
-//!
-//! The swept share of a plate on a raster of points.
+//! Places: the arm at its ends and at the plates, the tool over them, the plates themselves and their swept shares on a raster; and
+//! obstacles in plates and in the base, by the depth of points in cylinders and boxes, in closed form.
 
 use crate::mutation::sampler::findings::Findings;
 use crate::mutation::sampler::motion::{Arm, Moment, Piece};
