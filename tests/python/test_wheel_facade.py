@@ -60,7 +60,6 @@ PYTHON = {
     "Axes": "Robot.jacobian",  # axes="base" or "local"
     "CancelToken": None,  # Ctrl-C
     "ClearanceModel": "ClearanceModel",
-    "Coverage": "Coverage",
     "DynamicsError": "DynamicsError",
     "DynamicsModel": "DynamicsModel",
     "Energy": "Energy",
@@ -89,7 +88,6 @@ PYTHON = {
     "Verdict": "Planned.report",
     "WashJob": "WashJob",
     "Workcell": "WashJob.workcell",
-    "coverage": "coverage",
 }
 
 
