@@ -195,7 +195,8 @@ impl<'a> IkSolver<'a> {
                 self.note(&descent, Method::Dls, Start::Analytic, search)
             }
             Err(reason) => {
-                search.no_branch = Some(reason);
+                // On a rounded arm the steps that close a branch can fail where the pose is reached: the search goes on.
+                search.no_branch = arm.rounding().is_none().then_some(reason);
                 None
             }
         }

@@ -114,9 +114,9 @@ impl<'a> Inverse<'a> {
         best.map_err(|rejection| rejection.map_or(Hindrance::NotFinite, Hindrance::from))
     }
 
-    /// Returns true where [`Inverse::starts`] knows every branch of the arm.
+    /// Returns true where [`Inverse::starts`] knows every branch of the arm. On a rounded arm a branch near a singularity can be missing.
     pub fn knows_all_branches(&self) -> bool {
-        matches!(self, Self::Analytic { .. })
+        matches!(self, Self::Analytic { arm, .. } if arm.rounding().is_none())
     }
 
     /// The configurations for `target` within the limits, one a branch, nearest to `near` \[rad\]: with shoulder in front and elbow

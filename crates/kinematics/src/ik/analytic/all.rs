@@ -203,6 +203,8 @@ fn turns_within(q: f64, limits: &JointLimits, joint: usize) -> (f64, u32) {
 
 /// Greatest number of Gauss–Newton steps.
 const STEPS: usize = 6;
+/// Greatest correction of a joint \[rad\]: one that moves farther has left the branch, as it may near a singularity.
+const FARTHEST_RAD: f64 = 0.05;
 /// Damping: keeps the normal matrix definite where the free joints are singular.
 const DAMPING: f64 = 1e-16;
 /// Regularity times distance beyond the limit above which nothing within the limit near by meets the pose to [`CLOSED`]: moving
@@ -210,7 +212,8 @@ const DAMPING: f64 = 1e-16;
 const HOPELESS: f64 = 50.0 * CLOSED;
 
 impl AnalyticArm {
-    /// Returns `q` within the limits, if it is so up to rounding or the free joints can make up for the rest.
+    /// Returns `q` within the limits, if it is so up to rounding or the free joints can make up for the rest. On a rounded arm all joints
+    /// are corrected, as the closed form holds only nearly.
     #[inline]
     pub(crate) fn moved_within_limits(
         &self,
@@ -218,7 +221,7 @@ impl AnalyticArm {
         q: JointVector,
         limits: &JointLimits,
     ) -> Option<JointVector> {
-        if limits.contain(&q) {
+        if self.rounding.is_none() && limits.contain(&q) {
             return Some(q);
         }
         self.move_within_limits(target, q, limits)
@@ -228,17 +231,19 @@ impl AnalyticArm {
     fn move_within_limits(&self, target: &RigidTransform, q: JointVector, limits: &JointLimits) -> Option<JointVector> {
         let mut here = limits.clamp(&q);
         let beyond = (here - q).amax();
-        if beyond <= LIMIT_ROUNDING_RAD {
-            return Some(here);
-        }
-        if self.regularity(&q) * beyond > HOPELESS {
-            return None;
+        if self.rounding.is_none() {
+            if beyond <= LIMIT_ROUNDING_RAD {
+                return Some(here);
+            }
+            if self.regularity(&q) * beyond > HOPELESS {
+                return None;
+            }
         }
         for _ in 0..STEPS {
             let (error, mut jacobian) = self.error_and_jacobian(target, &here);
             let (linear, angular) = (error.fixed_rows::<3>(0).norm(), error.fixed_rows::<3>(3).norm());
             if linear <= CLOSED && angular <= CLOSED {
-                return Some(here);
+                return ((here - q).amax() <= FARTHEST_RAD).then_some(here);
             }
             // Joints that stand on a limit stay there.
             for joint in (0..AXES).filter(|&i| here[i] == limits.lower[i] || here[i] == limits.upper[i]) {

@@ -12,8 +12,10 @@
 //!
 //! That is the ortho-parallel basis with spherical wrist (Brandstötter, Angerer & Hofbaur, 2014), with the
 //! direction of axis 4 left open. Each property must hold to [`GEOMETRY_TOLERANCE_M`] and
-//! [`GEOMETRY_TOLERANCE_RAD`]; anything else is refused with the property and its deviation ([`StructureMismatch`]).
-//! Where several fail, one that rounding of the description's numbers (1e-5 rad, 1e-6 m) does not explain is named first.
+//! [`GEOMETRY_TOLERANCE_RAD`], or up to the rounding of printed numbers (1e-5 rad, 1e-6 m: [`AnalyticArm::rounding`]); anything else is
+//! refused with the property and its deviation ([`StructureMismatch`]). The answers for a rounded arm are closed by Gauss–Newton steps on
+//! the chain as described, until the pose is met to [`CLOSED`] m and rad; a branch whose steps do not get there counts as out of its
+//! limits, as it may near a singularity.
 //!
 //! # Equations
 //!
@@ -97,6 +99,8 @@ pub struct AnalyticArm {
     pub(crate) wrist_from_shoulder: Matrix3<f64>,
     /// α₅ and α₆ \[rad\].
     pub(crate) wrist_at_zero: [f64; 2],
+    /// First property that holds only up to rounding.
+    pub(crate) rounding: Option<StructureMismatch>,
 }
 
 /// Largest deviation of a length that must be zero for an arm to be recognised \[m\].

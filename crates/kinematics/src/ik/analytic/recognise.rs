@@ -12,7 +12,7 @@ use nalgebra::{Complex, Matrix3, Vector3};
 #[non_exhaustive]
 pub enum StructureMismatch {
     /// Two axes that must be parallel are not.
-    #[error("axes {} and {} are not parallel, by {by_rad:.3e} rad{}", .joints[0] + 1, .joints[1] + 1, rounded_angle(*.by_rad))]
+    #[error("axes {} and {} are not parallel, by {by_rad:.3e} rad", .joints[0] + 1, .joints[1] + 1)]
     NotParallel {
         /// Joint indices, 0 for joint 1.
         joints: [usize; 2],
@@ -20,7 +20,7 @@ pub enum StructureMismatch {
         by_rad: f64,
     },
     /// Two axes that must be perpendicular are not.
-    #[error("axes {} and {} are not perpendicular, by {by_rad:.3e} rad{}", .joints[0] + 1, .joints[1] + 1, rounded_angle(*.by_rad))]
+    #[error("axes {} and {} are not perpendicular, by {by_rad:.3e} rad", .joints[0] + 1, .joints[1] + 1)]
     NotPerpendicular {
         /// Joint indices, 0 for joint 1.
         joints: [usize; 2],
@@ -29,8 +29,8 @@ pub enum StructureMismatch {
     },
     /// Axes 4, 5 and 6 do not meet in one point.
     #[error(
-        "the wrist is not spherical: axes 4, 5 and 6 do not meet in one point, as axes {} and {} miss each other by {:.4} mm{}",
-        .joints[0] + 1, .joints[1] + 1, 1e3 * .by_m, rounded_length(*.by_m)
+        "the wrist is not spherical: axes 4, 5 and 6 do not meet in one point, as axes {} and {} miss each other by {:.4} mm",
+        .joints[0] + 1, .joints[1] + 1, 1e3 * .by_m
     )]
     WristNotSpherical {
         /// Joint indices, 0 for joint 1.
@@ -58,24 +58,6 @@ const ROUNDED_RAD: f64 = 1e-5;
 /// Greatest deviation of a length that the rounding of a description explains \[m\]: half a unit of the sixth decimal, twice.
 const ROUNDED_M: f64 = 1e-6;
 
-fn rounded_angle(by_rad: f64) -> String {
-    within_rounding(by_rad <= ROUNDED_RAD, "rad", ROUNDED_RAD, GEOMETRY_TOLERANCE_RAD)
-}
-
-fn rounded_length(by_m: f64) -> String {
-    within_rounding(by_m <= ROUNDED_M, "m", ROUNDED_M, GEOMETRY_TOLERANCE_M)
-}
-
-fn within_rounding(is_rounding: bool, unit: &str, rounding: f64, needed: f64) -> String {
-    match is_rounding {
-        true => format!(
-            ": within the rounding of printed numbers ({rounding:e} {unit}), but {needed:e} {unit} is needed; state the origins with all \
-             digits"
-        ),
-        false => String::new(),
-    }
-}
-
 impl StructureMismatch {
     /// True where the rounding of the description's numbers explains the deviation.
     fn is_rounding(&self) -> bool {
@@ -98,8 +80,8 @@ impl AnalyticArm {
     /// Recognises the arm from the folded chain of the model.
     ///
     /// # Errors
-    /// [`StructureMismatch`]: the first property of the [module](super)'s list that fails its tolerance by more than the rounding of the
-    /// description's numbers; if there is none, the first that fails it at all.
+    /// [`StructureMismatch`]: the first property of the [module](super)'s list that fails by more than the rounding of the description's
+    /// numbers.
     pub fn recognise(robot: &RobotModel) -> Result<Self, StructureMismatch> {
         let folded = *robot.folded();
         let bodies = at_zero(&folded);
@@ -107,19 +89,19 @@ impl AnalyticArm {
             point: body.translation,
             direction: body.rotation.column(2).into(),
         });
+        let (centre, misses) = wrist_centre(&axes);
         let angles = [
             parallel(&axes, [1, 2]),
             perpendicular(&axes, [0, 1]),
             perpendicular(&axes, [3, 4]),
             perpendicular(&axes, [4, 5]),
         ];
-        let wrist = wrist_centre(&axes);
-        let failed = angles.into_iter().chain([wrist.map(drop)]).filter_map(Result::err);
-        let failed: Vec<_> = failed.collect();
-        if let Some(reason) = failed.iter().find(|reason| !reason.is_rounding()).or(failed.first()) {
+        let failed: Vec<_> = angles.into_iter().chain(misses).filter_map(Result::err).collect();
+        if let Some(reason) = failed.iter().find(|reason| !reason.is_rounding()) {
             return Err(*reason);
         }
-        let centre = wrist?;
+        let rounding = failed.first().copied();
+        let zero_m = rounding.map_or(GEOMETRY_TOLERANCE_M, |_| ROUNDED_M);
         let shoulder = shoulder_frame(&axes, &centre);
         let shoulder_from_base = shoulder.inverse();
         let seen = |point: &Vector3<f64>| shoulder_from_base.rotation * point + shoulder_from_base.translation;
@@ -141,11 +123,7 @@ impl AnalyticArm {
             shoulder_from_base,
             wrist_along_axis_6: axes[5].direction.dot(&(centre - axes[5].point)),
             shoulder_offset: second.x,
-            lateral_offset: if wrist.y.abs() <= GEOMETRY_TOLERANCE_M {
-                0.0
-            } else {
-                wrist.y
-            },
+            lateral_offset: if wrist.y.abs() <= zero_m { 0.0 } else { wrist.y },
             lengths: [length_m, fore_m],
             signs: [1, 2].map(|i: usize| 1.0_f64.copysign(axes[i].direction.dot(&y))),
             upper_at_zero: upper / length_m,
@@ -154,11 +132,16 @@ impl AnalyticArm {
             wrist_from_shoulder: (shoulder_from_base.rotation * bodies[3].rotation * about_z(wrist_zero.first))
                 .transpose(),
             wrist_at_zero: wrist_zero.others,
+            rounding,
         })
     }
-}
 
-impl AnalyticArm {
+    /// First property that holds only up to the rounding of the description's numbers; `None` if all hold to the tolerances.
+    #[must_use]
+    pub fn rounding(&self) -> Option<StructureMismatch> {
+        self.rounding
+    }
+
     /// Returns the target of body 6, `T_base_body6`, for a target of `frame` on it, `T_base_frame`.
     ///
     /// `None` unless body 6, the one behind joint 6, carries the frame.
@@ -195,20 +178,19 @@ fn perpendicular(axes: &[Line; AXES], joints: [usize; 2]) -> Result<(), Structur
     Err(StructureMismatch::NotPerpendicular { joints, by_rad })
 }
 
-/// Returns the intersection of axes 4 and 5, if axis 6 passes through that point too. Axes 4 and 5 are perpendicular, or the result is not
-/// used unless they are nearly so.
-fn wrist_centre(axes: &[Line; AXES]) -> Result<Vector3<f64>, StructureMismatch> {
+/// Returns the foot of axis 5 on axis 4, and by how much axes 4 and 5, and axis 6, miss it. Axes 4 and 5 are perpendicular, or the result
+/// is not used unless they are nearly so.
+fn wrist_centre(axes: &[Line; AXES]) -> (Vector3<f64>, [Result<(), StructureMismatch>; 2]) {
     let [fourth, fifth, sixth] = [axes[3], axes[4], axes[5]];
     let between = fifth.point - fourth.point;
     let gap = fourth.direction.cross(&fifth.direction).dot(&between);
     let centre = fourth.point + fourth.direction * fourth.direction.dot(&between);
     let miss = sixth.direction.cross(&(centre - sixth.point)).norm();
-    for (joints, by_m) in [([3, 4], gap.abs()), ([4, 5], miss)] {
-        if by_m > GEOMETRY_TOLERANCE_M {
-            return Err(StructureMismatch::WristNotSpherical { joints, by_m });
-        }
-    }
-    Ok(centre)
+    let misses = [([3, 4], gap.abs()), ([4, 5], miss)].map(|(joints, by_m)| match by_m <= GEOMETRY_TOLERANCE_M {
+        true => Ok(()),
+        false => Err(StructureMismatch::WristNotSpherical { joints, by_m }),
+    });
+    (centre, misses)
 }
 
 /// `T_base_S` at q₁ = 0: on axis 1 at the height of axis 2, z along axis 1, y along ± axis 2, x to the front.
