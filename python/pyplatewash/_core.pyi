@@ -94,9 +94,17 @@ class Robot:
         srdf: str | None = None,
         package_path: _Path | Sequence[_Path] | None = None,
         folder: _Path | None = None,
+        visual_shapes: bool = False,
     ) -> Robot: ...
     @classmethod
-    def load(cls, urdf: _Path, *, srdf: _Path | None = None, package_path: _Path | Sequence[_Path] | None = None) -> Robot: ...
+    def load(
+        cls,
+        urdf: _Path,
+        *,
+        srdf: _Path | None = None,
+        package_path: _Path | Sequence[_Path] | None = None,
+        visual_shapes: bool = False,
+    ) -> Robot: ...
     @property
     def name(self) -> str: ...
     @property

@@ -42,7 +42,8 @@ class Tool:
     com_m: float | None = None
     #: Inertia about the centre of mass, ixx, ixy, ixz, iyy, iyz, izz, z along the handle [kg m^2]; without it, a uniform cylinder's.
     inertia_kg_m2: tuple[float, float, float, float, float, float] | None = None
-    #: Link behind joint 6 that carries it; it leaves the link along z. Without a name, ``tool0``.
+    #: Link behind joint 6 that carries it, and the axis along which it leaves the link: ``"link_eef"`` for z, ``"flange:x"``. Without it,
+    #: ``tool0``, or what the description tells.
     mounted_on: str | None = None
 
     def __post_init__(self) -> None:

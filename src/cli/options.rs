@@ -9,7 +9,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, value_parser};
 use platewash::kinematics::urdf::Files;
 use platewash::planner::PlanError;
-use platewash::scenario::{Note, SHIPPED, ScenarioError, form};
+use platewash::scenario::{Note, Program, RobotSection, SHIPPED, ScenarioError, form};
 use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
@@ -45,8 +45,11 @@ pub struct Options {
     /// SRDF that lists the link pairs to leave out of the collision check
     #[arg(long, global = true, value_name = "FILE", requires = "urdf")]
     pub srdf: Option<PathBuf>,
-    /// Link after joint 6 that carries the tool; the tool points along its z axis [default: tool0]
-    #[arg(long, global = true, value_name = "LINK")]
+    /// Take the visuals of links without collision shapes as such, meshes as convex hulls
+    #[arg(long, global = true, requires = "urdf")]
+    pub visual_shapes: bool,
+    /// Link after joint 6 that carries the tool, and its axis along which the tool leaves it (z if left out) [default: tool0, or what the description tells]
+    #[arg(long, global = true, value_name = "LINK[:AXIS]")]
     pub tool_mount: Option<String>,
     /// Print the result as JSON
     #[arg(long, global = true)]
@@ -94,18 +97,55 @@ impl Options {
         if let Some(seed) = self.seed {
             scenario.seed = seed;
         }
-        if let Some(urdf) = &self.urdf {
-            scenario.robot.urdf = Some(urdf.clone());
-            scenario.robot.srdf.clone_from(&self.srdf);
-            scenario.robot.package_path.clone_from(&self.package_path);
-        }
         scenario.files = installed_files();
+        if self.urdf.is_some() {
+            let RobotSection {
+                urdf,
+                srdf,
+                package_path,
+                visual_shapes,
+                ..
+            } = self.robot_section();
+            scenario.robot = RobotSection {
+                urdf,
+                srdf,
+                package_path,
+                visual_shapes,
+                ..scenario.robot
+            };
+            self.leave_home_open(&mut scenario)?;
+        }
         if let Some(link) = &self.tool_mount {
             scenario.tool.mounted_on = Some(link.clone());
         }
         scenario.validate().map_err(|error| self.of_file(error))?;
         self.warn(&scenario.notes());
         Ok(scenario)
+    }
+
+    /// The arm of the options, as the section of a scenario states it.
+    pub fn robot_section(&self) -> RobotSection {
+        RobotSection {
+            urdf: self.urdf.clone(),
+            srdf: self.srdf.clone(),
+            package_path: self.package_path.clone(),
+            visual_shapes: self.visual_shapes,
+            ..RobotSection::default()
+        }
+    }
+
+    /// Removes the home of a shipped scenario, which is the IRB 120's, from a job of another arm.
+    fn leave_home_open(&self, scenario: &mut Scenario) -> Result<()> {
+        let is_shipped = SHIPPED.iter().any(|shipped| shipped.name == self.scenario_name());
+        if !is_shipped || scenario.job.program != Program::Certified {
+            return Ok(());
+        }
+        let arm = scenario.arm().map_err(|error| self.failure(error))?;
+        let own = RobotModel::irb120()?;
+        if (arm.folded(), arm.limits()) != (own.folded(), own.limits()) {
+            (scenario.robot.start_deg, scenario.robot.home_deg) = (None, None);
+        }
+        Ok(())
     }
 
     /// The arm of a scenario.
@@ -231,7 +271,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ("simulate tune view figures export dry-run compare", "seed", PLAN_STATES),
     (
         "align",
-        "scenario seed urdf package_path srdf tool_mount out",
+        "scenario seed urdf package_path srdf visual_shapes tool_mount out",
         "align works from the points of its file alone, without a scenario or a seed, and writes no file; leave it out",
     ),
     (
@@ -241,7 +281,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "study",
-        "scenario seed urdf package_path srdf tool_mount",
+        "scenario seed urdf package_path srdf visual_shapes tool_mount",
         "the study file states its scenarios and seeds; leave it out",
     ),
     (
@@ -251,12 +291,12 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "scenario",
-        "scenario seed urdf package_path srdf tool_mount out",
+        "scenario seed urdf package_path srdf visual_shapes tool_mount out",
         "scenario prints a shipped scenario as it is, `platewash scenario NAME`; leave it out",
     ),
     (
         "reproduce",
-        "scenario urdf package_path srdf tool_mount",
+        "scenario urdf package_path srdf visual_shapes tool_mount",
         "reproduce measures the paper's own scenarios and arm; leave it out",
     ),
 ];

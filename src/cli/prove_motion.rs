@@ -10,7 +10,7 @@ use platewash::certificate::ProveError;
 use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
 use platewash::kinematics::urdf::file::read_text;
-use platewash::scenario::{Note, ObstacleText, RobotSection, load_arm};
+use platewash::scenario::{Note, ObstacleText, load_arm};
 use platewash::{Failure, JointVector, prove_motion};
 use std::path::PathBuf;
 
@@ -63,13 +63,7 @@ fn accelerations(text: &str) -> Result<[f64; AXES]> {
 
 /// Judges a trajectory of an arm among obstacles.
 pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCode> {
-    let section = RobotSection {
-        urdf: options.urdf.clone(),
-        srdf: options.srdf.clone(),
-        package_path: options.package_path.clone(),
-        ..RobotSection::default()
-    };
-    let arm = load_arm(&section, &installed_files()).map_err(Failure::from)?;
+    let arm = load_arm(&options.robot_section(), &installed_files()).map_err(Failure::from)?;
     options.warn(&Note::of_arm(&arm));
     let obstacles = match &arguments.obstacles {
         Some(file) => ObstacleText::load(file)

@@ -3,17 +3,19 @@
 use super::failure::ExitCode;
 use super::files::Files;
 use super::options::Options;
-use anyhow::{Result, bail};
+use anyhow::{Context, Result};
 use clap::Args;
-use platewash::kinematics::AXES;
+use platewash::kinematics::ik::analytic::AnalyticArm;
+use platewash::kinematics::tool_mount::ToolMount;
 use platewash::kinematics::words::{decimals_down, decimals_up};
+use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
 use platewash::planner::suggest::Sector;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, draw_region};
 use platewash::workcell::clearance::TouchingPairs;
 use platewash::workcell::workcell::Obstacle;
-use platewash::{ClearanceModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
+use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -31,18 +33,55 @@ struct Answer {
     name: String,
     urdf_sha256: String,
     joints: Vec<JointRow>,
-    frames: Vec<String>,
-    tool_mount: Option<ToolMount>,
+    /// Joint accelerations of the scenario, assumed: a URDF states none \[rad/s²\].
+    assumed_acceleration_rad_s2: [f64; AXES],
+    links: Vec<LinkRow>,
+    tool_mount: Option<ToolMountRow>,
+    /// Reason that no link is known to carry the tool.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_tool_mount: Option<String>,
+    inverse_kinematics: InverseKinematics,
+    /// Reason that the arm cannot be simulated: masses that the description lacks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_dynamics: Option<String>,
+    /// Home of the scenario \[deg\]; without one, a clear home is looked for.
+    start_deg: Option<[f64; AXES]>,
     reach_bound_m: f64,
     clearance_pairs: Vec<[String; 2]>,
 }
 
+/// Link of the description.
+#[derive(Serialize)]
+struct LinkRow {
+    name: String,
+    /// Number of the joint that moves it; 0 for the base.
+    body: usize,
+    collision_shapes: usize,
+    visuals: usize,
+    has_mass: bool,
+}
+
 /// The link that carries the tool.
 #[derive(Serialize)]
-struct ToolMount {
+struct ToolMountRow {
     link: String,
-    /// Angle between its z axis, along which the tool leaves it, and the axis of joint 6 \[deg\].
+    /// Axis of the link along which the tool leaves it.
+    axis: &'static str,
+    /// True if the link is stated, or is `tool0`; false if names, axis 6 and shapes of the description tell it.
+    is_stated: bool,
+    /// True if that axis leads out of the arm along axis 6.
+    leads_out: bool,
+    /// Angle between that axis and the axis of joint 6 \[deg\].
     off_axis_6_deg: f64,
+}
+
+/// Closed form of the inverse kinematics, or the reason that there is none.
+#[derive(Serialize)]
+struct InverseKinematics {
+    closed_form: bool,
+    /// First property that holds only up to the rounding of the description's numbers, or that does not hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -58,7 +97,8 @@ struct JointRow {
     effort_n_m: Option<f64>,
 }
 
-/// Shows joints, limits, frames and the pairs that are checked for clearance (the bare arm over the floor), or suggests what suits the arm.
+/// Shows joints, limits, frames, what is known of the arm, and the pairs that are checked for clearance (the bare arm over the floor), or
+/// suggests what suits the arm.
 pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
     if arguments.suggest {
         return suggest(options);
@@ -66,32 +106,102 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let stated = scenario.tool.mounted_on.as_deref();
-    let link = stated.unwrap_or(ToolFrame::Tool0.name()).to_owned();
-    let (tool_mount, words) = match robot.tool_mount(stated) {
-        Ok(frame) => {
-            let off_axis_6_deg = frame.tilt_rad().to_degrees();
-            let words = format!("on link '{link}', along its z axis, {off_axis_6_deg:.1}° from the axis of joint 6");
-            (Some(ToolMount { link, off_axis_6_deg }), words)
+    let tool_mount = match stated {
+        Some(text) => {
+            robot.tool_mount(stated).context("tool.mounted_on")?;
+            Ok(ToolMount::of(text))
         }
-        Err(error) if stated.is_some() => bail!("tool.mounted_on: {error}"),
-        Err(error) => (None, format!("nowhere: {error}")),
+        None => robot.find_tool_mount().map_err(|error| error.to_string()),
     };
     let pairs = bare_clearance(&robot)?;
-    let pairs = pairs
-        .pair_names()
-        .into_iter()
-        .map(|(a, b)| [a.to_owned(), b.to_owned()]);
+    let pairs = pairs.pair_names().into_iter();
     let answer = Answer {
         name: robot.name().to_owned(),
         urdf_sha256: robot.sha256().to_owned(),
         joints: (0..AXES).map(|i| JointRow::new(&robot, i)).collect(),
-        frames: robot.links().iter().map(|l| l.name.clone()).collect(),
-        tool_mount,
+        assumed_acceleration_rad_s2: scenario.limits.joint_acceleration_rad_s2,
+        links: robot.links().iter().map(LinkRow::new).collect(),
+        no_tool_mount: tool_mount.as_ref().err().cloned(),
+        tool_mount: tool_mount
+            .ok()
+            .map(|mount| ToolMountRow::new(&robot, mount, stated.is_some())),
+        inverse_kinematics: InverseKinematics::of(&robot),
+        no_dynamics: DynamicsModel::new(&robot, None).err().map(|error| error.to_string()),
+        start_deg: scenario.robot.start_deg,
         reach_bound_m: robot.reach_bound(&robot.last_link_frame()).1,
-        clearance_pairs: pairs.collect(),
+        clearance_pairs: pairs.map(|(a, b)| [a.to_owned(), b.to_owned()]).collect(),
     };
-    options.print(&answer, || answer.text(&words))?;
+    options.print(&answer, || answer.text())?;
     Ok(ExitCode::Done)
+}
+
+impl LinkRow {
+    fn new(link: &Link) -> Self {
+        Self {
+            name: link.name.clone(),
+            body: link.frame.body(),
+            collision_shapes: link.collision.len(),
+            visuals: link.visuals.len(),
+            has_mass: link.inertial.is_some(),
+        }
+    }
+}
+
+impl ToolMountRow {
+    fn new(robot: &RobotModel, mount: ToolMount<'_>, is_stated: bool) -> Self {
+        let ToolMount { link, axis } = mount;
+        let carrier = robot.links().iter().find(|other| other.name == link);
+        let frame = robot.tool_mount(Some(&mount.to_string()));
+        Self {
+            link: link.to_owned(),
+            axis: axis.name(),
+            is_stated: is_stated || link == ToolFrame::Tool0.name(),
+            leads_out: carrier.and_then(|link| robot.outward_axis(link)) == Some(axis),
+            off_axis_6_deg: frame.map_or(f64::NAN, |frame| frame.tilt_rad().to_degrees()),
+        }
+    }
+
+    fn text(&self) -> String {
+        let Self { link, axis, .. } = self;
+        let way = match self.leads_out {
+            true => "out along axis 6".to_owned(),
+            false => format!("{:.1}° from the axis of joint 6", self.off_axis_6_deg),
+        };
+        let found = match self.is_stated {
+            true => "",
+            false => "; found by names, axis 6 and shapes: check it, or state it as --tool-mount LINK:AXIS",
+        };
+        format!("tool mounted on link '{link}', along its {axis} axis, {way}{found}")
+    }
+}
+
+impl InverseKinematics {
+    fn of(robot: &RobotModel) -> Self {
+        match AnalyticArm::recognise(robot) {
+            Ok(arm) => Self {
+                closed_form: true,
+                reason: arm.rounding().map(|rounding| rounding.to_string()),
+            },
+            Err(mismatch) => Self {
+                closed_form: false,
+                reason: Some(mismatch.to_string()),
+            },
+        }
+    }
+
+    fn text(&self) -> String {
+        match (self.closed_form, &self.reason) {
+            (true, None) => "closed form (spherical wrist, axes 2 and 3 parallel)".to_owned(),
+            (true, Some(rounding)) => format!(
+                "closed form (spherical wrist, axes 2 and 3 parallel, but for rounded numbers: {rounding}), then Newton steps on the arm as \
+                 described"
+            ),
+            (false, reason) => format!(
+                "by iteration, no closed form: {}",
+                reason.as_deref().unwrap_or_default()
+            ),
+        }
+    }
 }
 
 /// The clearances of an arm without a tool over the floor.
@@ -118,7 +228,7 @@ impl JointRow {
 }
 
 impl Answer {
-    fn text(&self, tool_mount: &str) -> String {
+    fn text(&self) -> String {
         let mut text = format!("{} (URDF SHA-256 {})\n\n", self.name, self.urdf_sha256);
         // Writing to a String cannot fail.
         let _ = writeln!(
@@ -138,15 +248,67 @@ impl Answer {
                 j.name, j.velocity_deg_s, j.velocity_rad_s, j.child
             );
         }
+        let tool_mount = self.tool_mount.as_ref().map(ToolMountRow::text);
+        let nowhere = || {
+            format!(
+                "tool mounted nowhere: {}",
+                self.no_tool_mount.as_deref().unwrap_or_default()
+            )
+        };
         let _ = writeln!(
             text,
-            "\nreach of the last link, at most {:.3} m\nframes: {}\ntool mounted {tool_mount}\n\npairs checked for clearance ({}):",
+            "\naccelerations {:?} rad/s², assumed: a URDF states none (limits.joint_acceleration_rad_s2)\n\
+             reach of the last link, at most {:.3} m\n\
+             {}\n\
+             {}\n\
+             inverse kinematics: {}\n\
+             simulation: {}\n\n{}\n\
+             pairs checked for clearance ({}):",
+            self.assumed_acceleration_rad_s2,
             self.reach_bound_m,
-            self.frames.join(", "),
+            tool_mount.unwrap_or_else(nowhere),
+            match self.start_deg {
+                Some(start_deg) => format!("home {start_deg:?}° (robot.start_deg)"),
+                None => "home not stated: a clear one is looked for (robot --suggest shows it)".to_owned(),
+            },
+            self.inverse_kinematics.text(),
+            match &self.no_dynamics {
+                Some(reason) => format!("not possible: {reason}"),
+                None => "possible, masses are stated".to_owned(),
+            },
+            self.links_text(),
             self.clearance_pairs.len()
         );
         let pairs = self.clearance_pairs.iter().map(|[a, b]| format!("  {a} – {b}\n"));
         text + &pairs.collect::<String>()
+    }
+
+    /// Table of the links.
+    fn links_text(&self) -> String {
+        let width = self
+            .links
+            .iter()
+            .map(|link| link.name.chars().count())
+            .max()
+            .unwrap_or(0)
+            .max(4);
+        let mut text = format!(
+            "{:<width$} {:>8} {:>16} {:>7}  mass\n",
+            "link", "moved by", "collision shapes", "visuals"
+        );
+        for link in &self.links {
+            let moved_by = match link.body {
+                0 => "–".to_owned(),
+                joint => format!("joint {joint}"),
+            };
+            let mass = if link.has_mass { "stated" } else { "–" };
+            let _ = writeln!(
+                text,
+                "{:<width$} {moved_by:>8} {:>16} {:>7}  {mass}",
+                link.name, link.collision_shapes, link.visuals
+            );
+        }
+        text
     }
 }
 

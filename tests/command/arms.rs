@@ -107,3 +107,56 @@ fn packages_of_ros_are_found_and_arms_are_given_as_urdf() {
     platewash(dir, &["run", "ur5e.urdf"]).refused(2, &["'--urdf ur5e.urdf'"]);
     platewash(dir, &["run", "ur5e.urdf.xacro"]).refused(2, &["xacro ur5e.urdf.xacro > ARM.urdf"]);
 }
+
+/// The IRB 120 with a hand that has a mesh as its only shape: without the option the hand is not checked, with it the plan says what
+/// stands for the hand, and verify needs the option, too.
+#[test]
+fn visual_shapes_are_taken_by_name() {
+    let folder = folder();
+    let dir = folder.path();
+    let cube = "v 0 -0.02 -0.02\nv 0 0.02 -0.02\nv 0 0.02 0.02\nv 0 -0.02 0.02\nv -0.01 -0.02 -0.02\nv -0.01 0.02 -0.02\n\
+                v -0.01 0.02 0.02\nv -0.01 -0.02 0.02\nf 1 2 3\nf 1 3 4\nf 5 7 6\nf 5 8 7\n";
+    std::fs::write(dir.join("hand.obj"), cube).unwrap();
+    let text = platewash::kinematics::irb120::IRB120_URDF;
+    let (before, after) = text.split_at(text.find("<collision name=\"link_6_sphere_1\">").unwrap());
+    let (_, after) = after.split_once("</collision>").unwrap();
+    let mesh = "<visual><geometry><mesh filename=\"hand.obj\"/></geometry></visual>";
+    std::fs::write(dir.join("arm.urdf"), format!("{before}{mesh}{after}")).unwrap();
+    let run = |verb: &[&str], more: &[&str]| platewash(dir, &[verb, &["--urdf", "arm.urdf"], more].concat());
+    let said = run(&["robot"], &[]).done().stderr;
+    assert!(
+        said.contains("links without collision shapes, whose clearance is not checked (--visual-shapes")
+            && said.contains("link_6"),
+        "{said}"
+    );
+    let said = run(&["robot"], &["--visual-shapes"]).done().stderr;
+    assert!(
+        said.contains("visuals stand for the collision shapes of link_6"),
+        "{said}"
+    );
+    // Links 4 and 6 are near each other in every configuration: the SRDF leaves them out.
+    let near = run(&["plan"], &["--visual-shapes", "--quiet"]);
+    assert_eq!(near.code, 3, "{}", near.stderr);
+    assert!(
+        near.stdout.contains("mm from link_6 (by convex hulls of meshes)"),
+        "{}",
+        near.stdout
+    );
+    std::fs::write(dir.join("arm.srdf"), platewash::kinematics::irb120::IRB120_SRDF).unwrap();
+    let srdf = ["--srdf", "arm.srdf"];
+    run(&["plan"], &[&srdf[..], &["--visual-shapes", "--quiet"]].concat()).done();
+    let said = run(
+        &["verify", "out/plan.json"],
+        &[&srdf[..], &["--visual-shapes", "--details"]].concat(),
+    )
+    .done()
+    .stdout;
+    for part in [
+        "links are within the convex hulls of their meshes: \"link_6\"",
+        "links are within their visuals, as they have no collision shapes: \"link_6\"",
+    ] {
+        assert!(said.contains(part), "no {part} in {said}");
+    }
+    run(&["verify", "out/plan.json"], &srdf).refused(2, &["the plan is for the arm"]);
+    platewash(dir, &["plan", "--visual-shapes"]).refused(2, &["--urdf"]);
+}

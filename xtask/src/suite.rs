@@ -104,7 +104,13 @@ fn left_out() -> Result<()> {
 pub fn docs() -> Result<()> {
     Step::cargo(
         "pages",
-        &["test", "-p", "platewash-scenario", "the_committed_page_is_current"],
+        &[
+            "test",
+            "--release",
+            "-p",
+            "platewash-scenario",
+            "the_committed_page_is_current",
+        ],
     )
     .with("PLATEWASH_WRITE_DOCS", "1")
     .run()

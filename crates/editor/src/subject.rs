@@ -243,7 +243,13 @@ impl Arms {
 fn id(scenario: &Scenario) -> String {
     let robot = &scenario.robot;
     let written = [&robot.urdf, &robot.srdf].map(|path| path.as_deref().and_then(written));
-    let named = (robot.model, &robot.urdf, &robot.srdf, &robot.package_path);
+    let named = (
+        robot.model,
+        &robot.urdf,
+        &robot.srdf,
+        &robot.package_path,
+        robot.visual_shapes,
+    );
     let shown = scenario.limits.joint_acceleration_rad_s2;
     sha256_hex(format!("{named:?} {written:?} {shown:?}").as_bytes())
 }

@@ -8,6 +8,7 @@ use crate::points::Source;
 use crate::settings::ExportSettings;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
+use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
 use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
@@ -100,10 +101,11 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             mm(sponge.compression_m)
         ),
     ];
-    lines.extend(world.tool.mounted_on.as_ref().map(|link| {
+    lines.extend(world.tool.mounted_on.as_deref().map(ToolMount::of).map(|mount| {
         format!(
-            "tool: mounted on link {} along its z; the controller's flange is assumed to be there",
-            quoted(link)
+            "tool: mounted on link {} along its {}; the controller's flange is assumed to be there, its z along that axis",
+            quoted(mount.link),
+            mount.axis
         )
     }));
     if world.mount != Pose::identity() {

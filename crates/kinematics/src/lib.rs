@@ -22,6 +22,7 @@
 //! | joint limits and margins | [`limits`] |
 //! | shapes: collision and looks | [`geometry`] |
 //! | tool frames by name | [`tool_frame`] |
+//! | the link and axis that carry a tool, stated or found | [`tool_mount`] |
 //! | inverse kinematics | [`ik`] |
 //! | many configurations at once | [`batch`] |
 //! | points spread evenly | [`halton`] |
@@ -56,6 +57,7 @@ pub mod model;
 pub mod rotation;
 pub mod srdf;
 pub mod tool_frame;
+pub mod tool_mount;
 pub mod trig;
 pub mod urdf;
 pub mod words;

@@ -14,7 +14,7 @@
 //!
 //! Geometric Jacobian and manipulability.
 
-use crate::geometry::{Inertial, Primitive, Visual, VisualFinding};
+use crate::geometry::{Inertial, Primitive, Shape, Visual, VisualFinding};
 use crate::limits::JointLimits;
 use crate::rotation::RigidTransform;
 use crate::srdf::DisabledPairs;
@@ -58,6 +58,8 @@ pub struct RobotModel {
     pub(crate) last_link: Frame,
     pub(crate) disabled: Option<DisabledPairs>,
     pub(crate) visual_findings: Vec<VisualFinding>,
+    /// Names of the links whose visuals stand for collision shapes.
+    pub(crate) of_visuals: Vec<String>,
 }
 
 impl RobotModel {
@@ -107,6 +109,20 @@ impl RobotModel {
         let has_shapes = |name: &str| self.links.iter().any(|l| l.name == name && !l.collision.is_empty());
         let moved = self.joints.iter().map(|joint| joint.child.as_str());
         moved.filter(move |name| !has_shapes(name))
+    }
+
+    /// Names of the links whose visuals stand for collision shapes
+    /// ([`MeshSource::with_visual_shapes`](crate::urdf::MeshSource::with_visual_shapes)).
+    #[must_use]
+    pub fn links_with_visual_shapes(&self) -> &[String] {
+        &self.of_visuals
+    }
+
+    /// Names of the links whose shapes are convex hulls of meshes.
+    pub fn links_with_hulls(&self) -> impl Iterator<Item = &str> {
+        let is_hull = |primitive: &Primitive| matches!(primitive.shape, Shape::Hull { .. });
+        let with_hulls = self.links.iter().filter(move |link| link.collision.iter().any(is_hull));
+        with_hulls.map(|link| link.name.as_str())
     }
 
     /// Visuals that could not be read and are left out. Nothing else depends on them.

@@ -4,7 +4,7 @@ use crate::urdf::{edited, joint, load, with_joint};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::urdf::MeshSource;
-use platewash_kinematics::{AXES, JointVector, RobotModel, ToolFrame, ToolFrameError};
+use platewash_kinematics::{AXES, JointVector, Pose, RobotModel, ToolFrame, ToolFrameError};
 use std::f64::consts::FRAC_PI_2;
 
 fn irb120() -> RobotModel {
@@ -296,36 +296,125 @@ fn accepts_a_byte_order_mark() {
 
 // ---- tool frames ----
 
+/// The IRB 120 with other links than `flange` and `tool0` behind joint 6: each a name and a fixed joint's origin on link 6.
+fn with_links(links: &[(&str, &str)]) -> RobotModel {
+    let text = edited(&[
+        (joint("link_6-flange"), ""),
+        (joint("flange-tool0"), ""),
+        ("<link name=\"flange\"/>", ""),
+        ("<link name=\"tool0\"/>", ""),
+    ]);
+    let more = links.iter().map(|(name, origin)| {
+        format!(
+            "<link name=\"{name}\"/><joint name=\"to {name}\" type=\"fixed\"><parent link=\"link_6\"/><child link=\"{name}\"/>\
+             <origin {origin}/></joint>"
+        )
+    });
+    load(&text.replace("</robot>", &format!("{}</robot>", more.collect::<String>()))).unwrap()
+}
+
+/// Origin with z along x of link 6, which leads out of the arm.
+const Z_OUT: &str = "xyz=\"0 0 0\" rpy=\"0 1.5707963267948966 0\"";
+const X_OUT: &str = "xyz=\"0 0 0\" rpy=\"0 0 0\"";
+
 #[test]
-fn without_tool0_a_tool_needs_a_link_that_carries_it() {
-    let text = edited(&[(joint("flange-tool0"), ""), ("<link name=\"tool0\"/>", "")]);
-    let robot = load(&text).unwrap();
-    let Err(ToolFrameError::Missing { link, found, .. }) = robot.tool_frame(ToolFrame::Tool0) else {
-        panic!("there is no tool0")
-    };
-    assert_eq!((link.as_str(), found.as_str()), ("tool0", "link_6, flange"));
-    let said = robot.tool_mount(None).unwrap_err().to_string();
-    for part in [
-        "has no link 'tool0' behind joint 6",
-        "tool.mounted_on",
-        "--tool-mount",
-        "'link_6' (x), 'flange' (x); [0, 90, 0] turns it to x",
-    ] {
-        assert!(said.contains(part), "no {part} in {said}");
-    }
-    let said = robot.tool_mount(Some("link_3")).unwrap_err().to_string();
-    assert!(said.contains("has no link 'link_3' behind joint 6"), "{said}");
-    // The turn that the message names gives the tool0 that was taken away.
-    let turn = platewash_kinematics::rotation::RigidTransform::from(&platewash_kinematics::Pose::rotation(
-        Vector3::y() * FRAC_PI_2,
-    ));
-    let found = robot.tool_mount(Some("flange")).unwrap();
-    assert!((found.tilt_rad() - FRAC_PI_2).abs() < 1e-12);
+fn finds_the_tool_mount_of_each_naming_scheme() {
     let (q, whole) = (JointVector::new(0.3, -0.2, 0.5, 1.0, -0.8, 2.0), irb120());
-    let expected = whole.tool_mount(None).unwrap();
-    assert!(expected.tilt_rad() < 1e-12);
-    let difference = whole.pose(&q, &expected).to_homogeneous() - robot.pose(&q, &found.offset(&turn)).to_homogeneous();
-    assert!(difference.amax() < 1e-14);
+    assert_eq!(whole.find_tool_mount().unwrap().to_string(), "tool0");
+    let expected = whole.pose(&q, &whole.tool_mount(None).unwrap());
+    for (links, found) in [
+        (&[("flange", X_OUT)][..], "flange:x"),
+        (
+            &[("left_tool0", Z_OUT), ("flange", X_OUT), ("tcp", "xyz=\"0.1 0 0\"")],
+            "left_tool0",
+        ),
+        (&[("arm_flange", X_OUT), ("ee_link", X_OUT)], "arm_flange:x"),
+        (&[("ee_link", X_OUT)], "ee_link:x"),
+        (&[("link_eef", Z_OUT)], "link_eef"),
+        (
+            &[("end_effector_link", Z_OUT), ("tool_frame", Z_OUT)],
+            "end_effector_link",
+        ),
+        (&[("tcp", "rpy=\"0 -1.5707963267948966 0\"")], "tcp:-z"),
+        (&[("tcp", "rpy=\"0 0 1.5707963267948966\"")], "tcp:-y"),
+    ] {
+        let robot = with_links(links);
+        let mount = robot.find_tool_mount().unwrap().to_string();
+        assert_eq!(mount, found, "{links:?}");
+        // z of the mounting frame leads out, as that of the tool0 that was taken away.
+        let pose = robot.pose(&q, &robot.tool_mount(Some(&mount)).unwrap());
+        assert!(
+            (pose.translation.vector - expected.translation.vector).norm() < 1e-14,
+            "{links:?}"
+        );
+        let z = |pose: &Pose| pose.rotation * Vector3::z();
+        assert!((z(&pose) - z(&expected)).norm() < 1e-14, "{links:?}");
+    }
+    // By REP-199, x of the flange is z of tool0 turned about y.
+    let robot = with_links(&[("flange", X_OUT)]);
+    let pose = robot.pose(&q, &robot.tool_mount(Some("flange:x")).unwrap());
+    assert!((pose.to_homogeneous() - expected.to_homogeneous()).amax() < 1e-14);
+}
+
+#[test]
+fn asks_where_the_description_does_not_tell_the_tool_mount() {
+    for (links, reason) in [
+        (
+            &[("ee_link", X_OUT), ("tcp", "xyz=\"0.1 0 0\"")][..],
+            "has the links 'ee_link' and 'tcp' at different places, and either could carry the tool",
+        ),
+        (
+            &[("flange", "rpy=\"0 0 3.141592653589793\"")],
+            "has a link 'flange' whose x axis should leave the arm by its name, but -x leads away from axis 5",
+        ),
+        (
+            &[("tool", "rpy=\"0 0.7 0\"")],
+            "has a link 'tool' without an axis that leads out along axis 6",
+        ),
+    ] {
+        let said = with_links(links).find_tool_mount().unwrap_err().to_string();
+        for part in [
+            reason,
+            "tool.mounted_on",
+            "--tool-mount LINK:AXIS",
+            "'link_6' (x leads out)",
+        ] {
+            assert!(said.contains(part), "no {part} in {said}");
+        }
+    }
+    // The last link alone counts if its origin is where its shape ends.
+    let last = |shape: &str| {
+        let text = edited(&[
+            (joint("link_6-flange"), ""),
+            (joint("flange-tool0"), ""),
+            ("<link name=\"flange\"/>", ""),
+            ("<link name=\"tool0\"/>", ""),
+        ]);
+        let (before, after) = text.split_at(text.find("<link name=\"link_6\">").unwrap());
+        let (from, end) = (after.find("<collision").unwrap(), after.find("</link>").unwrap());
+        load(&format!("{before}{}{shape}{}", &after[..from], &after[end..])).unwrap()
+    };
+    let of_length = |length_m: f64, x_m: f64| {
+        format!(
+            "<collision><origin xyz=\"{x_m} 0 0\"/><geometry><box size=\"{length_m} 0.04 0.04\"/></geometry></collision>"
+        )
+    };
+    assert_eq!(
+        last(&of_length(0.02, -0.01)).find_tool_mount().unwrap().to_string(),
+        "link_6:x"
+    );
+    let said = last(&of_length(0.04, 0.0)).find_tool_mount().unwrap_err().to_string();
+    assert!(
+        said.contains("the shape of link 'link_6' ends 20.0 mm from its origin"),
+        "{said}"
+    );
+    let bare = last("");
+    let said = bare.find_tool_mount().unwrap_err().to_string();
+    assert!(said.contains("no shape that tells where link 'link_6' ends"), "{said}");
+    let said = bare.tool_mount(Some("link_3")).unwrap_err().to_string();
+    assert!(said.contains("has no link 'link_3' behind joint 6"), "{said}");
+    let said = bare.tool_mount(None).unwrap_err().to_string();
+    assert!(said.contains("has no link 'tool0' behind joint 6"), "{said}");
 }
 
 /// Older ROS-Industrial descriptions have no flange: the last link stands in for it.

@@ -222,3 +222,53 @@ proptest! {
         }
     }
 }
+
+/// Links that have collision shapes keep them; the hash tells the arms apart, also where the visuals are no meshes.
+#[test]
+fn visuals_stand_for_missing_collision_shapes_where_asked() {
+    let tetrahedron = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("hand.obj"), tetrahedron).unwrap();
+    let before = link("link_6");
+    let from = before.find("<collision").unwrap();
+    let to = before.find("</collision>").unwrap() + "</collision>".len();
+    let mesh = "<visual><origin xyz=\"0 0 0.01\"/><geometry><mesh filename=\"hand.obj\"/></geometry></visual>";
+    let bare = format!("{}{mesh}{}", &before[..from], &before[to..]);
+    let text = edited(&[(before, &bare)]);
+    let stated = load(&text, folder.path());
+    assert_eq!(stated.links_without_shapes().collect::<Vec<_>>(), ["link_6"]);
+    let source = MeshSource::new(&[], Some(folder.path())).with_visual_shapes(true);
+    let taken = RobotModel::from_urdf(&text, &source).unwrap();
+    assert_eq!(taken.links_with_visual_shapes(), ["link_6"]);
+    assert_eq!(taken.links_with_hulls().collect::<Vec<_>>(), ["link_6"]);
+    assert_eq!(taken.links_without_shapes().count(), 0);
+    let of = |robot: &RobotModel| {
+        robot
+            .links()
+            .iter()
+            .find(|l| l.name == "link_6")
+            .unwrap()
+            .collision
+            .clone()
+    };
+    let [cylinder, hull] = &of(&taken)[..] else {
+        panic!("{:?}", of(&taken))
+    };
+    assert!(matches!(cylinder.shape, Shape::Cylinder { .. }), "{cylinder:?}");
+    let Shape::Hull { points } = &hull.shape else {
+        panic!("{hull:?}")
+    };
+    assert!(points.len() == 4 && hull.pose.translation.z == 0.01);
+    for (a, b) in stated
+        .links()
+        .iter()
+        .zip(taken.links())
+        .filter(|(a, _)| a.name != "link_6")
+    {
+        assert_eq!(a.collision, b.collision, "{}", a.name);
+    }
+    let solids = edited(&[(before, &format!("{}{}", &before[..from], &before[to..]))]);
+    let hashes = [MeshSource::none(), MeshSource::none().with_visual_shapes(true)]
+        .map(|source| RobotModel::from_urdf(&solids, &source).unwrap().sha256().to_owned());
+    assert_ne!(hashes[0], hashes[1]);
+}

@@ -285,6 +285,14 @@ pub fn flag(name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
     value.extract().map_err(|e| refused(name, value, NEEDED, e))
 }
 
+/// True or False; False where nothing is given.
+///
+/// # Errors
+/// As [`flag`].
+pub fn flag_or_false(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<bool> {
+    value.map_or(Ok(false), |value| flag(name, value))
+}
+
 /// A text; `needed` says of what.
 ///
 /// # Errors

@@ -105,11 +105,11 @@ impl ClearanceObject {
         };
         let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
         let (plates, given): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
+        let model = robot.get().model().clone();
         let held = match &tool {
-            Some(tool) => ToolFields::of(tool)?.tool(py)?,
+            Some(tool) => ToolFields::of(tool)?.on(py, &model)?,
             None => Tool::from(StraightTool::default()),
         };
-        let model = robot.get().model().clone();
         let inner = alone(py, || {
             let workcell = Workcell::on_floor(&model, held)?;
             ClearanceModel::new(&model, &workcell, &plates)

@@ -118,12 +118,14 @@ impl DynamicsObject {
     ) -> PyResult<Self> {
         let py = robot.py();
         let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
-        let held = tool.as_ref().map(|tool| ToolFields::of(tool)?.tool(py)).transpose()?;
+        let model = robot.get().model();
+        let held = tool.as_ref().map(|tool| ToolFields::of(tool)?.on(py, model));
+        let held = held.transpose()?;
         let gravity = match gravity_m_s2 {
             Some(given) => arrays::fixed::<3>("gravity_m_s2", given)?,
             None => [0.0, 0.0, -STANDARD_GRAVITY_M_S2],
         };
-        let model = DynamicsModel::new(robot.get().model(), held.as_ref());
+        let model = DynamicsModel::new(model, held.as_ref());
         let inner = model.and_then(|model| model.with_gravity(Vector3::from(gravity)));
         Ok(Self {
             inner: inner.map_err(|e| errors::dynamics(py, &e))?,

@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use platewash::workcell::plate::Foot;
 use platewash::workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
 use platewash::workcell::tool::StraightTool;
-use platewash::{Plate, Pose, Tool};
+use platewash::{Plate, Pose, RobotModel, Tool};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple, PyType};
@@ -334,6 +334,15 @@ impl ToolFields {
             inertia_kg_m2: self.inertia_kg_m2,
         };
         Ok(Tool::from(straight).mounted(self.mounted_on.clone()))
+    }
+
+    /// The tool on the link of an arm that is stated or that the description tells.
+    ///
+    /// # Errors
+    /// As [`Self::tool`], and `InputError` for an arm that does not tell the link.
+    pub fn on(&self, py: Python<'_>, robot: &RobotModel) -> PyResult<Tool> {
+        let tool = self.tool(py)?.on(robot);
+        tool.map_err(|e| errors::input(py, "tool.mounted_on", &e.to_string()))
     }
 
     fn check_stiffness(&self, py: Python<'_>) -> PyResult<()> {

@@ -40,7 +40,7 @@ pub use crate::keys::{LISTS, List};
 pub use crate::load::{SHIPPED, ScenarioSource, ShippedScenario, source};
 pub use crate::obstacle_file::ObstacleText;
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
-pub use crate::resolve::arm::{ArmError, load_arm, load_description};
+pub use crate::resolve::arm::{ArmError, load_arm};
 pub use crate::resolve::certified::MAX_CONTACT_CHECKS;
 pub use crate::resolve::solids::Solids;
 pub use crate::scenario::{Scenario, check_seed};

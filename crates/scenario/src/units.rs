@@ -38,6 +38,13 @@ pub enum Note {
         /// Greatest reach, as described \[m\].
         reach_m: f64,
     },
+    /// Links whose visuals stand for collision shapes.
+    VisualShapes {
+        /// Name of the arm.
+        robot: String,
+        /// The links.
+        links: Vec<String>,
+    },
     /// Links that move and have no collision shapes: no clearance of theirs is checked.
     NoShapes {
         /// Name of the arm.
@@ -86,7 +93,12 @@ impl Note {
         let long = (reach_m > LONGEST_REACH_M).then(|| Self::ArmInMillimetres { robot: name(), reach_m });
         let links: Vec<_> = robot.links_without_shapes().map(str::to_owned).collect();
         let bare = (!links.is_empty()).then(|| Self::NoShapes { robot: name(), links });
-        long.into_iter().chain(bare).collect()
+        let of_visuals = robot.links_with_visual_shapes();
+        let visual = (!of_visuals.is_empty()).then(|| Self::VisualShapes {
+            robot: name(),
+            links: of_visuals.to_vec(),
+        });
+        long.into_iter().chain(bare).chain(visual).collect()
     }
 }
 
@@ -103,7 +115,7 @@ impl fmt::Display for Note {
                  {meant_deg:?}"
             ),
             Self::HomeLeftOpen => f.write_str(
-                "robot.start_deg is not stated: a clear home is looked for, and stands in the plan; `platewash robot --suggest` shows one",
+                "robot.start_deg is not stated for this arm: a clear home is looked for, and stands in the plan; `platewash robot --suggest` shows one",
             ),
             Self::ArmInMillimetres { robot, reach_m } => write!(
                 f,
@@ -112,7 +124,13 @@ impl fmt::Display for Note {
             ),
             Self::NoShapes { robot, links } => write!(
                 f,
-                "robot {robot}: links without collision shapes, whose clearance is not checked: {}",
+                "robot {robot}: links without collision shapes, whose clearance is not checked (--visual-shapes, robot.visual_shapes, takes \
+                 their visuals): {}",
+                links.join(", ")
+            ),
+            Self::VisualShapes { robot, links } => write!(
+                f,
+                "robot {robot}: visuals stand for the collision shapes of {}",
                 links.join(", ")
             ),
             Self::LargerThanMesh { body, by_m } => write!(

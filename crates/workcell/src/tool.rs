@@ -17,7 +17,8 @@ const ROUNDING_M: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
-    /// Link behind joint 6 that carries the tool, which leaves it along the link's z axis; `None` for `tool0`.
+    /// Link behind joint 6 that carries the tool, and its axis along which the tool leaves it, as the text of a
+    /// [`ToolMount`](platewash_kinematics::tool_mount::ToolMount): `flange:x`, `link_eef` for z; `None` for `tool0`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,
     /// Bodies between the flange and the sponge; empty if there is no tool.
@@ -180,6 +181,19 @@ impl Tool {
             mounted_on: on.filter(|link| link != ToolFrame::Tool0.name()),
             ..self
         }
+    }
+
+    /// Returns the tool as an arm carries it: on the stated link, or on the one that the description tells.
+    ///
+    /// # Errors
+    /// [`ToolFrameError::NoMount`].
+    pub fn on(self, robot: &RobotModel) -> Result<Self, ToolFrameError> {
+        let tool = match self.mounted_on {
+            Some(_) => self,
+            None => self.mounted(Some(robot.find_tool_mount()?.to_string())),
+        };
+        tool.check_mount(robot)?;
+        Ok(tool)
     }
 
     /// True if there is a tool that can touch anything.

@@ -4,6 +4,7 @@ use crate::clearance::exclusions::Exclusions;
 use crate::report::words::{list, mm, number, plates};
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::trig::atan2;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
@@ -87,6 +88,7 @@ impl VerdictBasis {
                 .into_iter()
                 .map(str::to_owned)
                 .chain(unchecked(arm))
+                .chain(hulls(arm))
                 .collect(),
             dry_run: job.dry_run.clone(),
         }
@@ -106,6 +108,20 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     all.extend(job.requirements.contact.map(|_| ERROR_OF_HEIGHT));
     all.extend(job.dry_run.is_some().then_some(PARENT));
     all
+}
+
+/// Returns a note about links of the arm whose shapes are convex hulls, and about those whose visuals stand for collision shapes.
+fn hulls(arm: &RobotModel) -> Vec<String> {
+    let hulls: Vec<_> = arm.links_with_hulls().map(quoted).collect();
+    let of_visuals: Vec<_> = arm.links_with_visual_shapes().iter().map(|link| quoted(link)).collect();
+    let note = |links: Vec<String>, what: &str| (!links.is_empty()).then(|| format!("{what}: {}", links.join(", ")));
+    note(hulls, "links are within the convex hulls of their meshes")
+        .into_iter()
+        .chain(note(
+            of_visuals,
+            "links are within their visuals, as they have no collision shapes",
+        ))
+        .collect()
 }
 
 /// Returns a note about links of the arm without collision shapes, if there are any.
@@ -204,7 +220,10 @@ fn arm(world: &Workcell) -> String {
 
 fn tool_mount(tool: &Tool) -> String {
     match &tool.mounted_on {
-        Some(link) => format!("on link {} along its z", quoted(link)),
+        Some(mount) => {
+            let ToolMount { link, axis } = ToolMount::of(mount);
+            format!("on link {} along its {axis}", quoted(link))
+        }
         None => "on tool0 along its z".to_owned(),
     }
 }

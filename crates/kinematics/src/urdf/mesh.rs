@@ -31,6 +31,7 @@ pub struct MeshSource {
     package_paths: Vec<PathBuf>,
     urdf_folder: Option<PathBuf>,
     files: Files,
+    visual_shapes: bool,
 }
 
 impl MeshSource {
@@ -49,7 +50,19 @@ impl MeshSource {
             package_paths: package_paths.to_vec(),
             urdf_folder: urdf_folder.map(Path::to_path_buf),
             files: Files::default(),
+            visual_shapes: false,
         }
+    }
+
+    /// Returns the source for descriptions whose links without collision shapes take their visuals, meshes as convex hulls, as such.
+    #[must_use]
+    pub fn with_visual_shapes(self, visual_shapes: bool) -> Self {
+        Self { visual_shapes, ..self }
+    }
+
+    /// True where links without collision shapes take their visuals as such.
+    pub(crate) fn takes_visual_shapes(&self) -> bool {
+        self.visual_shapes
     }
 
     /// Returns the source with files from elsewhere than the disk.

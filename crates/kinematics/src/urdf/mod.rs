@@ -71,9 +71,11 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
         .zip(&frames)
         .map(|(link, frame)| convert_link(link, *frame, meshes, &mut looks));
     let links = links.collect::<Result<Vec<_>, _>>()?;
+    let of_visuals = tree.links.iter().filter(|link| shapes::takes_visuals(link, meshes));
+    let of_visuals: Vec<_> = of_visuals.map(|link| link.name.clone()).collect();
     Ok(RobotModel {
         name: robot.name.clone(),
-        sha256: fingerprint(text, &links),
+        sha256: fingerprint(text, &links, &of_visuals),
         joints,
         limits,
         folded,
@@ -81,11 +83,13 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
         last_link,
         disabled: None,
         visual_findings: looks.findings,
+        of_visuals,
     })
 }
 
-/// Returns the SHA-256 of the text, followed by the vertices of its collision meshes, if any, as bytes of little-endian doubles in metres.
-fn fingerprint(text: &str, links: &[Link]) -> String {
+/// Returns the SHA-256 of the text, followed by the vertices of its collision meshes, if any, as bytes of little-endian doubles in metres,
+/// and by the names of the links whose visuals stand for collision shapes.
+fn fingerprint(text: &str, links: &[Link], of_visuals: &[String]) -> String {
     let mut bytes = text.as_bytes().to_vec();
     for primitive in links.iter().flat_map(|link| &link.collision) {
         if let Shape::Hull { points } = &primitive.shape {
@@ -93,6 +97,11 @@ fn fingerprint(text: &str, links: &[Link]) -> String {
             bytes.extend(numbers.flat_map(f64::to_le_bytes));
         }
     }
+    bytes.extend(
+        of_visuals
+            .iter()
+            .flat_map(|name| format!("\nvisual shapes: {name}").into_bytes()),
+    );
     sha256_hex(&bytes)
 }
 

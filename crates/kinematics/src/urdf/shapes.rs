@@ -118,21 +118,29 @@ fn capsule(cylinder: &Primitive, ends: &[Primitive]) -> Option<Primitive> {
     })
 }
 
+/// True if the visuals of a link stand for the collision shapes that it does not have.
+pub(crate) fn takes_visuals(link: &urdf_rs::Link, meshes: &MeshSource) -> bool {
+    meshes.takes_visual_shapes() && link.collision.is_empty() && !link.visual.is_empty()
+}
+
 /// Returns all collision shapes of a link, in its frame.
 pub(crate) fn primitives(link: &urdf_rs::Link, meshes: &MeshSource) -> Result<Vec<Primitive>, UrdfError> {
     let at = format!("link '{}'", link.name);
-    let convert = |element: &urdf_rs::Collision| {
+    let convert = |(origin, geometry): (&urdf_rs::Pose, &Geometry)| {
         Ok(Primitive {
-            pose: pose(&element.origin, &at)?,
-            shape: shape(&element.geometry, &link.name, meshes)?,
+            pose: pose(origin, &at)?,
+            shape: shape(geometry, &link.name, meshes)?,
         })
     };
-    let all = link
-        .collision
-        .iter()
-        .map(convert)
-        .collect::<Result<Vec<_>, UrdfError>>()?;
-    Ok(merge(all))
+    let all: Result<Vec<_>, UrdfError> = if takes_visuals(link, meshes) {
+        link.visual.iter().map(|v| convert((&v.origin, &v.geometry))).collect()
+    } else {
+        link.collision
+            .iter()
+            .map(|c| convert((&c.origin, &c.geometry)))
+            .collect()
+    };
+    Ok(merge(all?))
 }
 
 fn shape(geometry: &Geometry, link: &str, meshes: &MeshSource) -> Result<Shape, UrdfError> {

@@ -221,6 +221,7 @@ mod tests {
                     b,
                     distance_m: self.0,
                     place_m: [0.0; 3],
+                    has_hull: false,
                 };
                 let required_m = 0.0105;
                 Hindrance::Clearance { pair, required_m }.fmt_worst(f)

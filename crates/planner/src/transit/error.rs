@@ -142,10 +142,11 @@ const KEPT: &str = "the clearance asked for and";
 impl fmt::Display for ClearanceShortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
+        let hulls = self.pair.hull_note();
         let mm = |m: f64| 1e3 * m;
         let [distance, required] = distinct_decimals(mm(*distance_m), mm(self.asked_m + self.reserve_m), 2);
         if *distance_m > 0.0 && self.asked_m + self.reserve_m - distance_m < ALIKE_M {
-            write!(f, "{a} is a little nearer to {b} than allowed")?;
+            write!(f, "{a} is a little nearer to {b} than allowed{hulls}")?;
             return write!(
                 f,
                 "; {:.2} mm must be kept: {KEPT} {:.2} mm in reserve",
@@ -154,9 +155,9 @@ impl fmt::Display for ClearanceShortfall {
             );
         }
         if *distance_m > 0.0 {
-            write!(f, "{a} is {distance} mm from {b}")?;
+            write!(f, "{a} is {distance} mm from {b}{hulls}")?;
         } else {
-            write!(f, "{a} touches {b}")?;
+            write!(f, "{a} touches {b}{hulls}")?;
         }
         write!(
             f,

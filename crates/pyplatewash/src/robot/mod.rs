@@ -15,6 +15,7 @@ use crate::{arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Note;
+use platewash::scenario::RobotSection;
 use platewash::{Axes, Frame, IkSolver, RobotModel, Scenario, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -72,7 +73,10 @@ impl Robot {
     /// # Errors
     /// `UrdfError` for files that can no longer be read.
     pub fn of_scenario(py: Python<'_>, scenario: &Scenario, model: Arc<RobotModel>) -> PyResult<Py<Self>> {
-        Py::new(py, Self::new(model, Source::of(py, scenario)?))
+        Py::new(
+            py,
+            Self::new(model, Source::files(py, &scenario.robot, &scenario.files)?),
+        )
     }
 
     /// The solver for a frame, kept from an earlier call or new.
@@ -97,9 +101,7 @@ impl Robot {
                 frame.map_err(|e| errors::input(py, "frame", &e.to_string()))
             }
             (None, Some(tool)) => {
-                let tool = ToolFields::of(tool)?.tool(py)?;
-                let mount = tool.check_mount(&self.model);
-                mount.map_err(|e| errors::input(py, "tool.mounted_on", &e.to_string()))?;
+                let tool = ToolFields::of(tool)?.on(py, &self.model)?;
                 Ok(tool.tip_frame(&self.model))
             }
             (Some(_), Some(_)) => Err(errors::input(
@@ -128,11 +130,12 @@ impl Robot {
     /// An arm from expanded URDF text (no xacro) with six revolute axes in series.
     ///
     /// `srdf` is SRDF text with the pairs of links that need no collision check. `package_path` is a folder, or a list of them, in which
-    /// `package://` meshes are looked up, `folder` is the one that relative mesh names start from.
+    /// `package://` meshes are looked up, `folder` is the one that relative mesh names start from. With `visual_shapes`, links without
+    /// collision shapes take their visuals as such, meshes as convex hulls.
     ///
     /// Raises UrdfError, naming the joint or link at fault.
     #[classmethod]
-    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None))]
+    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None, visual_shapes=None), text_signature = "(text, *, srdf=None, package_path=None, folder=None, visual_shapes=False)")]
     fn from_urdf(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
@@ -140,33 +143,40 @@ impl Robot {
         srdf: Option<&Bound<'_, PyAny>>,
         package_path: Option<&Bound<'_, PyAny>>,
         folder: Option<&Bound<'_, PyAny>>,
+        visual_shapes: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let source = Source::described(
             argument::text("text", text, "URDF text")?,
             srdf.map(|srdf| argument::text("srdf", srdf, "SRDF text")).transpose()?,
             argument::paths("package_path", package_path)?,
             folder.map(|folder| argument::path("folder", folder)).transpose()?,
+            argument::flag_or_false("visual_shapes", visual_shapes)?,
         );
         Ok(Self::new(Arc::new(source.load(py)?), source))
     }
 
     /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`, a
-    /// folder or a list of them.
+    /// folder or a list of them. With `visual_shapes`, links without collision shapes take their visuals as such, meshes as convex hulls.
     ///
     /// Raises UrdfError, naming the joint or link at fault; for a file that cannot be read it is a FileError, too.
     #[classmethod]
-    #[pyo3(signature = (urdf, *, srdf=None, package_path=None))]
+    #[pyo3(signature = (urdf, *, srdf=None, package_path=None, visual_shapes=None), text_signature = "(urdf, *, srdf=None, package_path=None, visual_shapes=False)")]
     fn load(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
         urdf: &Bound<'_, PyAny>,
         srdf: Option<&Bound<'_, PyAny>>,
         package_path: Option<&Bound<'_, PyAny>>,
+        visual_shapes: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let urdf = argument::path("urdf", urdf)?;
-        let srdf = srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?;
-        let package_path = argument::paths("package_path", package_path)?;
-        let source = Source::files(py, &urdf, srdf.as_deref(), package_path, &Files::default())?;
+        let section = RobotSection {
+            urdf: Some(argument::path("urdf", urdf)?),
+            srdf: srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?,
+            package_path: argument::paths("package_path", package_path)?,
+            visual_shapes: argument::flag_or_false("visual_shapes", visual_shapes)?,
+            ..RobotSection::default()
+        };
+        let source = Source::files(py, &section, &Files::default())?;
         let model = Arc::new(source.load(py)?);
         warn(py, &Note::of_arm(&model))?;
         Ok(Self::new(model, source))
@@ -378,7 +388,8 @@ impl Robot {
         srdf: Option<&Bound<'_, PyAny>>,
         package_path: Option<&Bound<'_, PyAny>>,
         folder: Option<&Bound<'_, PyAny>>,
+        visual_shapes: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        Self::from_urdf(class, py, text, srdf, package_path, folder)
+        Self::from_urdf(class, py, text, srdf, package_path, folder, visual_shapes)
     }
 }

@@ -1,10 +1,11 @@
 //! Source of an arm's description: enough to make the arm again in another process.
 
 use crate::errors::{self, FileKind};
+use platewash::RobotModel;
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash::kinematics::urdf::{Files, MAX_BYTES, MeshSource};
-use platewash::{RobotModel, Scenario};
+use platewash::scenario::RobotSection;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
@@ -25,30 +26,35 @@ pub struct Description {
     srdf: Option<String>,
     package_path: Vec<PathBuf>,
     folder: Option<PathBuf>,
+    visual_shapes: bool,
 }
 
 impl Source {
     /// From texts.
-    pub fn described(urdf: String, srdf: Option<String>, package_path: Vec<PathBuf>, folder: Option<PathBuf>) -> Self {
+    pub fn described(
+        urdf: String,
+        srdf: Option<String>,
+        package_path: Vec<PathBuf>,
+        folder: Option<PathBuf>,
+        visual_shapes: bool,
+    ) -> Self {
         Self::Described(Box::new(Description {
             urdf,
             srdf,
             package_path,
             folder,
+            visual_shapes,
         }))
     }
 
-    /// From files.
+    /// From the files of a section; the built-in one if it names none.
     ///
     /// # Errors
     /// `UrdfError` for a file that cannot be read.
-    pub fn files(
-        py: Python<'_>,
-        urdf: &Path,
-        srdf: Option<&Path>,
-        package_path: Vec<PathBuf>,
-        files: &Files,
-    ) -> PyResult<Self> {
+    pub fn files(py: Python<'_>, section: &RobotSection, files: &Files) -> PyResult<Self> {
+        let Some(urdf) = &section.urdf else {
+            return Ok(Self::BuiltIn);
+        };
         let read = |path: &Path| {
             files
                 .read_text(path, MAX_BYTES as u64)
@@ -60,25 +66,11 @@ impl Source {
             .and_then(|path| path.parent().map(Path::to_path_buf));
         Ok(Self::described(
             read(urdf)?,
-            srdf.map(read).transpose()?,
-            package_path,
+            section.srdf.as_deref().map(read).transpose()?,
+            section.package_path.clone(),
             folder,
+            section.visual_shapes,
         ))
-    }
-
-    /// The arm of a scenario: its files, or the built-in one.
-    ///
-    /// # Errors
-    /// As [`Source::files`].
-    pub fn of(py: Python<'_>, scenario: &Scenario) -> PyResult<Self> {
-        let section = &scenario.robot;
-        match &section.urdf {
-            None => Ok(Self::BuiltIn),
-            Some(urdf) => {
-                let srdf = section.srdf.as_deref();
-                Self::files(py, urdf, srdf, section.package_path.clone(), &scenario.files)
-            }
-        }
     }
 
     /// The SRDF text, if there is one.
@@ -107,7 +99,9 @@ impl Source {
         };
         let wrong = |e: &dyn std::error::Error| errors::named(py, "UrdfError", &e.to_string());
         let files = platewash::cli::installed_files();
-        let meshes = MeshSource::new(&description.package_path, description.folder.as_deref()).reading(&files);
+        let meshes = MeshSource::new(&description.package_path, description.folder.as_deref())
+            .reading(&files)
+            .with_visual_shapes(description.visual_shapes);
         let robot = RobotModel::from_urdf(&description.urdf, &meshes).map_err(|e| wrong(&e))?;
         let Some(srdf) = &description.srdf else {
             return Ok(robot);
@@ -128,7 +122,7 @@ impl Source {
         match self {
             Self::BuiltIn => Ok((class.getattr("irb120")?, PyTuple::empty(py))),
             Self::Described(d) => {
-                let arguments = (&d.urdf, &d.srdf, &d.package_path, &d.folder);
+                let arguments = (&d.urdf, &d.srdf, &d.package_path, &d.folder, d.visual_shapes);
                 Ok((class.getattr("_restore")?, arguments.into_pyobject(py)?))
             }
         }

@@ -4,7 +4,7 @@ use crate::sections::robot::{BuiltInArm, RobotSection};
 use platewash_kinematics::irb120::EmbeddedModelError;
 use platewash_kinematics::urdf::{Files, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Reason that the arm of a scenario could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -45,7 +45,7 @@ pub enum ArmError {
 /// [`ArmError`] with the file and its error.
 pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
-        (Some(urdf), _) => load_description(urdf, section.srdf.as_deref(), &section.package_path, files),
+        (Some(urdf), _) => load_description(urdf, section, files),
         (None, BuiltInArm::Irb120) => Ok(RobotModel::irb120()?),
     }
 }
@@ -55,16 +55,13 @@ pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, Arm
 ///
 /// # Errors
 /// [`ArmError`] with the file and its error.
-pub fn load_description(
-    urdf: &Path,
-    srdf: Option<&Path>,
-    package_path: &[PathBuf],
-    files: &Files,
-) -> Result<RobotModel, ArmError> {
+fn load_description(urdf: &Path, section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
     let file = urdf.display().to_string();
-    let meshes = MeshSource::new(package_path, urdf.parent()).reading(files);
+    let meshes = MeshSource::new(&section.package_path, urdf.parent())
+        .reading(files)
+        .with_visual_shapes(section.visual_shapes);
     let robot = RobotModel::from_urdf(&read(urdf, files)?, &meshes).map_err(|error| ArmError::Urdf { file, error })?;
-    let Some(path) = srdf else {
+    let Some(path) = &section.srdf else {
         return Ok(robot);
     };
     let srdf = |error| ArmError::Srdf {

@@ -98,7 +98,7 @@ impl Scenario {
             chain.straight.sponge_stiffness_pa.get_or_insert(assumed);
         }
         let tool = chain.tool()?.mounted(self.tool.mounted_on.clone());
-        tool.check_mount(arm).map_err(|error| {
+        let tool = tool.on(arm).map_err(|error| {
             let (keys, detail) = ("tool.mounted_on".to_owned(), error.to_string());
             ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail })
         })?;

@@ -28,6 +28,10 @@ pub struct RobotSection {
     #[key(domain = Paths)]
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "load::lossy_all")]
     pub package_path: Vec<PathBuf>,
+    /// Take the visuals of links without collision shapes as such, meshes as convex hulls; without it, no clearance of such links is checked.
+    #[key(domain = Bool)]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub visual_shapes: bool,
     /// Frame in which tool poses are stated and returned; nothing else changes.
     #[key(domain = Word(&["flange", "tool0", "matlab_tool0"]), default = ToolFrame::Tool0)]
     pub tool_frame: ToolFrame,

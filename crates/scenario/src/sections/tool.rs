@@ -33,8 +33,8 @@ pub struct ToolSection {
     /// Body between flange and sponge: a round handle, or nothing but the bodies of `[[tool_body]]`.
     #[key(domain = Word(&["round", "none"]), default = HandleName::Round)]
     pub handle: HandleName,
-    /// Link behind joint 6 that carries the tool; the tool leaves it along the link's z axis, turned by mount_rpy_deg. Without it, `tool0`; a
-    /// description without a link of that name is refused.
+    /// Link behind joint 6 that carries the tool, which leaves it along the link's z axis, or along another as in "flange:x", turned by
+    /// mount_rpy_deg. Without it, `tool0`, or what the description tells by names, axis 6 and shapes: `platewash robot` shows it.
     #[key(domain = Text)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,

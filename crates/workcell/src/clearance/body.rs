@@ -21,6 +21,11 @@ pub(crate) struct Body {
 }
 
 impl Body {
+    /// True if one of its parts is the convex hull of a mesh.
+    pub fn has_hull(&self) -> bool {
+        self.parts.iter().any(Part::is_hull)
+    }
+
     /// True if the body never gets away from an obstacle: the base, and over a half-space also the body that joint 1 turns there.
     pub fn never_leaves(&self, obstacle: &Self, robot: &RobotModel) -> bool {
         match self.kind {

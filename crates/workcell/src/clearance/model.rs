@@ -26,6 +26,21 @@ pub struct PairClearance {
     pub distance_m: f64,
     /// Midpoint between the two nearest points \[m\], base frame.
     pub place_m: [f64; 3],
+    /// True if the shape of one of the bodies is the convex hull of a mesh, which can reach beyond the mesh.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub has_hull: bool,
+}
+
+impl PairClearance {
+    /// Words for a message on the pair: empty, or that a convex hull was compared.
+    #[must_use]
+    pub fn hull_note(&self) -> &'static str {
+        if self.has_hull {
+            " (by convex hulls of meshes)"
+        } else {
+            ""
+        }
+    }
 }
 
 /// The two bodies of a model that are nearest to each other at one configuration, with their nearest points.
@@ -272,6 +287,7 @@ impl ClearanceModel {
             b: self.bodies[b].name.clone(),
             distance_m: found.distance,
             place_m: found.place,
+            has_hull: [a, b].iter().any(|&body| self.bodies[body].has_hull()),
         }
     }
 }

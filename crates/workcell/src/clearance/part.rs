@@ -66,6 +66,11 @@ impl std::fmt::Debug for Core {
 }
 
 impl Part {
+    /// True for the convex hull of a mesh.
+    pub fn is_hull(&self) -> bool {
+        matches!(&self.core, Core::Solid(solid, _) if solid.as_convex_polyhedron().is_some())
+    }
+
     /// Builds the part of a link's shape. Fails for a mesh that has no volume or is too large.
     pub fn new(shape: &Shape, frame: Frame) -> Result<Self, HullFault> {
         Ok(match shape {
