@@ -1,7 +1,7 @@
-//! Everything that must pass, in order.
+//! Everything that must pass: in order, and side by side where that saves time.
 
 use crate::{benches, browser, page, python, wheel};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
 
@@ -51,48 +51,51 @@ impl Part {
     }
 }
 
-/// Runs the whole suite or one part of it, up to the first failure.
+/// Runs the whole suite or one part of it, each up to the first failure.
 ///
 /// The page is made first, so that all that is compiled after it has it. The Python packages are fetched while crates compile.
 pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
     let start = Instant::now();
-    let release: Check = if only.is_none() { release } else { release_alone };
-    let steps: [(&[Part], Check); 13] = [
-        (&[Part::Rust, Part::Python, Part::Browser], page::make),
-        (&[Part::Lint], format),
-        (&[Part::Lint], clippy),
-        (&[Part::Lint], documentation),
-        (&[Part::Rust], tests),
-        (&[Part::Rust], benches::once),
-        (&[Part::Python, Part::Browser], release),
-        (&[Part::Python], wheel::install),
-        (&[Part::Python], wheel::package),
-        (&[Part::Python], python::tests),
-        (&[Part::Browser], page::tested),
-        (&[Part::Browser], page::again),
-        (
-            &[Part::Browser],
-            if in_browser == BrowserTests::Run {
-                browser::tests
-            } else {
-                left_out
-            },
-        ),
-    ];
-    if only.is_none() {
-        // The step that needs them waits for the end of this, and tells what goes wrong.
-        std::thread::spawn(python::environment);
+    let in_browser: Check = match in_browser {
+        BrowserTests::Run => browser::tests,
+        BrowserTests::LeftOut => left_out,
+    };
+    match only {
+        None => whole(in_browser)?,
+        Some(Part::Lint) => all(&LINT)?,
+        Some(Part::Rust) => all(&RUST)?,
+        Some(Part::Python) => all(&[page::make, release_alone]).and_then(|()| all(&PYTHON))?,
+        Some(Part::Browser) => all(&[page::make, release_alone, page::tested, page::again, in_browser])?,
     }
-    let mut passed = 0;
-    for (_, step) in steps
-        .iter()
-        .filter(|(parts, _)| only.is_none_or(|only| parts.contains(&only)))
-    {
-        step()?;
-        passed += 1;
-    }
-    println!("\nAll {passed} steps passed in {:.0} s.", start.elapsed().as_secs_f64());
+    println!("\nAll steps passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
+}
+
+const LINT: [Check; 3] = [format, clippy, documentation];
+const RUST: [Check; 3] = [page::make, tests, benches::once];
+const PYTHON: [Check; 3] = [wheel::install, wheel::package, python::tests];
+
+fn all(steps: &[Check]) -> Result<()> {
+    steps.iter().try_for_each(|step| step())
+}
+
+/// Runs steps, and others beside them: crates that compile alone, and tests that wait, leave a core idle.
+fn beside(others: &[Check], steps: &[Check]) -> Result<()> {
+    std::thread::scope(|scope| {
+        let others = scope.spawn(|| all(others));
+        let done = all(steps);
+        let others = others.join().map_err(|_| anyhow!("a panic"))?;
+        done.and(others)
+    })
+}
+
+fn whole(in_browser: Check) -> Result<()> {
+    // The step that needs them waits for the end of this, and tells what goes wrong.
+    std::thread::spawn(python::environment);
+    page::make()?;
+    let compiled = [&LINT[..], &RUST, &[release]].concat();
+    beside(&[page::tested, page::again], &compiled)?;
+    beside(&[in_browser], &PYTHON)
 }
 
 fn left_out() -> Result<()> {
