@@ -1,7 +1,8 @@
 /** A hundred plates are still a page. */
 import assert from "node:assert/strict";
+import { join } from "node:path";
 import { test } from "node:test";
-import { folder, page as written, spiral } from "../lib/command.mjs";
+import { folder, platewash, spiral } from "../lib/command.mjs";
 import { address, open, seek } from "../lib/watched.mjs";
 
 const COUNT = 100;
@@ -24,7 +25,9 @@ test("a plan of a hundred plates opens and plays", async (t) => {
     ["turns = 3.5", "turns = 1"],
     ["path_radius_m = 0.12385", "path_radius_m = 0.03885"],
   );
-  const { page, quiet } = await open(t, address(await written(place, scenario)));
+  await platewash(place, ["plan", "--quiet", "--scenario", scenario]);
+  await platewash(place, ["view", "out/plan.json", "--save", "page.html", "--quiet"]);
+  const { page, quiet } = await open(t, address(join(place, "page.html")));
   const { plates, coverage, duration } = await page.evaluate(() => ({
     plates: window.platewash.view.plates.length,
     coverage: window.platewash.view.coverage.length,

@@ -42,7 +42,7 @@ test("under a clock that is handed in, playing is exact", async (t) => {
   quiet();
 });
 
-test("in real time, ten seconds are ten seconds", async (t) => {
+test("in real time, four seconds are four seconds", async (t) => {
   const { page, quiet } = await open(t, address(await shipped()), { size: { width: 400, height: 300 } });
   const { duration, shown, passed } = await page.evaluate(async () => {
     const film = window.platewash;
@@ -51,7 +51,7 @@ test("in real time, ten seconds are ten seconds", async (t) => {
     film.seek(0);
     film.play();
     const start = performance.now();
-    await new Promise((resolve) => setTimeout(resolve, 10_000));
+    await new Promise((resolve) => setTimeout(resolve, 4000));
     film.step();
     return { duration: film.duration, shown: film.time(), passed: (performance.now() - start) / 1000 };
   });
