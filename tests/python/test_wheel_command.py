@@ -74,7 +74,7 @@ NEAR = "near = pw.run_paper(paper.replace(wash={'points': 90_000}, layout={'regi
 LONG = {
     "place": (DRAWN, "pw.place_plates(drawn)"),
     "plan": (MANY, "pw.plan(job)"),
-    "prove": (MANY + "; plan = pw.plan(job).plan", "pw.prove(plan)"),
+    "prove": (MANY.replace("range(41)", "range(21)") + "; plan = pw.plan(job).plan", "pw.prove(plan)"),
     "simulate": ("slow = pw.SimulationSettings(plant={'substeps': 1000})", "pw.simulate(plan, settings=slow)"),
     "tune": ("", "pw.tune(plan, np.linspace(5, 60, 100), np.linspace(0.7, 1.5, 100))"),
     "sweep": ("", "pw.sweep(kitchen, range(1, 1_000_000))"),
