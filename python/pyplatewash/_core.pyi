@@ -173,7 +173,12 @@ class Robot:
     ) -> Page: ...
     @classmethod
     def _restore(
-        cls, text: str, srdf: str | None, package_path: Sequence[_Path] | None, folder: _Path | None
+        cls,
+        text: str,
+        srdf: str | None,
+        package_path: Sequence[_Path] | None,
+        folder: _Path | None,
+        visual_shapes: bool,
     ) -> Robot: ...
     def _repr_html_(self) -> str: ...
     def __copy__(self) -> Robot: ...
