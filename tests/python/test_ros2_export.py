@@ -20,7 +20,7 @@ LEAD_IN_NS = NS // 2
 
 @pytest.fixture(scope="module")
 def plan() -> pw.Plan:
-    return planned("kitchen")
+    return planned(pw.Scenario.load("kitchen").replace(layout={"count": 1}))
 
 
 @pytest.fixture(scope="module", params=[1.0, 0.3])
