@@ -2,7 +2,7 @@
 
 use platewash::certificate::{Requirement, differences, prove};
 use platewash::planner::PlannedJob;
-use platewash::workcell::fixtures::kitchen_terms;
+use platewash::workcell::fixtures::{is_thorough, kitchen_terms};
 use platewash::workcell::job::{OrderRule, Planner, PlannerSettings};
 use platewash::workcell::random::stream;
 use platewash::workcell::tool::StraightTool;
@@ -11,9 +11,6 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 use std::sync::Arc;
-
-/// Seeds of the jobs.
-const SEEDS: std::ops::RangeInclusive<u64> = 1..=48;
 
 /// A number in a range.
 fn any(random: &mut Pcg64, [least, most]: [f64; 2]) -> f64 {
@@ -105,9 +102,14 @@ fn judged(seed: u64, arm: &Arc<RobotModel>) -> Option<PlannedJob> {
 #[test]
 fn plans_of_random_jobs_are_proved() {
     let arm = Arc::new(RobotModel::irb120().unwrap());
-    let seeds: Vec<_> = SEEDS.collect();
+    let seeds: Vec<_> = (1..=if is_thorough() { 48 } else { 15 }).collect();
     let planned: Vec<_> = seeds.par_iter().filter_map(|seed| judged(*seed, &arm)).collect();
-    assert!(planned.len() >= 32, "{} of {}", planned.len(), seeds.len());
+    assert!(
+        3 * planned.len() >= 2 * seeds.len(),
+        "{} of {}",
+        planned.len(),
+        seeds.len()
+    );
     let plates = |count: usize| planned.iter().any(|planned| planned.plan.order.len() == count);
     assert!(plates(1) && plates(2) && plates(3));
 }

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use std::fmt;
 
 /// Jobs that are judged where nothing else is asked for.
-const JOBS: u64 = 24;
+const JOBS: u64 = 12;
 
 /// Scenarios that are changed; their plates are drawn.
 const BASES: [&str; 6] = ["kitchen", "kitchen-roomy", "rim", "dessert", "deep", "coupe"];

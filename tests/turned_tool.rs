@@ -2,6 +2,7 @@
 
 use platewash::certificate::{Requirement, Status, prove};
 use platewash::planner::plan;
+use platewash::workcell::fixtures::is_thorough;
 use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel, Scenario, SimulationReport, SimulationVerdict, simulate};
 use proptest::prelude::*;
@@ -33,7 +34,7 @@ fn first_of_washes(plan: &Plan) -> Vec<[f64; 6]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 6, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if is_thorough() { 6 } else { 2 }, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Turned about axis 6 by φ, and home with it, the arm moves as before but for joint 6, which stands φ back.
     #[test]

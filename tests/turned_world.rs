@@ -4,6 +4,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash::certificate::{Certificate, Requirement};
 use platewash::kinematics::geometry::Shape;
+use platewash::workcell::fixtures::is_thorough;
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose, Scenario, SimulationReport, WashJob, plan, prove, simulate};
 use proptest::prelude::*;
@@ -70,7 +71,7 @@ fn rotation() -> impl Strategy<Value = UnitQuaternion<f64>> {
 }
 
 proptest! {
-    #![proptest_config(Config { cases: 6, failure_persistence: None, ..Config::default() })]
+    #![proptest_config(Config { cases: if is_thorough() { 6 } else { 2 }, failure_persistence: None, ..Config::default() })]
 
     #[test]
     fn moving_the_whole_cell_changes_nothing_for_the_arm(seed in 1..40u64, rotation in rotation(), at in prop::array::uniform3(-3.0..3.0f64)) {

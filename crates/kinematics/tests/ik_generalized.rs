@@ -80,13 +80,16 @@ fn reach(solver: &IkSolver<'_>, z: f64) -> [f64; 2] {
     [edge(0.35, 0.0), edge(0.35, 0.8)]
 }
 
+/// Poses just outside the tool-down reach.
+const CASES: usize = 80;
+
 #[test]
 fn poses_just_outside_the_tool_down_reach_are_solved_where_a_tilt_allows() {
     let robot = irb120();
     let solver = solver(&robot);
     let mut rng = Pcg64::seed_from_u64(4);
     let (mut possible, mut solved) = (0, 0);
-    for case in 0..200 {
+    for case in 0..CASES {
         let z = 0.05 + 0.25 * rng.random::<f64>();
         let [inner, outer] = reach(&solver, z);
         let beyond = 0.02 * rng.random::<f64>();
@@ -110,7 +113,7 @@ fn poses_just_outside_the_tool_down_reach_are_solved_where_a_tilt_allows() {
         }
     }
     println!("{possible} possible by the grid, {solved} solved");
-    assert!(possible > 150 && solved >= possible);
+    assert!(4 * possible > 3 * CASES && solved >= possible);
 }
 
 /// The position is met, and the tool axis leans by no more than the cone.

@@ -13,6 +13,12 @@ use crate::tool::{StraightTool, Tool};
 use crate::workcell::Workcell;
 use platewash_kinematics::{JointVector, RobotModel};
 
+/// Returns whether tests try all of their cases, as `PLATEWASH_THOROUGH=1` asks, and not the part that is enough for most changes.
+#[must_use]
+pub fn is_thorough() -> bool {
+    std::env::var_os("PLATEWASH_THOROUGH").is_some()
+}
+
 /// Returns the kitchen's tool for jobs without contact requirements: 150 mm long, with a sponge of 25 mm.
 #[must_use]
 pub fn kitchen_tool() -> Tool {

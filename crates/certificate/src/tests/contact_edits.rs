@@ -4,6 +4,7 @@
 use crate::tests::contact::{disc, profile, rings};
 use crate::tests::maker::{Recipe, irb120};
 use crate::{Certificate, Measure, Requirement, Status, prove};
+use platewash_workcell::fixtures::is_thorough;
 use platewash_workcell::plan::Plan;
 use rayon::prelude::*;
 
@@ -87,8 +88,14 @@ fn judged(plan: &Plan) -> Certificate {
 
 #[test]
 fn proves_errors_within_the_spare_and_refuses_larger_ones() {
-    let edits: usize = plans().into_par_iter().map(edited).sum();
-    assert!(edits >= 90, "{edits}");
+    let mut plans = plans();
+    if !is_thorough() {
+        // A flat plate under a tilted sponge, and the plate with the most of everything.
+        plans.retain(|(name, _)| ["disc", "rim270"].contains(name));
+    }
+    let least = 18 * plans.len();
+    let edits: usize = plans.into_par_iter().map(edited).sum();
+    assert!(edits >= least, "{edits}");
 }
 
 /// Returns the number of edits of a plan that were judged.

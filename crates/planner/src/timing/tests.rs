@@ -5,7 +5,7 @@ use crate::timing::*;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{AXES, JointVector};
-use platewash_workcell::fixtures::kitchen_tool;
+use platewash_workcell::fixtures::{is_thorough, kitchen_tool};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::WashCurve;
 use proptest::prelude::*;
@@ -209,7 +209,7 @@ fn smooth((u, q): (Vec<f64>, Vec<JointVector>), parts: usize, ends: Ends) -> Joi
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(if is_thorough() { 64 } else { 24 }))]
     #[test]
     fn limits_hold_everywhere_on_random_paths(
         samples in samples(), parts in 1usize..40, tip_limits in prop::option::of((0.1..1.0f64, 1.0..8.0f64)),

@@ -1,6 +1,7 @@
 use crate::clearance::distance::bracketed;
 use crate::clearance::solid::*;
 use crate::clearance::{ITERATIVE_ERROR_M, part as convex};
+use crate::fixtures::is_thorough;
 use nalgebra::Vector3;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
@@ -110,7 +111,7 @@ fn thickens_sheets_and_rejects_flat_point_sets() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if is_thorough() { 4 } else { 2 }, ..ProptestConfig::default() })]
     /// Every point of every triangle is in a part, for any proposal. The pieces are boxes in a heap, and loose triangles.
     #[test]
     fn every_point_of_the_surface_is_enclosed(
