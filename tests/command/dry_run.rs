@@ -1,6 +1,6 @@
 //! `platewash dry-run`, and `verify --parent`.
 
-use super::{folder, kitchen, names, platewash};
+use super::{folder, kitchen, names, planned, platewash};
 use serde_json::Value;
 use std::path::Path;
 
@@ -17,9 +17,8 @@ fn edited(dir: &Path, from: &str, to: &str) {
 
 #[test]
 fn writes_a_dry_run_beside_a_proved_plan() {
-    let folder = folder();
+    let folder = planned();
     let dir = folder.path();
-    platewash(dir, &["plan", "--quiet"]).done();
     let ran = platewash(dir, &["dry-run", "out/plan.json", "--height", "0.05", "--speed", "0.1"]).done();
     let parent = read(&dir.join("out/plan.json"))["hash"].as_str().unwrap().to_owned();
     let first = format!(
@@ -144,9 +143,8 @@ fn verify_compares_a_dry_run_with_its_parent() {
 
 #[test]
 fn implausible_numbers_are_refused_before_any_file() {
-    let folder = folder();
+    let folder = planned();
     let dir = folder.path();
-    platewash(dir, &["plan", "--quiet"]).done();
     for (option, values) in [
         ("--height", ["0", "-0.05", "nan", "inf", "x"]),
         ("--speed", ["0", "-0.1", "nan", "inf", ""]),
@@ -200,9 +198,8 @@ fn refuses_a_dry_run_of_an_unproved_plan() {
 
 #[test]
 fn an_impossible_height_is_refused_with_one_that_works() {
-    let folder = folder();
+    let folder = planned();
     let dir = folder.path();
-    platewash(dir, &["plan", "--quiet"]).done();
     platewash(dir, &["dry-run", "out/plan.json", "--quiet"]).done();
     let ran = platewash(dir, &["dry-run", "out/plan.json", "--height", "0.6", "--json"]);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
@@ -235,7 +232,13 @@ fn asks_for_the_arm_of_the_plan() {
     let dir = folder.path();
     let urdf = platewash::kinematics::irb120::IRB120_URDF.replacen("<robot name=\"", "<robot name=\"my_", 1);
     std::fs::write(dir.join("mine.urdf"), urdf).unwrap();
-    let mine = kitchen(dir, &[("model = \"irb120\"", "urdf = \"mine.urdf\"")]);
+    let mine = kitchen(
+        dir,
+        &[
+            ("model = \"irb120\"", "urdf = \"mine.urdf\""),
+            ("count = 4", "count = 1"),
+        ],
+    );
     platewash(dir, &["plan", "--scenario", mine.to_str().unwrap(), "--quiet"]).done();
     platewash(dir, &["dry-run", "out/plan.json"]).refused(2, &["\"my_", "as --urdf FILE"]);
     platewash(dir, &["dry-run", "out/plan.json", "--urdf", "mine.urdf", "--quiet"]).done();
@@ -254,7 +257,8 @@ fn asks_for_the_arm_of_the_plan() {
 fn the_program_of_a_dry_run_says_so_first_and_has_its_own_name() {
     let folder = folder();
     let dir = folder.path();
-    let named = |name: &str| kitchen(dir, &[("name = \"kitchen\"", &format!("name = \"{name}\""))]);
+    let one = ("count = 4", "count = 1");
+    let named = |name: &str| kitchen(dir, &[("name = \"kitchen\"", &format!("name = \"{name}\"")), one]);
     let long = named("a-kitchen-with-a-long-name");
     let plan = ["plan", "--scenario", long.to_str().unwrap(), "--quiet"];
     platewash(dir, &plan).done();

@@ -1,6 +1,7 @@
 //! Certified jobs that cannot be done: what is said, written and removed.
 
 use super::*;
+use platewash::workcell::fixtures::is_thorough;
 
 fn plan(dir: &Path, file: &Path) -> CommandOutput {
     platewash(dir, &["plan", "--scenario", file.to_str().unwrap(), "--out", "o"])
@@ -67,7 +68,8 @@ fn a_suggested_place_holds_when_typed_in() {
         (-0.1, 0.604, 0.1, 0.1, 0.01, 30.0),
         (-0.149, 0.526, 0.145, 0.25, 0.01, 30.0),
     ];
-    for (x, y, radius, height, clearance, tilt) in cases {
+    let tried = if is_thorough() { cases.len() } else { 3 };
+    for (x, y, radius, height, clearance, tilt) in cases.into_iter().rev().take(tried) {
         let case = |x: f64, y: f64| {
             spiral(
                 dir,

@@ -107,6 +107,15 @@ fn folder() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
+/// A folder with the plan of the kitchen with one plate in `out`: what is done with it costs a quarter.
+fn planned() -> TempDir {
+    let folder = folder();
+    let one = kitchen(folder.path(), &[("count = 4", "count = 1")]);
+    platewash(folder.path(), &["plan", "--quiet", "--scenario", one.to_str().unwrap()]).done();
+    std::fs::remove_file(one).unwrap();
+    folder
+}
+
 /// What is in a folder, but for the page, which is there where the build under test has its bundle: `page.rs` asks for it.
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = std::fs::read_dir(folder)

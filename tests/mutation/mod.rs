@@ -18,9 +18,10 @@ mod judge;
 mod refused;
 mod sampler;
 
-use crate::mutation::edit::good;
+use crate::mutation::edit::{Edit, ExpectedResult, good};
 use crate::mutation::judge::{Outcome, STATEMENTS};
 use platewash::certificate::prove;
+use platewash::workcell::fixtures::is_thorough;
 use rayon::prelude::*;
 
 #[test]
@@ -31,9 +32,25 @@ fn the_plans_are_good() {
     }
 }
 
+/// Every fourth edit and, for each requirement, the first that names it; all of them with `PLATEWASH_THOROUGH=1`.
+fn chosen() -> Vec<Edit> {
+    let mut named = Vec::new();
+    let is_chosen = |(k, edit): (usize, Edit)| {
+        let names = match &edit.expected {
+            ExpectedResult::Fails(names) | ExpectedResult::Waived(names) => &names[..],
+            _ => &[],
+        };
+        let before = named.len();
+        let new = names.iter().filter(|name| !named.contains(*name)).copied();
+        named.extend(new.collect::<Vec<_>>());
+        (is_thorough() || k % 4 == 0 || named.len() > before).then_some(edit)
+    };
+    edits::all().into_iter().enumerate().filter_map(is_chosen).collect()
+}
+
 #[test]
 fn edited_plans_are_refused_by_the_requirement_that_is_broken() {
-    let edits = edits::all();
+    let edits = chosen();
     let outcomes: Vec<Outcome> = edits
         .par_iter()
         .map(|edit| judge::judge(edit, &good()[edit.of]))
@@ -43,7 +60,10 @@ fn edited_plans_are_refused_by_the_requirement_that_is_broken() {
     assert!(complaints.is_empty(), "{}: {complaints:#?}", complaints.len());
     let refused = outcomes.iter().filter(|o| !o.refused.is_empty()).count();
     let passed = outcomes.len() - refused;
-    assert!(refused >= 250 && passed >= 120, "{refused} refused, {passed} passed");
+    assert!(
+        2 * refused > outcomes.len() && 4 * passed > outcomes.len(),
+        "{refused} refused, {passed} passed"
+    );
     // Every requirement was broken at least once, and those about numbers were seen broken.
     for name in good()[0].requirements() {
         let sampled = outcomes.iter().any(|o| o.sampled.contains(&name));
