@@ -5,11 +5,8 @@ import { folder, kitchen, page as written } from "../lib/command.mjs";
 import { address, open } from "../lib/watched.mjs";
 
 const NAMES = {
-  "a script": `</script><script>window.stolen = 1</script><img src=x onerror="window.stolen = 2"><!--`,
-  quotes: `"'\`&quot;&lt;b&gt; \${1} {{2}} %3C`,
-  "a placeholder": "<!--platewash:script--><!--platewash:data-->$&$1",
-  "right to left": "שטיפה gnihsaw غسل",
-  "ten thousand letters": "washing".repeat(1429),
+  "a script, a placeholder and quotes": `</script><script>window.stolen = 1</script><img src=x onerror="window.stolen = 2"><!--platewash:script--><!--platewash:data-->$&$1"'\`&quot;&lt;b&gt; \${1} {{2}} %3C<!--`,
+  "right to left, and ten thousand letters": "שטיפה gnihsaw غسل " + "washing".repeat(1427),
 };
 
 for (const [what, name] of Object.entries(NAMES)) {
