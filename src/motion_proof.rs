@@ -76,7 +76,7 @@ pub struct MotionReport {
     pub robot: String,
     /// Number of points.
     pub points: usize,
-    /// Motion between two points: `linear` or `cubic`.
+    /// Motion between two points: `linear`, `cubic` or `quintic`.
     pub interpolation: &'static str,
     /// Times of the first and the last point \[s\]; `None` where the points state none.
     pub span_s: Option<[f64; 2]>,
@@ -160,10 +160,7 @@ impl MotionReport {
             headline: String::new(),
             robot: arm.name().to_owned(),
             points: motion.motion.pieces().len() + 1,
-            interpolation: match motion.interpolation {
-                Interpolation::Linear => "linear",
-                Interpolation::Cubic => "cubic",
-            },
+            interpolation: motion.interpolation.word(),
             span_s: motion
                 .start_s
                 .map(|start_s| [start_s, start_s + motion.motion.duration_s()]),
@@ -356,6 +353,10 @@ fn assumptions(motion: &PointMotion, obstacles: &[String], rules: &MotionRules, 
         (Interpolation::Cubic, _) => {
             "The controller moves every joint along the cubic that has the positions and the speeds of two neighbouring points, and follows \
              it exactly."
+        }
+        (Interpolation::Quintic, _) => {
+            "The controller moves every joint along the quintic that has the positions, speeds and accelerations of two neighbouring points, \
+             and follows it exactly."
         }
     }
     .to_owned()];

@@ -9,7 +9,7 @@
 use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
 use platewash::export::dialect::{DIALECTS, Dialect, Points};
 use platewash::export::judgement::{JOINT_SPEED_SHARE, motions};
-use platewash::export::reading::{Interpolation, Reading};
+use platewash::export::reading::{Reading, SegmentShape};
 use platewash::export::{ExportSettings, ExportedProgram, compare, export};
 use platewash::kinematics::sha256_hex;
 use platewash::scenario::{Program, SHIPPED};
@@ -271,9 +271,9 @@ fn attacked(name: &str, every: usize) -> usize {
         let reading = export(&plan, &arm, dialect, &ExportSettings::default(), &cancel)
             .unwrap()
             .reading;
-        if reading.interpolation == Interpolation::Cubics {
+        if reading.interpolation == SegmentShape::Cubics {
             readings.push(Reading {
-                interpolation: Interpolation::Lines,
+                interpolation: SegmentShape::Lines,
                 ..reading.clone()
             });
         }

@@ -724,11 +724,12 @@ def prove_motion(
     q: npt.ArrayLike,
     t: npt.ArrayLike | None = None,
     qd: npt.ArrayLike | None = None,
+    qdd: npt.ArrayLike | None = None,
     *,
     robot: Robot | None = None,
     obstacles: Any = None,
     clearance_m: float = 0.005,
-    interpolation: Literal["linear", "cubic"] | None = None,
+    interpolation: Literal["linear", "cubic", "quintic"] | None = None,
     acceleration_limits: npt.ArrayLike | None = None,
 ) -> Record: ...
 def differences(plan: Plan | Planned | _Path, job: WashJob | PaperJob | Scenario | _Path) -> list[Record]: ...

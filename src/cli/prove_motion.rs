@@ -28,7 +28,8 @@ pub struct ProveMotionArguments {
     /// Clearance that every pair of bodies must keep [m], from 0 to 1; with 0 they must not touch
     #[arg(long, value_name = "M", default_value = "0.005", value_parser = clearance, allow_negative_numbers = true)]
     clearance: f64,
-    /// Motion between two points [default: cubic where the points have speeds, otherwise linear]
+    /// Motion between two points [default: quintic where the points have speeds and accelerations, cubic where they have speeds, otherwise
+    /// linear]
     #[arg(long, value_enum)]
     interpolation: Option<Interpolation>,
     /// Greatest joint accelerations [rad/s²]: one number, or six between commas [default: not judged]
@@ -45,6 +46,8 @@ enum Interpolation {
     Linear,
     /// The cubic with the positions and speeds of both points
     Cubic,
+    /// The quintic with the positions, speeds and accelerations of both points
+    Quintic,
 }
 
 fn clearance(text: &str) -> Result<f64> {
@@ -78,6 +81,7 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
     let choice = arguments.interpolation.map(|choice| match choice {
         Interpolation::Linear => trajectory::Interpolation::Linear,
         Interpolation::Cubic => trajectory::Interpolation::Cubic,
+        Interpolation::Quintic => trajectory::Interpolation::Quintic,
     });
     let motion = file.motion(&arm, choice)?;
     let limits = arguments.acceleration_limits.map(JointVector::from);

@@ -149,8 +149,20 @@ fn ros_messages_of_another_arm_are_read_by_joint_names() {
         "{}",
         found.stdout
     );
+    // With accelerations it is a quintic: this one, at rest at both ends, accelerates by up to 5.78 q / h².
+    let zeros = "[0, 0, 0, 0, 0, 0]";
+    let timed = message(1.0, names).replace("  time_from", &format!("  accelerations: {zeros}\n  time_from"));
+    let file = write(dir, "timed.yaml", &timed);
+    let found = prove(dir, &[&file, "--urdf", UR5, "--acceleration-limits", "0.642,1,1,1,1,1"]).done();
+    assert!(found.stdout.contains("quintic motion"), "{}", found.stdout);
+    let found = prove(dir, &[&file, "--urdf", UR5, "--acceleration-limits", "0.641,1,1,1,1,1"]);
+    assert_eq!(found.code, 4, "{}", found.stdout);
+    prove(dir, &[&file, "--urdf", UR5, "--interpolation", "linear"]).done();
     // The trajectory of another arm.
-    prove(dir, &[&file]).refused(2, &["ur5.yaml:1", "joint_1", "\"shoulder_pan\", which is none of them"]);
+    prove(dir, &[&file]).refused(
+        2,
+        &["timed.yaml:1", "joint_1", "\"shoulder_pan\", which is none of them"],
+    );
 }
 
 #[test]

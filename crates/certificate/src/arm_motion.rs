@@ -1,6 +1,6 @@
 //! Judgement of a motion of an arm alone: no plates, no sponge, no job. Any planner may have made it.
 //!
-//! Requirements 12–14 and 24 of `docs/certificate.md`. The motion is made of cubics that meet in position, not necessarily in speed: a jump
+//! Requirements 12–14 and 24 of `docs/certificate.md`. The motion is made of cubics and quintics that meet in position, not necessarily in speed: a jump
 //! of speed is part of the bound of the clearance (24.3), and no acceleration limit holds where a speed jumps.
 
 use crate::clearance::exclusions::{bodies_named_twice, bodies_without_shape};

@@ -5,7 +5,7 @@
 
 use crate::dialect::{Dialect, Place, Point, Points, Program, ProgramFile, ReadError};
 use crate::header::wrapped;
-use crate::reading::{Interpolation, ReadPoint, Reading};
+use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::refusal::Refusal;
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
@@ -204,10 +204,10 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         return Err(TableError { line, column, reason });
     };
     let interpolation = match speeds {
-        Some(_) => Interpolation::Cubics,
+        Some(_) => SegmentShape::Cubics,
         None => {
             last.corner_m = None;
-            Interpolation::Lines
+            SegmentShape::Lines
         }
     };
     Ok(Reading {

@@ -7,7 +7,7 @@
 //! from the point than its radius, nor than half-way to either neighbour, measured at the tip. The true size on a controller is
 //! not known: programs are judged with no corners, and with corners of half, once and twice their size.
 
-use crate::reading::{Interpolation, ReadPoint, Reading};
+use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::refusal::Refusal;
 use platewash_certificate::{
     Certified, Check, Measure, ProgramLimits, ProgramProof, ProveError, Requirement, Sense, prove_program,
@@ -235,13 +235,9 @@ pub fn motions(reading: &Reading, arm: &RobotModel, tip: &Frame) -> Result<Vec<P
     };
     let points: Vec<_> = reading.points.iter().map(in_plan_time).collect();
     let piece: fn(&TimedPoint, &TimedPoint) -> MotionPiece = match reading.interpolation {
-        Interpolation::RoundedLines => return rounded_motions(&points, arm, tip),
-        Interpolation::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
-        Interpolation::Cubics => |a, b| MotionPiece {
-            t_s: [a.t_s, b.t_s],
-            q_rad: [a.q_rad, b.q_rad],
-            qd_rad_s: [a.qd_rad_s, b.qd_rad_s],
-        },
+        SegmentShape::RoundedLines => return rounded_motions(&points, arm, tip),
+        SegmentShape::Lines => |a, b| MotionPiece::line([a.t_s, b.t_s], [a.q_rad, b.q_rad]),
+        SegmentShape::Cubics => |a, b| MotionPiece::cubic([a.t_s, b.t_s], [a.q_rad, b.q_rad], [a.qd_rad_s, b.qd_rad_s]),
     };
     check(&points)?;
     let pieces = points.windows(2).map(|both| piece(&both[0], &both[1]));
@@ -331,11 +327,8 @@ fn corner(points: &[TimedPoint], reach_m: &[f64], k: usize, scale: f64) -> Motio
     let half_s = time_s(before).min(time_s(after));
     let TimedPoint { t_s: t, q_rad: q, .. } = points[k];
     let qd_rad_s = [before, after].map(|i| (points[i + 1].q_rad - points[i].q_rad) / step_s(i));
-    MotionPiece {
-        t_s: [t - half_s, t + half_s],
-        q_rad: [q - qd_rad_s[0] * half_s, q + qd_rad_s[1] * half_s],
-        qd_rad_s,
-    }
+    let q_rad = [q - qd_rad_s[0] * half_s, q + qd_rad_s[1] * half_s];
+    MotionPiece::cubic([t - half_s, t + half_s], q_rad, qd_rad_s)
 }
 
 #[cfg(test)]
@@ -344,7 +337,7 @@ mod tests {
     use crate::dialect::Place;
     use proptest::prelude::*;
 
-    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], interpolation: Interpolation) -> Reading {
+    fn reading(steps: &[(f64, [f64; 6], Option<f64>)], interpolation: SegmentShape) -> Reading {
         let mut t_s = 0.0;
         let mut points = vec![(0.0, [0.1; 6], None)];
         for &(step_s, q, corner_m) in steps {
@@ -386,7 +379,7 @@ mod tests {
         /// Through every stop, near every other point, in speed without a step but at stops, and as long as the program.
         #[test]
         fn corners_are_smooth_and_small(steps in steps()) {
-            let reading = reading(&steps, Interpolation::RoundedLines);
+            let reading = reading(&steps, SegmentShape::RoundedLines);
             let (motions, arm, tip) = interpreted(&reading);
             prop_assert_eq!(motions.len(), CORNER_SCALES.len());
             let place = |q: &JointVector| arm.fk(q).rigid(&tip).translation;
@@ -420,7 +413,7 @@ mod tests {
         /// A corner is the parabola of even acceleration, worked out here from its three points.
         #[test]
         fn a_corner_is_a_parabola(steps in steps(), share in 0.0..1.0_f64) {
-            let reading = reading(&steps, Interpolation::RoundedLines);
+            let reading = reading(&steps, SegmentShape::RoundedLines);
             let (motions, ..) = interpreted(&reading);
             for piece in motions[2].motion.pieces() {
                 let [from, to] = piece.accelerations();
@@ -439,7 +432,7 @@ mod tests {
 
         #[test]
         fn a_motion_without_corners_is_a_polyline(steps in steps(), share in 0.0..1.0_f64) {
-            let reading = reading(&steps, Interpolation::RoundedLines);
+            let reading = reading(&steps, SegmentShape::RoundedLines);
             let (motions, ..) = interpreted(&reading);
             for both in reading.points.windows(2) {
                 let t_s = both[0].t_s + share * (both[1].t_s - both[0].t_s);
@@ -454,7 +447,7 @@ mod tests {
     #[test]
     fn program_motions_are_in_the_time_of_the_plan() {
         let steps = [(0.2, [0.2; 6], Some(0.005)), (0.2, [0.15; 6], None)];
-        let whole = reading(&steps, Interpolation::RoundedLines);
+        let whole = reading(&steps, SegmentShape::RoundedLines);
         let mut slow = whole.clone();
         slow.speed_share = Some(0.25);
         slow.points.iter_mut().for_each(|point| point.t_s *= 4.0);
@@ -469,7 +462,7 @@ mod tests {
     fn rejects_points_that_form_no_motion() {
         let arm = RobotModel::irb120().unwrap();
         let tip = platewash_workcell::fixtures::kitchen_tool().tip_frame(&arm);
-        for between in [Interpolation::Lines, Interpolation::RoundedLines, Interpolation::Cubics] {
+        for between in [SegmentShape::Lines, SegmentShape::RoundedLines, SegmentShape::Cubics] {
             for t_s in [0.0, -1.0, f64::NAN, f64::INFINITY] {
                 let mut reading = reading(&[(0.1, [0.2; 6], Some(0.005)), (0.1, [0.3; 6], None)], between);
                 reading.points[2].t_s = t_s;

@@ -15,7 +15,7 @@ pub struct Reading {
     /// Points in the order in which they are reached; the first is where the arm must stand.
     pub points: Vec<ReadPoint>,
     /// Motion that the arm is assumed to make from one point to the next.
-    pub interpolation: Interpolation,
+    pub interpolation: SegmentShape,
     /// The tool, where the program states one.
     pub tool: Option<ReadTool>,
     /// True where the program checks, as it was exported, that the arm stands at the start before it moves.
@@ -47,7 +47,7 @@ pub struct ReadPoint {
 
 /// Motion of an arm between points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Interpolation {
+pub enum SegmentShape {
     /// Evenly and straight in the joints, rounded at the points by parabolas whose size is only assumed.
     RoundedLines,
     /// Evenly and straight in the joints, through every point.

@@ -3,7 +3,7 @@
 use crate::programs::{damaged, edited, file, plan, points, program, ur5};
 use platewash_export::csv::Csv;
 use platewash_export::dialect::{Dialect, ReadError};
-use platewash_export::reading::{Interpolation, Reading};
+use platewash_export::reading::{Reading, SegmentShape};
 use platewash_kinematics::{JointVector, RobotModel};
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -33,7 +33,7 @@ proptest! {
         prop_assert!((reading.share() - share).abs() < 1e-5);
         let last_s = program.points.last().unwrap().t_s;
         prop_assert!((reading.share() - share).abs() * last_s < 1e-8);
-        prop_assert_eq!((reading.interpolation, reading.tool), (Interpolation::Cubics, None));
+        prop_assert_eq!((reading.interpolation, reading.tool), (SegmentShape::Cubics, None));
         for (read, point) in reading.points.iter().zip(&program.points) {
             prop_assert!((read.t_s - point.t_s / share).abs() < 1e-6);
             prop_assert!((read.q_rad - point.q_rad).amax() < 1e-7);
@@ -65,7 +65,7 @@ fn reads_a_table_written_by_hand() {
         let reading = read(&text).unwrap();
         assert_eq!(
             (reading.speed_share, reading.interpolation, reading.tool),
-            (Some(0.25), Interpolation::Cubics, None)
+            (Some(0.25), SegmentShape::Cubics, None)
         );
         let [first, second, third] = reading.points.as_slice() else {
             panic!("{reading:?}")
@@ -90,7 +90,7 @@ fn a_table_of_times_and_positions_alone_is_straight_between_its_rows() {
     let reading = read(text).unwrap();
     assert_eq!(
         (reading.speed_share, reading.interpolation),
-        (None, Interpolation::Lines)
+        (None, SegmentShape::Lines)
     );
     let corners: Vec<Option<f64>> = reading.points.iter().map(|point| point.corner_m).collect();
     assert_eq!(corners, [None, Some(0.0), None]);

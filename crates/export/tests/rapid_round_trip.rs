@@ -2,7 +2,7 @@
 
 use crate::rapid::{every, kitchen, program, rapid};
 use platewash_export::dialect::Point;
-use platewash_export::reading::{Interpolation, Reading};
+use platewash_export::reading::{Reading, SegmentShape};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::tool::{Tool, ToolMass};
@@ -15,7 +15,7 @@ const TIME_S: f64 = 1e-4;
 
 fn assert_as_meant(points: &[Point], share: f64, reading: &Reading, within_s: f64) {
     assert_eq!(reading.points.len(), points.len());
-    assert_eq!(reading.interpolation, Interpolation::RoundedLines);
+    assert_eq!(reading.interpolation, SegmentShape::RoundedLines);
     // It is a single, told by its shortest decimal.
     assert!((reading.share() / share - 1.0).abs() < f64::from(f32::EPSILON));
     for (index, (point, read)) in points.iter().zip(&reading.points).enumerate() {

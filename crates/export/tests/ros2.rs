@@ -2,7 +2,7 @@
 
 use platewash_certificate::{Certified, certify};
 use platewash_export::dialect::{Dialect, Point, Program, ProgramFile, by_name};
-use platewash_export::reading::{Interpolation, Reading};
+use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::ros2::write::LEAD_IN_S;
 use platewash_export::{ExportSettings, ProgramComparison, compare, export};
 use platewash_kinematics::RobotModel;
@@ -58,7 +58,7 @@ fn read(files: &[ProgramFile]) -> Reading {
 /// Refuses a reading that is not the program, at this share of the speed, whatever share it states.
 fn assert_says(reading: &Reading, speed_share: f64) {
     let knots = &KITCHEN.1.knots;
-    assert_eq!(reading.interpolation, Interpolation::Cubics);
+    assert_eq!(reading.interpolation, SegmentShape::Cubics);
     assert_eq!(reading.points.len(), knots.t_s.len());
     let mut lines = Vec::new();
     for (k, point) in reading.points.iter().enumerate() {

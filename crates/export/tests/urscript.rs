@@ -4,7 +4,7 @@ use crate::programs::{damaged, edited, file, plan, points, program, ur5};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_export::Refusal;
 use platewash_export::dialect::{Dialect, Point, ReadError};
-use platewash_export::reading::{Interpolation, Reading};
+use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::urscript::UrScript;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};
@@ -32,7 +32,7 @@ proptest! {
         let reading = UrScript.read(&files, &ARM).unwrap();
         prop_assert_eq!(reading.points.len(), program.points.len());
         prop_assert_eq!(reading.speed_share, Some(share));
-        prop_assert_eq!(reading.interpolation, Interpolation::Lines);
+        prop_assert_eq!(reading.interpolation, SegmentShape::Lines);
         for (read, point) in reading.points.iter().zip(&program.points) {
             prop_assert!((read.t_s - point.t_s / share).abs() < 1e-6);
             prop_assert!((read.q_rad - point.q_rad).amax() < 1e-7);
@@ -93,7 +93,7 @@ fn reads_a_program_written_by_hand() {
     let reading = read(BY_HAND).unwrap();
     assert_eq!(
         (reading.speed_share, reading.interpolation),
-        (Some(0.5), Interpolation::Lines)
+        (Some(0.5), SegmentShape::Lines)
     );
     assert!(!reading.checks_start, "two joints are checked");
     let expected = [

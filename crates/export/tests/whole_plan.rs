@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use platewash_certificate::certify;
 use platewash_export::csv::Csv;
 use platewash_export::dialect::{Dialect, Point, Points};
-use platewash_export::reading::{Interpolation, Reading};
+use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::urscript::UrScript;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::plan;
@@ -61,7 +61,7 @@ fn between(reading: &Reading, k: usize, part: f64) -> JointVector {
     let [a, b] = [&reading.points[k], &reading.points[k + 1]];
     let line = a.q_rad + (b.q_rad - a.q_rad) * part;
     match (reading.interpolation, a.qd_rad_s, b.qd_rad_s) {
-        (Interpolation::Cubics, Some(va), Some(vb)) => {
+        (SegmentShape::Cubics, Some(va), Some(vb)) => {
             let (h, s, away) = (b.t_s - a.t_s, part, b.q_rad - a.q_rad);
             line + ((va * h - away) * (1.0 - s) - (vb * h - away) * s) * (s * (1.0 - s))
         }

@@ -16,14 +16,13 @@ use pyo3::types::{PyList, PyMapping, PyString, PyTuple};
 /// Clearance that is required unless another one is given [m].
 const CLEARANCE_M: f64 = 0.005;
 
-const INTERPOLATIONS: [(&str, Interpolation); 2] = [("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)];
-
 /// Proves a motion of an arm, of any planner, at every moment and not at samples: joint limits, and the clearance of every pair of bodies, the
 /// arm's own links included.
 ///
-/// `q`, shape (N, 6) [rad], are the points in the order of the arm's joints; `t`, shape (N,) [s], their times, and `qd`, shape (N, 6) [rad/s],
-/// their speeds. Between points the motion is `"linear"` (straight in joint space) or `"cubic"` (with the positions and speeds of both
-/// points), by default cubic where there is `qd`. Without `t` positions and clearance are proved for any timing, and speeds are not judged.
+/// `q`, shape (N, 6) [rad], are the points in the order of the arm's joints; `t`, shape (N,) [s], their times, `qd`, shape (N, 6) [rad/s],
+/// their speeds, and `qdd`, shape (N, 6) [rad/s²], their accelerations. Between points the motion is `"linear"` (straight in joint space),
+/// `"cubic"` (with the positions and speeds of both points) or `"quintic"` (with the accelerations, too), by default the last that `qd` and
+/// `qdd` allow. Without `t` positions and clearance are proved for any timing, and speeds are not judged.
 /// `obstacles` is the path of a TOML file with `[[obstacle]]`, `[floor]` and `[table]` sections, a list of dictionaries with the keys of
 /// `[[obstacle]]`, or a dictionary of all three sections; they are in the frame of the arm's base, and nothing else is there.
 /// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given.
@@ -34,14 +33,15 @@ const INTERPOLATIONS: [(&str, Interpolation); 2] = [("linear", Interpolation::Li
 ///
 /// Raises InputError for points that are no motion; ScenarioError for obstacles that do not fit.
 #[pyfunction]
-#[pyo3(signature = (q, t=None, qd=None, *, robot=None, obstacles=None, clearance_m=None, interpolation=None, acceleration_limits=None),
-    text_signature = "(q, t=None, qd=None, *, robot=None, obstacles=None, clearance_m=0.005, interpolation=None, acceleration_limits=None)")]
+#[pyo3(signature = (q, t=None, qd=None, qdd=None, *, robot=None, obstacles=None, clearance_m=None, interpolation=None, acceleration_limits=None),
+    text_signature = "(q, t=None, qd=None, qdd=None, *, robot=None, obstacles=None, clearance_m=0.005, interpolation=None, acceleration_limits=None)")]
 #[allow(clippy::too_many_arguments)] // They have names in Python.
 pub fn prove_motion<'py>(
     py: Python<'py>,
     q: &Bound<'py, PyAny>,
     t: Option<&Bound<'py, PyAny>>,
     qd: Option<&Bound<'py, PyAny>>,
+    qdd: Option<&Bound<'py, PyAny>>,
     robot: Option<&Bound<'py, PyAny>>,
     obstacles: Option<&Bound<'py, PyAny>>,
     clearance_m: Option<&Bound<'py, PyAny>>,
@@ -56,14 +56,15 @@ pub fn prove_motion<'py>(
         q_rad: joints("q", q)?,
         t_s: times.transpose()?,
         qd_rad_s: qd.map(|qd| joints("qd", qd)).transpose()?,
-        has_accelerations: false,
+        qdd_rad_s2: qdd.map(|qdd| joints("qdd", qdd)).transpose()?,
     };
     let clearance_m = argument::number_or("clearance_m", clearance_m, CLEARANCE_M)?;
     if !(0.0..=1.0).contains(&clearance_m) {
         let problem = format!("a number from 0 to 1 is needed [m]; found {clearance_m}");
         return Err(errors::input(py, "clearance_m", &problem));
     }
-    let choice = interpolation.map(|word| argument::word("interpolation", word, &INTERPOLATIONS));
+    let words = Interpolation::ALL.map(|choice| (choice.word(), choice));
+    let choice = interpolation.map(|word| argument::word("interpolation", word, &words));
     let choice = choice.transpose()?;
     let limits = acceleration_limits
         .map(|limits| read_acceleration_limits(limits, points.t_s.is_some()))
@@ -114,8 +115,14 @@ fn read_acceleration_limits(limits: &Bound<'_, PyAny>, has_times: bool) -> PyRes
 fn argument_of(error: &PointsError) -> &'static str {
     match error {
         PointsError::TimeOrder { .. } | PointsError::Count { what: "times", .. } => "t",
-        PointsError::SpeedsWithoutTimes | PointsError::Count { .. } => "qd",
-        PointsError::NotCubic { .. } => "interpolation",
+        PointsError::Count {
+            what: "accelerations", ..
+        }
+        | PointsError::Without {
+            what: "accelerations", ..
+        } => "qdd",
+        PointsError::Without { .. } | PointsError::Count { .. } => "qd",
+        PointsError::Incomplete { .. } => "interpolation",
         _ => "q",
     }
 }

@@ -1,10 +1,10 @@
-//! Joint motion of cubic pieces that meet in position, but not necessarily in speed: the motion that a controller is assumed to make of a
-//! program.
+//! Joint motion of cubic and quintic pieces that meet in position, but not necessarily in speed: the motion that a controller is assumed to
+//! make of a program.
 
 use crate::trajectory::KnotError;
 use platewash_kinematics::JointVector;
 
-/// Cubic Hermite piece of joint motion.
+/// Hermite piece of joint motion: cubic, or quintic where accelerations are stated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionPiece {
     /// Start and end \[s\].
@@ -13,6 +13,8 @@ pub struct MotionPiece {
     pub q_rad: [JointVector; 2],
     /// Speeds there, on the piece's own side \[rad/s\].
     pub qd_rad_s: [JointVector; 2],
+    /// Accelerations there, on the piece's own side \[rad/s²\]; `None` for a cubic, which has no more to choose.
+    pub qdd_rad_s2: Option<[JointVector; 2]>,
 }
 
 /// Pieces one after the other, from 0 s and without a gap in time.
@@ -26,10 +28,17 @@ impl MotionPiece {
     #[must_use]
     pub fn line(t_s: [f64; 2], q_rad: [JointVector; 2]) -> Self {
         let speed = (q_rad[1] - q_rad[0]) / (t_s[1] - t_s[0]);
+        Self::cubic(t_s, q_rad, [speed; 2])
+    }
+
+    /// Returns the cubic with positions \[rad\] and speeds \[rad/s\] at both ends.
+    #[must_use]
+    pub fn cubic(t_s: [f64; 2], q_rad: [JointVector; 2], qd_rad_s: [JointVector; 2]) -> Self {
         Self {
             t_s,
             q_rad,
-            qd_rad_s: [speed; 2],
+            qd_rad_s,
+            qdd_rad_s2: None,
         }
     }
 
@@ -39,42 +48,67 @@ impl MotionPiece {
         self.t_s[1] - self.t_s[0]
     }
 
-    /// Returns the coefficients c of q = c₀ + c₁u + c₂u² + c₃u³, u from the start of the piece \[s\].
-    fn coefficients(&self) -> [JointVector; 4] {
+    /// Returns the coefficients cₖ of q = Σ cₖ uᵏ, u from the start of the piece \[s\].
+    fn coefficients(&self) -> [JointVector; 6] {
         let h = self.length_s();
         let ([q0, q1], [v0, v1]) = (self.q_rad, self.qd_rad_s);
         let mean = (q1 - q0) / h;
+        let Some([a0, a1]) = self.qdd_rad_s2 else {
+            let (c2, c3) = ((mean * 3.0 - v0 * 2.0 - v1) / h, (v0 + v1 - mean * 2.0) / (h * h));
+            return [q0, v0, c2, c3, JointVector::zeros(), JointVector::zeros()];
+        };
+        let (b0, b1) = (a0 * (0.5 * h), a1 * (0.5 * h));
         [
             q0,
             v0,
-            (mean * 3.0 - v0 * 2.0 - v1) / h,
-            (v0 + v1 - mean * 2.0) / (h * h),
+            a0 * 0.5,
+            (mean * 10.0 - v0 * 6.0 - v1 * 4.0 - b0 * 3.0 + b1) / h.powi(2),
+            (v0 * 8.0 + v1 * 7.0 - mean * 15.0 + b0 * 3.0 - b1 * 2.0) / h.powi(3),
+            (mean * 6.0 - (v0 + v1) * 3.0 - b0 + b1) / h.powi(4),
+        ]
+    }
+
+    /// Returns position \[rad\], speed \[rad/s\] and acceleration \[rad/s²\] at a time within the piece \[s\].
+    fn state(&self, t_s: f64) -> [JointVector; 3] {
+        let [c0, c1, c2, c3, c4, c5] = self.coefficients();
+        let u = t_s - self.t_s[0];
+        [
+            c0 + (c1 + (c2 + (c3 + (c4 + c5 * u) * u) * u) * u) * u,
+            c1 + (c2 * 2.0 + c3 * (3.0 * u) + (c4 * 4.0 + c5 * (5.0 * u)) * (u * u)) * u,
+            c2 * 2.0 + c3 * (6.0 * u) + (c4 * 12.0 + c5 * (20.0 * u)) * (u * u),
         ]
     }
 
     /// Returns position \[rad\] and speed \[rad/s\] at a time within the piece \[s\].
     #[must_use]
     pub fn at(&self, t_s: f64) -> [JointVector; 2] {
-        let [c0, c1, c2, c3] = self.coefficients();
-        let u = t_s - self.t_s[0];
-        [c0 + (c1 + (c2 + c3 * u) * u) * u, c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u]
+        let [q, qd, _] = self.state(t_s);
+        [q, qd]
     }
 
-    /// Accelerations at the start and at the end \[rad/s²\]; all others are between them.
+    /// Accelerations at the start and at the end \[rad/s²\]. Those of a cubic are all between them.
     #[must_use]
     pub fn accelerations(&self) -> [JointVector; 2] {
-        let [_, _, c2, c3] = self.coefficients();
-        [c2 * 2.0, c2 * 2.0 + c3 * (6.0 * self.length_s())]
+        self.t_s.map(|t_s| self.state(t_s)[2])
     }
 
     /// Returns the two parts of the piece before and after a time within it \[s\].
     fn split(&self, t_s: f64) -> [Self; 2] {
-        let [q, qd] = self.at(t_s);
+        let [q, qd, qdd] = self.state(t_s);
         let [from, to] = self.t_s;
-        let part = |t_s, q_rad, qd_rad_s| Self { t_s, q_rad, qd_rad_s };
+        let part = |t_s, q_rad, qd_rad_s, qdd_rad_s2| Self {
+            t_s,
+            q_rad,
+            qd_rad_s,
+            qdd_rad_s2,
+        };
+        let (before, after) = (
+            self.qdd_rad_s2.map(|a| [a[0], qdd]),
+            self.qdd_rad_s2.map(|a| [qdd, a[1]]),
+        );
         [
-            part([from, t_s], [self.q_rad[0], q], [self.qd_rad_s[0], qd]),
-            part([t_s, to], [q, self.q_rad[1]], [qd, self.qd_rad_s[1]]),
+            part([from, t_s], [self.q_rad[0], q], [self.qd_rad_s[0], qd], before),
+            part([t_s, to], [q, self.q_rad[1]], [qd, self.qd_rad_s[1]], after),
         ]
     }
 }
@@ -89,7 +123,8 @@ impl PiecewiseMotion {
         let (mut end_s, mut there) = (0.0, pieces.first().map(|piece| piece.q_rad[0]));
         for (knot, piece) in pieces.iter().enumerate() {
             let [from, to] = piece.t_s;
-            let numbers = piece.q_rad.iter().chain(&piece.qd_rad_s).flatten();
+            let accelerations = piece.qdd_rad_s2.as_ref().into_iter().flatten();
+            let numbers = piece.q_rad.iter().chain(&piece.qd_rad_s).chain(accelerations).flatten();
             if ![from, to].into_iter().chain(numbers.copied()).all(f64::is_finite) {
                 return Err(KnotError::NotFinite { knot });
             }
@@ -132,6 +167,7 @@ impl PiecewiseMotion {
             t_s: piece.t_s.map(|t| t * factor),
             q_rad: piece.q_rad,
             qd_rad_s: piece.qd_rad_s.map(|v| v / factor),
+            qdd_rad_s2: piece.qdd_rad_s2.map(|both| both.map(|a| a / factor.powi(2))),
         };
         Self {
             pieces: self.pieces.iter().map(stretched).collect(),
@@ -182,14 +218,20 @@ mod tests {
     }
 
     fn motions() -> impl Strategy<Value = PiecewiseMotion> {
-        let piece = (0.01..0.5_f64, vector(), [vector(), vector()]);
+        let piece = (
+            0.01..0.5_f64,
+            vector(),
+            [vector(), vector()],
+            prop::option::of([vector(), vector()]),
+        );
         (vector(), prop::collection::vec(piece, 1..8)).prop_map(|(start, parts)| {
             let (mut t, mut q) = (0.0, start);
-            let pieces = parts.into_iter().map(|(h, to, qd_rad_s)| {
+            let pieces = parts.into_iter().map(|(h, to, qd_rad_s, qdd_rad_s2)| {
                 let piece = MotionPiece {
                     t_s: [t, t + h],
                     q_rad: [q, to],
                     qd_rad_s,
+                    qdd_rad_s2,
                 };
                 (t, q) = (t + h, to);
                 piece
@@ -232,7 +274,22 @@ mod tests {
             prop_assert!(((after[0] - before[0]) / (2.0 * h) - piece.at(u)[1]).amax() < 1e-3);
             let acceleration = (after[1] - before[1]) / (2.0 * h);
             let [first, last] = piece.accelerations();
-            prop_assert!((first + (last - first) * share - acceleration).amax() < 1e-3 * (1.0 + first.amax() + last.amax()));
+            let room = 1.0 + first.amax() + last.amax() + acceleration.amax();
+            prop_assert!((piece.state(u)[2] - acceleration).amax() < 1e-3 * room);
+            if piece.qdd_rad_s2.is_none() {
+                prop_assert!((first + (last - first) * share - acceleration).amax() < 1e-3 * room);
+            }
+        }
+
+        #[test]
+        fn pieces_have_the_ends_that_they_state(motion in motions()) {
+            for piece in motion.pieces() {
+                for end in 0..2 {
+                    let [q, qd, qdd] = piece.state(piece.t_s[end]);
+                    prop_assert!((q - piece.q_rad[end]).amax() < 1e-9 && (qd - piece.qd_rad_s[end]).amax() < 1e-7);
+                    prop_assert!(piece.qdd_rad_s2.is_none_or(|stated| (stated[end] - qdd).amax() < 1e-5));
+                }
+            }
         }
     }
 

@@ -1,4 +1,4 @@
-//! One cubic of the motion, with its extremes, and bounds over several pieces.
+//! One cubic or quintic of the motion, with its extremes, and bounds over several pieces.
 //!
 //! Rounding: formula (12.2) in `docs/certificate.md`.
 //!
@@ -14,23 +14,43 @@
 //! 200 u = 100 ε holds for all of them, with the powers of h that belong to each; a position also has the rounding of the last sum. Bounds
 //! include these. They are nothing for a piece of a millisecond (10⁻¹¹ rad/s² at 1 rad/s), and for one of 10⁻¹⁶ s they are whole
 //! rad/s²: what such a piece does cannot be proved, and is not.
+//!
+//! For a quintic, with M = |m| + |v₀| + |v₁| + h |a₀| + h |a₁|, the same count gives |δc₃| ≤ 160 u M / h², |δc₄| ≤ 240 u M / h³ and
+//! |δc₅| ≤ 96 u M / h⁴, and with the evaluation at most 1 000 u M h for positions, 3 200 u M for speeds, 9 400 u M / h for accelerations,
+//! 20 300 u M / h² for jerks and 23 800 u M / h³ for their derivative. Its extremes are where a derivative is zero. These zeros are bracketed
+//! between those of the next derivative; where rounding hides one, the derivative is of the wrong sign by no more than its own rounding, and
+//! by what the next derivatives hide in turn. The sum of all is at most 57 700 u M h for positions, and less for the others; the brackets,
+//! 2⁻³² h wide, add less than 1 u. 2¹⁶ u = 2¹⁵ ε holds for all of them.
 
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::piecewise::MotionPiece;
 use platewash_workcell::plan::Knots;
 use platewash_workcell::trajectory::{KnotError, Trajectory};
 
-/// `q(u) = c₀ + c₁u + c₂u² + c₃u³` for u in [0, length].
+/// `q(u) = Σ cₖuᵏ` for u in [0, length]; c₄ and c₅ are 0 for a cubic.
 #[derive(Debug, Clone)]
 pub(crate) struct Piece {
     /// Time of u = 0 \[s\].
     pub start_s: f64,
     /// Duration \[s\].
     pub length_s: f64,
-    c: [JointVector; 4],
+    c: [JointVector; 6],
+    /// Zeros of the derivatives of a quintic; `None` for a cubic, whose zeros have a closed form.
+    zeros: Option<Box<[Zeros; AXES]>>,
     /// Speed that the knot at the end states \[rad/s\].
     end_speed: JointVector,
     rounding: Rounding,
+}
+
+/// Times at which speed, acceleration and jerk of a joint are zero \[s\], filled up with NaN.
+type Zeros = [[f64; 4]; 3];
+
+/// Derivatives whose zeros are extremes of the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Derivative {
+    Speed,
+    Acceleration,
+    Jerk,
 }
 
 /// Bounds on the difference between computed values and those that the knots define, anywhere on a piece: see the head of this file.
@@ -46,6 +66,12 @@ pub(crate) struct Rounding {
 
 /// Rounding relative to |m| + |v₀| + |v₁|: 200 u.
 const ROUNDING: f64 = 100.0 * f64::EPSILON;
+
+/// Same for a quintic, relative to |m| + |v₀| + |v₁| + h |a₀| + h |a₁|: 2¹⁶ u.
+const ROUNDING_OF_QUINTIC: f64 = 32_768.0 * f64::EPSILON;
+
+/// Number of halvings of the time between two zeros of a derivative.
+const HALVINGS: u32 = 32;
 
 /// Bounds on the joints over a stretch of time. For a single piece they are exact but for its rounding.
 #[derive(Debug, Clone, Copy)]
@@ -82,7 +108,10 @@ pub(crate) fn pieces(knots: &Knots) -> Result<Vec<Piece>, KnotError> {
 
 impl From<&MotionPiece> for Piece {
     fn from(piece: &MotionPiece) -> Self {
-        Self::new(piece.t_s, piece.q_rad, piece.qd_rad_s)
+        match piece.qdd_rad_s2 {
+            None => Self::new(piece.t_s, piece.q_rad, piece.qd_rad_s),
+            Some(qdd_rad_s2) => Self::quintic(piece.t_s, piece.q_rad, piece.qd_rad_s, qdd_rad_s2),
+        }
     }
 }
 
@@ -91,22 +120,43 @@ impl Piece {
     pub fn new([from, to]: [f64; 2], [q0, q1]: [JointVector; 2], [v0, v1]: [JointVector; 2]) -> Self {
         let h = to - from;
         let mean = (q1 - q0) / h;
-        let rounding = (mean.abs() + v0.abs() + v1.abs()) * ROUNDING;
+        let (c2, c3) = ((mean * 3.0 - v0 * 2.0 - v1) / h, (v0 + v1 - mean * 2.0) / (h * h));
         Self {
             start_s: from,
             length_s: h,
-            c: [
-                q0,
-                v0,
-                (mean * 3.0 - v0 * 2.0 - v1) / h,
-                (v0 + v1 - mean * 2.0) / (h * h),
-            ],
+            c: [q0, v0, c2, c3, JointVector::zeros(), JointVector::zeros()],
+            zeros: None,
             end_speed: v1,
-            rounding: Rounding {
-                position: rounding * h + q0.abs().sup(&q1.abs()) * f64::EPSILON,
-                speed: rounding,
-                acceleration: rounding / h,
-            },
+            rounding: Rounding::new((mean.abs() + v0.abs() + v1.abs()) * ROUNDING, h, [q0, q1]),
+        }
+    }
+
+    /// The quintic Hermite piece between two knots: as [`Piece::new`], and accelerations \[rad/s²\].
+    fn quintic(
+        [from, to]: [f64; 2],
+        [q0, q1]: [JointVector; 2],
+        [v0, v1]: [JointVector; 2],
+        [a0, a1]: [JointVector; 2],
+    ) -> Self {
+        let h = to - from;
+        let mean = (q1 - q0) / h;
+        let (b0, b1) = (a0 * h, a1 * h);
+        let c = [
+            q0,
+            v0,
+            a0 * 0.5,
+            (mean * 10.0 - v0 * 6.0 - v1 * 4.0 - b0 * 1.5 + b1 * 0.5) / (h * h),
+            (v0 * 8.0 + v1 * 7.0 - mean * 15.0 + b0 * 1.5 - b1) / (h * h * h),
+            (mean * 6.0 - v0 * 3.0 - v1 * 3.0 - b0 * 0.5 + b1 * 0.5) / (h * h * h * h),
+        ];
+        let all = mean.abs() + v0.abs() + v1.abs() + b0.abs() + b1.abs();
+        Self {
+            start_s: from,
+            length_s: h,
+            zeros: Some(Box::new(std::array::from_fn(|joint| zeros(c.map(|c| c[joint]), h)))),
+            c,
+            end_speed: v1,
+            rounding: Rounding::new(all * ROUNDING_OF_QUINTIC, h, [q0, q1]),
         }
     }
 
@@ -121,40 +171,46 @@ impl Piece {
     }
 
     pub fn position(&self, u: f64) -> JointVector {
-        let [c0, c1, c2, c3] = &self.c;
-        c0 + (c1 + (c2 + c3 * u) * u) * u
+        let [c0, c1, c2, c3, c4, c5] = &self.c;
+        c0 + (c1 + (c2 + (c3 + (c4 + c5 * u) * u) * u) * u) * u
     }
 
     pub fn speed(&self, u: f64) -> JointVector {
-        let [_, c1, c2, c3] = &self.c;
-        c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u
+        let [_, c1, c2, c3, c4, c5] = &self.c;
+        c1 + (c2 * 2.0 + c3 * (3.0 * u) + (c4 * 4.0 + c5 * (5.0 * u)) * (u * u)) * u
     }
 
     pub fn acceleration(&self, u: f64) -> JointVector {
-        self.c[2] * 2.0 + self.c[3] * (6.0 * u)
+        let [_, _, c2, c3, c4, c5] = &self.c;
+        c2 * 2.0 + c3 * (6.0 * u) + (c4 * 12.0 + c5 * (20.0 * u)) * (u * u)
     }
 
-    /// Upper bound on the third derivative of each joint, constant over the piece \[rad/s³\].
+    /// Upper bound on the third derivative of each joint over the piece \[rad/s³\]; a cubic's is constant.
     pub fn jerk(&self) -> JointVector {
-        (self.c[3] * 6.0).abs() + self.rounding.acceleration / self.length_s
+        let [_, _, _, c3, c4, c5] = self.c.each_ref().map(|c| c.abs());
+        let h = self.length_s;
+        c3 * 6.0 + (c4 * 24.0 + c5 * (60.0 * h)) * h + self.rounding.acceleration / h
     }
 
-    /// Upper bound on the speed of each joint from `u0` to `u1` \[rad/s\]. The speed is a parabola; it is extreme at an end or where the
-    /// acceleration is zero.
-    pub fn greatest_speed(&self, [u0, u1]: [f64; 2]) -> JointVector {
-        let mut greatest = self.speed(u0).abs().sup(&self.speed(u1).abs());
+    /// Upper bound on the speed of each joint from `u0` to `u1` \[rad/s\]. It is extreme at an end or where the acceleration is zero.
+    pub fn greatest_speed(&self, u: [f64; 2]) -> JointVector {
+        self.greatest(u, Derivative::Acceleration, |u| self.speed(u)) + self.rounding.speed
+    }
+
+    /// Upper bound on the acceleration of each joint from `u0` to `u1` \[rad/s²\]. It is extreme at an end or where the jerk is zero.
+    pub fn greatest_acceleration(&self, u: [f64; 2]) -> JointVector {
+        self.greatest(u, Derivative::Jerk, |u| self.acceleration(u)) + self.rounding.acceleration
+    }
+
+    /// Greatest magnitude of a quantity at `u0`, `u1` and the zeros between them of its derivative.
+    fn greatest(&self, [u0, u1]: [f64; 2], derivative: Derivative, value: impl Fn(f64) -> JointVector) -> JointVector {
+        let mut greatest = value(u0).abs().sup(&value(u1).abs());
         for joint in 0..AXES {
-            let u = -self.c[2][joint] / (3.0 * self.c[3][joint]);
-            if u > u0 && u < u1 {
-                greatest[joint] = greatest[joint].max(self.speed(u)[joint].abs());
+            for u in self.zeros(derivative, joint).into_iter().filter(|u| *u > u0 && *u < u1) {
+                greatest[joint] = greatest[joint].max(value(u)[joint].abs());
             }
         }
-        greatest + self.rounding.speed
-    }
-
-    /// Upper bound on the acceleration of each joint from `u0` to `u1` \[rad/s²\]. It is linear in time, so it is extreme at an end.
-    pub fn greatest_acceleration(&self, [u0, u1]: [f64; 2]) -> JointVector {
-        self.acceleration(u0).abs().sup(&self.acceleration(u1).abs()) + self.rounding.acceleration
+        greatest
     }
 
     /// Returns all bounds from `u0` to `u1`.
@@ -168,7 +224,8 @@ impl Piece {
             jumps: JointVector::zeros(),
         };
         for joint in 0..AXES {
-            for u in self.turns(joint).into_iter().filter(|u| *u > u0 && *u < u1) {
+            let turns = self.zeros(Derivative::Speed, joint);
+            for u in turns.into_iter().filter(|u| *u > u0 && *u < u1) {
                 let q = self.position(u)[joint];
                 extent.least[joint] = extent.least[joint].min(q);
                 extent.most[joint] = extent.most[joint].max(q);
@@ -187,19 +244,81 @@ impl Piece {
 
     /// Times at which a joint's position, speed or acceleration may be extreme \[s\].
     pub fn candidates(&self, joint: usize) -> Vec<f64> {
-        let fastest = -self.c[2][joint] / (3.0 * self.c[3][joint]);
-        let [a, b] = self.turns(joint);
-        let inside = [a, b, fastest].into_iter().filter(|u| *u > 0.0 && *u < self.length_s);
+        let extremes = [Derivative::Speed, Derivative::Acceleration, Derivative::Jerk];
+        let all = extremes
+            .into_iter()
+            .flat_map(|derivative| self.zeros(derivative, joint));
+        let inside = all.filter(|u| *u > 0.0 && *u < self.length_s);
         [0.0, self.length_s].into_iter().chain(inside).collect()
     }
 
-    /// Times at which a joint's speed c₁ + 2c₂u + 3c₃u² is zero; NaN or far away if there are none.
-    fn turns(&self, joint: usize) -> [f64; 2] {
-        let (a, half_b, c) = (3.0 * self.c[3][joint], self.c[2][joint], self.c[1][joint]);
-        let root = (half_b * half_b - a * c).sqrt();
-        // The pair of roots that does not cancel (Numerical Recipes, §5.6).
-        let sum = -(half_b + if half_b < 0.0 { -root } else { root });
-        [sum / a, c / sum]
+    /// Times at which a derivative of a joint's position is zero; NaN or far away if there are none.
+    fn zeros(&self, derivative: Derivative, joint: usize) -> [f64; 4] {
+        if let Some(zeros) = &self.zeros {
+            return zeros[joint][derivative as usize];
+        }
+        let [_, c1, c2, c3, ..] = self.c.each_ref().map(|c| c[joint]);
+        let none = f64::NAN;
+        match derivative {
+            Derivative::Speed => {
+                // c₁ + 2c₂u + 3c₃u² = 0, by the pair of roots that does not cancel (Numerical Recipes, §5.6).
+                let (a, half_b, c) = (3.0 * c3, c2, c1);
+                let root = (half_b * half_b - a * c).sqrt();
+                let sum = -(half_b + if half_b < 0.0 { -root } else { root });
+                [sum / a, c / sum, none, none]
+            }
+            Derivative::Acceleration => [-c2 / (3.0 * c3), none, none, none],
+            Derivative::Jerk => [none; 4],
+        }
+    }
+}
+
+/// Zeros of the derivatives of a quintic with coefficients `c` for u in [0, h].
+fn zeros(c: [f64; 6], h: f64) -> Zeros {
+    let [_, c1, c2, c3, c4, c5] = c;
+    let mut turn = [-c4 / (5.0 * c5), f64::NAN, f64::NAN, f64::NAN];
+    let mut next = |c: [f64; 5]| {
+        turn = zeros_between(c, h, turn);
+        turn
+    };
+    let jerk = next([6.0 * c3, 24.0 * c4, 60.0 * c5, 0.0, 0.0]);
+    let acceleration = next([2.0 * c2, 6.0 * c3, 12.0 * c4, 20.0 * c5, 0.0]);
+    let speed = next([c1, 2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5]);
+    [speed, acceleration, jerk]
+}
+
+/// Zeros in [0, h] of the polynomial Σ cₖuᵏ, in ascending order, from the zeros of its derivative, `turns`: one between two of them where the sign
+/// changes.
+fn zeros_between(c: [f64; 5], h: f64, turns: [f64; 4]) -> [f64; 4] {
+    let value = |u: f64| c.iter().rev().fold(0.0, |sum, c| sum * u + c);
+    let mut zeros = [f64::NAN; 4];
+    let (mut count, mut from) = (0, 0.0);
+    let mut is_above = value(from) > 0.0;
+    let inside = turns.into_iter().filter(|u| *u > 0.0 && *u < h);
+    for to in inside.chain([h]) {
+        let was_above = std::mem::replace(&mut is_above, value(to) > 0.0);
+        let mut ends = [std::mem::replace(&mut from, to), to];
+        if was_above == is_above || count == zeros.len() {
+            continue;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            ends[usize::from((value(middle) > 0.0) != was_above)] = middle;
+        }
+        zeros[count] = ends[1];
+        count += 1;
+    }
+    zeros
+}
+
+impl Rounding {
+    /// Rounding over a piece of `h` \[s\] between two positions \[rad\], from that of its speed \[rad/s\].
+    fn new(speed: JointVector, h: f64, [q0, q1]: [JointVector; 2]) -> Self {
+        Self {
+            position: speed * h + q0.abs().sup(&q1.abs()) * f64::EPSILON,
+            speed,
+            acceleration: speed / h,
+        }
     }
 }
 
@@ -304,8 +423,13 @@ mod tests {
         }
 
         #[test]
-        fn extremes_hold_between_knots_and_are_attained(q in [vector(), vector()], v in [vector(), vector()], cut in [0.0..0.5f64, 0.5..1.0f64]) {
-            let piece = Piece::new([1.0, 1.25], q, v);
+        fn extremes_hold_between_knots_and_are_attained(q in [vector(), vector()], v in [vector(), vector()], a in prop::option::of([vector(), vector()]), cut in [0.0..0.5f64, 0.5..1.0f64]) {
+            let t = [1.0, 1.25];
+            let piece = Piece::from(&MotionPiece { t_s: t, q_rad: q, qd_rad_s: v.map(|v| v * 5.0), qdd_rad_s2: a.map(|a| a.map(|a| a * 100.0)) });
+            if a.is_some() {
+                prop_assert!((piece.position(0.25) - q[1]).amax() < 1e-9 && (piece.speed(0.25) - v[1] * 5.0).amax() < 1e-8);
+                prop_assert!((piece.acceleration(0.25) - a.unwrap()[1] * 100.0).amax() < 1e-7);
+            }
             let u = cut.map(|c| c * piece.length_s);
             let extent = piece.extent(u);
             let mut seen = Extent { least: piece.position(u[0]), most: piece.position(u[0]), speed: JointVector::zeros(), acceleration: JointVector::zeros(), jumps: JointVector::zeros() };

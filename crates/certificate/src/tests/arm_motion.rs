@@ -47,10 +47,9 @@ fn lines(q: &[JointVector], step_s: f64) -> PiecewiseMotion {
 }
 
 fn cubics(q: &[JointVector], v: &[JointVector], step_s: f64) -> PiecewiseMotion {
-    let piece = |k: usize| MotionPiece {
-        t_s: [k as f64 * step_s, (k + 1) as f64 * step_s],
-        q_rad: [q[k], q[k + 1]],
-        qd_rad_s: [v[k], v[k + 1]],
+    let piece = |k: usize| {
+        let t_s = [k as f64 * step_s, (k + 1) as f64 * step_s];
+        MotionPiece::cubic(t_s, [q[k], q[k + 1]], [v[k], v[k + 1]])
     };
     PiecewiseMotion::new((0..q.len() - 1).map(piece).collect()).unwrap()
 }

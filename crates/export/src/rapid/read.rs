@@ -11,7 +11,7 @@ use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
 use crate::rapid::{self};
-use crate::reading::{Interpolation, ReadPoint, ReadTool, Reading, Token};
+use crate::reading::{ReadPoint, ReadTool, Reading, SegmentShape, Token};
 use platewash_kinematics::JointVector;
 use std::collections::HashMap;
 
@@ -587,7 +587,7 @@ impl<'a> Run<'a> {
         Ok(Reading {
             speed_share,
             points: self.points,
-            interpolation: Interpolation::RoundedLines,
+            interpolation: SegmentShape::RoundedLines,
             tool: self.tool,
             checks_start: self.start_rad.is_some(),
         })

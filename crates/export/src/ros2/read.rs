@@ -7,7 +7,7 @@
 //! not read.
 
 use crate::dialect::{Place, ProgramFile, ReadError};
-use crate::reading::{Interpolation, ReadPoint, Reading};
+use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::ros2::node::{self, Entry, Fault, Kind, Node};
 use crate::ros2::number::{self, ParsedNumber};
 use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
@@ -78,7 +78,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     Ok(Reading {
         speed_share: None,
         points,
-        interpolation: Interpolation::Cubics,
+        interpolation: SegmentShape::Cubics,
         tool: None,
         checks_start: false,
     })

@@ -2,7 +2,7 @@
 
 use crate::dialect::{Dialect, Place, Points, Program, ProgramFile, ReadError};
 use crate::header::wrapped;
-use crate::reading::{Interpolation, ReadPoint, Reading};
+use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::refusal::Refusal;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::job::JobTerms;
@@ -82,7 +82,7 @@ impl Dialect for Toy {
         Ok(Reading {
             speed_share,
             points,
-            interpolation: Interpolation::RoundedLines,
+            interpolation: SegmentShape::RoundedLines,
             tool: None,
             checks_start: false,
         })

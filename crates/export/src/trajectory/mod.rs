@@ -3,7 +3,7 @@
 //! | concept | module |
 //! | --- | --- |
 //! | points; the motion between them; reading by a file's name | here |
-//! | tables: times, positions and speeds as CSV | `csv` |
+//! | tables: times, positions, speeds and accelerations as CSV | `csv` |
 //! | ROS messages as YAML and JSON: `JointTrajectory`, `RobotTrajectory`, `FollowJointTrajectory` goals | `ros` |
 
 mod csv;
@@ -23,8 +23,8 @@ pub struct JointPoints {
     pub t_s: Option<Vec<f64>>,
     /// Joint speeds \[rad/s\]; `None` where the points have none.
     pub qd_rad_s: Option<Vec<JointVector>>,
-    /// True where the points state accelerations. These are not read.
-    pub has_accelerations: bool,
+    /// Joint accelerations \[rad/s²\]; `None` where the points have none.
+    pub qdd_rad_s2: Option<Vec<JointVector>>,
 }
 
 /// Motion of each joint between two points.
@@ -34,6 +34,23 @@ pub enum Interpolation {
     Linear,
     /// Along the cubic that has the positions and the speeds of both points.
     Cubic,
+    /// Along the quintic that has the positions, speeds and accelerations of both points.
+    Quintic,
+}
+
+impl Interpolation {
+    /// Every way, the simplest first.
+    pub const ALL: [Self; 3] = [Self::Linear, Self::Cubic, Self::Quintic];
+
+    /// Returns its word: `linear`, `cubic` or `quintic`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Cubic => "cubic",
+            Self::Quintic => "quintic",
+        }
+    }
 }
 
 /// Motion through points.
@@ -57,10 +74,10 @@ pub enum PointsError {
         /// Number of points found.
         found: usize,
     },
-    /// There are not as many times or speeds as positions.
+    /// There are not as many times, speeds or accelerations as positions.
     #[error("expected as many {what} as positions, {expected}; found {found}")]
     Count {
-        /// Times or speeds.
+        /// Times, speeds or accelerations.
         what: &'static str,
         /// Number of positions.
         expected: usize,
@@ -99,21 +116,31 @@ pub enum PointsError {
         /// Limits of the joint \[rad\].
         limits_rad: [f64; 2],
     },
-    /// The points have speeds and no times.
-    #[error("the points have speeds and no times; give times, or leave the speeds out")]
-    SpeedsWithoutTimes,
-    /// Cubics need times and speeds.
-    #[error("cubic interpolation needs times and speeds at every point; the points have no {missing}")]
-    NotCubic {
+    /// The points have speeds and no times, or accelerations and no speeds.
+    #[error("the points have {what} and no {missing}; give {missing}, or leave the {what} out")]
+    Without {
+        /// Speeds or accelerations.
+        what: &'static str,
         /// Times or speeds.
         missing: &'static str,
     },
-    /// The points state accelerations, between which a controller draws quintics.
-    #[error(
-        "the points state accelerations: a controller draws quintics between them, which are not supported yet; choose linear or cubic \
-         interpolation where the controller uses that, or leave the accelerations out"
-    )]
-    Quintic,
+    /// The chosen interpolation needs more than the points have.
+    #[error("{} interpolation needs {} at every point; the points have no {missing}", .choice.word(), needs(*.choice))]
+    Incomplete {
+        /// The interpolation that was chosen.
+        choice: Interpolation,
+        /// Times, speeds or accelerations.
+        missing: &'static str,
+    },
+}
+
+/// What an interpolation needs besides positions, in words.
+fn needs(choice: Interpolation) -> &'static str {
+    match choice {
+        Interpolation::Linear => "nothing else",
+        Interpolation::Cubic => "times and speeds",
+        Interpolation::Quintic => "times, speeds and accelerations",
+    }
 }
 
 /// Rounds limits \[rad\] for a message.
@@ -136,40 +163,38 @@ impl PointsError {
 const FAR_RAD: f64 = std::f64::consts::PI;
 
 impl JointPoints {
-    /// Returns the motion through the points. Without a choice it is cubic where there are speeds, otherwise linear, as ROS 2's
-    /// joint_trajectory_controller moves.
+    /// Returns the motion through the points. Without a choice it is quintic where there are speeds and accelerations, cubic where there are
+    /// speeds alone, and otherwise linear, as ROS 2's joint_trajectory_controller moves.
     ///
     /// # Errors
     /// [`PointsError`] with the first fault.
     pub fn motion(&self, arm: &RobotModel, choice: Option<Interpolation>) -> Result<PointMotion, PointsError> {
         self.check(arm)?;
-        let interpolation = match (choice, &self.qd_rad_s) {
-            (Some(choice), _) => choice,
-            (None, _) if self.has_accelerations => return Err(PointsError::Quintic),
-            (None, Some(_)) => Interpolation::Cubic,
-            (None, None) => Interpolation::Linear,
-        };
+        let interpolation = choice.unwrap_or(match (&self.qd_rad_s, &self.qdd_rad_s2) {
+            (Some(_), Some(_)) => Interpolation::Quintic,
+            (Some(_), None) => Interpolation::Cubic,
+            (None, _) => Interpolation::Linear,
+        });
         let start_s = self.t_s.as_ref().and_then(|all| all.first()).copied();
         let time = |k: usize| match (&self.t_s, start_s) {
             (Some(all), Some(start_s)) => all[k] - start_s,
             _ => k as f64,
         };
+        let [speeds, accelerations] = self.rates_for(interpolation)?;
         let piece = |k: usize| {
             let (t_s, q_rad) = ([time(k), time(k + 1)], [self.q_rad[k], self.q_rad[k + 1]]);
             // Times that differ by less than rounding once they start from 0.
             if t_s[1] <= t_s[0] {
                 return Err(self.time_order(k + 1));
             }
-            match (interpolation, &self.t_s, &self.qd_rad_s) {
-                (Interpolation::Linear, ..) => Ok(MotionPiece::line(t_s, q_rad)),
-                (Interpolation::Cubic, Some(_), Some(speeds)) => Ok(MotionPiece {
-                    t_s,
-                    q_rad,
-                    qd_rad_s: [speeds[k], speeds[k + 1]],
-                }),
-                (Interpolation::Cubic, None, _) => Err(PointsError::NotCubic { missing: "times" }),
-                (Interpolation::Cubic, _, None) => Err(PointsError::NotCubic { missing: "speeds" }),
-            }
+            let both = |rows: &[JointVector]| [rows[k], rows[k + 1]];
+            Ok(match speeds {
+                None => MotionPiece::line(t_s, q_rad),
+                Some(speeds) => MotionPiece {
+                    qdd_rad_s2: accelerations.map(both),
+                    ..MotionPiece::cubic(t_s, q_rad, both(speeds))
+                },
+            })
         };
         let pieces: Vec<_> = (0..self.q_rad.len() - 1).map(piece).collect::<Result<_, _>>()?;
         let motion = PiecewiseMotion::new(pieces).map_err(|error| PointsError::NotFinite {
@@ -193,15 +218,14 @@ impl JointPoints {
             found => Err(PointsError::Count { what, expected, found }),
         };
         self.t_s.as_ref().map_or(Ok(()), |all| count("times", all.len()))?;
-        self.qd_rad_s
-            .as_ref()
-            .map_or(Ok(()), |all| count("speeds", all.len()))?;
+        for (what, rows) in self.rates() {
+            rows.map_or(Ok(()), |all| count(what, all.len()))?;
+        }
         let is_finite = |point: usize| {
-            let (time, speeds) = (self.t_s.as_ref(), self.qd_rad_s.as_ref());
-            let numbers = self.q_rad[point]
-                .iter()
-                .chain(speeds.iter().flat_map(|all| all[point].iter()));
-            numbers.chain(time.iter().map(|all| &all[point])).all(|v| v.is_finite())
+            let rates = self.rates().into_iter().filter_map(|(_, rows)| rows);
+            let numbers = self.q_rad[point].iter().chain(rates.flat_map(|all| all[point].iter()));
+            let time = self.t_s.iter().map(|all| &all[point]);
+            numbers.chain(time).all(|v| v.is_finite())
         };
         if let Some(point) = (0..expected).find(|point| !is_finite(*point)) {
             return Err(PointsError::NotFinite { point });
@@ -211,8 +235,13 @@ impl JointPoints {
         {
             return Err(self.time_order(point));
         }
-        if self.t_s.is_none() && self.qd_rad_s.is_some() {
-            return Err(PointsError::SpeedsWithoutTimes);
+        let there = [
+            ("times", self.t_s.is_some()),
+            ("speeds", self.qd_rad_s.is_some()),
+            ("accelerations", self.qdd_rad_s2.is_some()),
+        ];
+        if let Some([(missing, _), (what, _)]) = there.array_windows().find(|[before, after]| after.1 && !before.1) {
+            return Err(PointsError::Without { what, missing });
         }
         if let Some(error) = self.degrees(arm) {
             return Err(error);
@@ -221,6 +250,28 @@ impl JointPoints {
             0 | 1 => Err(PointsError::TooFew { found: expected }),
             _ => Ok(()),
         }
+    }
+
+    /// Speeds and accelerations, as far as an interpolation needs them.
+    fn rates_for(&self, choice: Interpolation) -> Result<[Option<&[JointVector]>; 2], PointsError> {
+        let missing = |missing| PointsError::Incomplete { choice, missing };
+        if choice != Interpolation::Linear && self.t_s.is_none() {
+            return Err(missing("times"));
+        }
+        let [speeds, accelerations] = self.rates().map(|(what, rows)| rows.ok_or_else(|| missing(what)));
+        Ok(match choice {
+            Interpolation::Linear => [None, None],
+            Interpolation::Cubic => [Some(speeds?), None],
+            Interpolation::Quintic => [Some(speeds?), Some(accelerations?)],
+        })
+    }
+
+    /// Speeds and accelerations, with their names.
+    fn rates(&self) -> [(&'static str, Option<&[JointVector]>); 2] {
+        [
+            ("speeds", self.qd_rad_s.as_deref()),
+            ("accelerations", self.qdd_rad_s2.as_deref()),
+        ]
     }
 
     fn time_order(&self, point: usize) -> PointsError {

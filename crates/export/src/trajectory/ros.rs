@@ -72,7 +72,7 @@ fn trajectory(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usi
     let order = order(fields.needed("joint_names")?, arm)?;
     let nodes = list(fields.needed("points")?)?;
     let (mut points, mut lines) = (JointPoints::default(), Vec::new());
-    let (mut times_ns, mut speeds) = (Vec::new(), Vec::new());
+    let (mut times_ns, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
         let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
@@ -83,11 +83,15 @@ fn trajectory(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usi
         };
         points.q_rad.push(joints(positions));
         speeds.extend(row("velocities")?.map(joints));
-        points.has_accelerations |= row("accelerations")?.is_some();
+        accelerations.extend(row("accelerations")?.map(joints));
         if let Some(time) = point.get("time_from_start") {
             times_ns.push(duration_ns(time)?);
         }
-        for (what, found) in [("velocities", speeds.len()), ("time_from_start", times_ns.len())] {
+        for (what, found) in [
+            ("velocities", speeds.len()),
+            ("accelerations", accelerations.len()),
+            ("time_from_start", times_ns.len()),
+        ] {
             if found != 0 && found != points.q_rad.len() {
                 let reason =
                     format!("expected {what} at every point or at none; some points have them and others do not");
@@ -107,6 +111,7 @@ fn trajectory(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usi
     let second = |ns: &i128| seconds_between(0, *ns);
     points.t_s = (!times_ns.is_empty()).then(|| times_ns.iter().map(second).collect());
     points.qd_rad_s = (!speeds.is_empty()).then_some(speeds);
+    points.qdd_rad_s2 = (!accelerations.is_empty()).then_some(accelerations);
     Ok((points, lines))
 }
 

@@ -59,6 +59,33 @@ fn reads_messages_with_joints_by_name() {
 }
 
 #[test]
+fn accelerations_make_quintics() {
+    let at_rest = message(SECOND).replace(
+        "  time_from_start",
+        "  accelerations: [0.6, 0.5, 0.4, 0.3, 0.2, -0.5]\n  time_from_start",
+    );
+    let found = motion("a.yaml", &at_rest).unwrap();
+    assert_eq!(found.interpolation, Interpolation::Quintic);
+    let [piece] = found.motion.pieces() else {
+        panic!("{found:?}")
+    };
+    let expected = JointVector::new(-0.5, 0.2, 0.3, 0.4, 0.5, 0.6);
+    assert_eq!(piece.qdd_rad_s2, Some([expected; 2]));
+    let cubic = read("a.yaml", &at_rest)
+        .unwrap()
+        .motion(&arm(), Some(Interpolation::Cubic))
+        .unwrap();
+    assert_eq!(cubic.motion.pieces()[0].qdd_rad_s2, None);
+    let columns = |unit: &str| (1..=6).map(|k| format!(",joint_{k}{unit}")).collect::<String>();
+    let head = ["t_s".to_owned(), columns(""), columns("_rad_s"), columns("_rad_s2")].concat();
+    let row = |t: f64| format!("{t}{}\n", ",0.25".repeat(18));
+    let found = motion("a.csv", &format!("{head}\n{}{}", row(0.0), row(1.0))).unwrap();
+    assert_eq!(found.interpolation, Interpolation::Quintic);
+    let bare = head.replace("_rad_s2", "_rad_s");
+    assert!(error("a.csv", &format!("{bare}\n{}{}", row(0.0), row(1.0))).contains("there twice"));
+}
+
+#[test]
 fn reads_tables_by_column() {
     let full = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,qd1_rad_s,qd2_rad_s,qd3_rad_s,qd4_rad_s,qd5_rad_s,qd6_rad_s\n\
                 1,0,0,0,0,0,0,0,0,0,0,0,0\n2,1,0.2,0.3,0.4,0.5,0.6,0.7,0,0,0,0,0\n";
@@ -118,7 +145,11 @@ fn refuses_messages_with_the_line() {
             "a.yaml:6:",
             "velocities at every point or at none",
         ),
-        (message(&accelerations), "a.yaml:3:", "quintic"),
+        (
+            message(&accelerations),
+            "a.yaml:6:",
+            "accelerations at every point or at none",
+        ),
         (
             second("[0.6, 0.5", "[60.0, 50.0"),
             "a.yaml:6: point 1: joint joint_5 at 50 rad",
@@ -145,10 +176,10 @@ fn refuses_messages_with_the_line() {
     }
     assert!(error("a.json", "{").contains("not JSON"));
     assert!(error("a.txt", "x").contains("another name"));
-    let chosen = read("a.yaml", &message(&accelerations))
+    let chosen = read("a.yaml", &message(SECOND))
         .unwrap()
-        .motion(&arm(), Some(Interpolation::Cubic));
-    assert_eq!(chosen.unwrap().interpolation, Interpolation::Cubic);
+        .motion(&arm(), Some(Interpolation::Quintic));
+    assert!(chosen.unwrap_err().to_string().contains("no accelerations"));
 }
 
 #[test]
@@ -219,7 +250,7 @@ fn refuses_arrays_that_do_not_fit() {
         q_rad: q.clone(),
         t_s,
         qd_rad_s,
-        has_accelerations: false,
+        qdd_rad_s2: None,
     };
     let error = |points: JointPoints| points.motion(&arm(), None).unwrap_err();
     assert_eq!(

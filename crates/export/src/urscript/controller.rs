@@ -4,7 +4,7 @@
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
 use crate::dialect::Place;
-use crate::reading::{Interpolation, ReadPoint, ReadTool, Reading};
+use crate::reading::{ReadPoint, ReadTool, Reading, SegmentShape};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{JointVector, Pose};
@@ -261,7 +261,7 @@ impl Controller {
         Ok(Reading {
             speed_share: Some(speed_share),
             points: self.points,
-            interpolation: Interpolation::Lines,
+            interpolation: SegmentShape::Lines,
             tool,
             checks_start: false,
         })
