@@ -5,12 +5,13 @@ use platewash_certificate::{
 };
 use platewash_export::trajectory::{Interpolation, PointMotion};
 use platewash_kinematics::words::{decimals_down, distinct_decimals, rounded};
-use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
+use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::piecewise::PiecewiseMotion;
 use platewash_workcell::words::count_with_noun;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, Workcell};
+use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Verdict on a motion.
@@ -58,7 +59,7 @@ pub struct JudgedRule {
     /// Moment of the worst value seen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst: Option<MotionMoment>,
-    /// Midpoint between the nearest bodies then, in the frame of the base \[m\].
+    /// Midpoint between the nearest bodies then, in the frame of the world \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place_m: Option<[f64; 3]>,
 }
@@ -96,19 +97,23 @@ pub struct MotionReport {
     pub excluded: Vec<Exclusion>,
     /// Assumptions of the verdict; one sentence each.
     pub assumptions: Vec<String>,
+    /// The rules as the certificate has them, with times from that of the first point.
+    #[serde(skip)]
+    pub checks: Vec<Check>,
 }
 
-/// Judges the motion of a bare arm, whose base is the origin of the world, among obstacles: joint limits, and the clearance of every pair of
-/// bodies, at every moment. The tool is part of the arm's description, or not there.
+/// Judges the motion of an arm in a workcell: joint limits, and the clearance of every pair of bodies, at every moment.
 ///
 /// ```
 /// use platewash::export::trajectory::JointPoints;
-/// use platewash::{CancelToken, JointVector, RobotModel, prove_motion};
+/// use platewash::workcell::workcell::Workcell;
+/// use platewash::{CancelToken, JointVector, Pose, RobotModel, prove_motion};
 ///
 /// let arm = RobotModel::irb120()?;
 /// let points = JointPoints { q_rad: vec![JointVector::zeros(), JointVector::repeat(0.5)], ..JointPoints::default() };
 /// let motion = points.motion(&arm, None)?;
-/// let report = prove_motion(&motion, &arm, Vec::new(), 0.005, None, &CancelToken::new())?;
+/// let alone = Workcell::without_tool(&arm, Pose::identity(), Vec::new())?;
+/// let report = prove_motion(&motion, &alone, &arm, 0.005, None, &CancelToken::new())?;
 /// assert!(report.headline.starts_with("PROVED"), "{report}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -119,28 +124,26 @@ pub struct MotionReport {
 /// [`ProveError`] for what cannot be judged, and when it is given up. A motion that breaks a rule is no error.
 pub fn prove_motion(
     motion: &PointMotion,
+    workcell: &Workcell,
     arm: &RobotModel,
-    obstacles: Vec<Obstacle>,
     clearance_m: f64,
     acceleration_rad_s2: Option<JointVector>,
     cancel: &CancelToken,
 ) -> Result<MotionReport, ProveError> {
-    let names = obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
-    let workcell = Workcell::without_tool(arm, Pose::identity(), obstacles)?;
     let rules = MotionRules {
         clearance_m,
         acceleration_rad_s2,
         timing: motion.start_s.map_or(Timing::Free, |_| Timing::Stated),
     };
-    let proof = prove_arm_motion(&motion.motion, &workcell, arm, &rules, cancel)?;
-    Ok(MotionReport::new(motion, arm, names, &rules, proof))
+    let proof = prove_arm_motion(&motion.motion, workcell, arm, &rules, cancel)?;
+    Ok(MotionReport::new(motion, workcell, arm, &rules, proof))
 }
 
 impl MotionReport {
     fn new(
         motion: &PointMotion,
+        workcell: &Workcell,
         arm: &RobotModel,
-        obstacles: Vec<String>,
         rules: &MotionRules,
         proof: ArmMotionProof,
     ) -> Self {
@@ -171,9 +174,14 @@ impl MotionReport {
                 .is_some_and(|least_m| least_m >= rules.clearance_m && least_m > 0.0),
             shapeless: proof.shapeless,
             clearance,
-            assumptions: assumptions(motion, &obstacles, rules, &proof.excluded),
+            assumptions: assumptions(motion, workcell, arm, rules, &proof.excluded),
             excluded: proof.excluded,
-            obstacles,
+            obstacles: workcell
+                .obstacles
+                .iter()
+                .map(|obstacle| obstacle.name.clone())
+                .collect(),
+            checks: proof.checks,
         };
         report.headline = report.first_line(arm);
         report
@@ -339,9 +347,61 @@ fn moment(motion: &PiecewiseMotion, start_s: Option<f64>, t_s: f64) -> Option<Mo
 }
 
 /// Sentences on what the verdict rests on.
-fn assumptions(motion: &PointMotion, obstacles: &[String], rules: &MotionRules, excluded: &[Exclusion]) -> Vec<String> {
+fn assumptions(
+    motion: &PointMotion,
+    workcell: &Workcell,
+    arm: &RobotModel,
+    rules: &MotionRules,
+    excluded: &[Exclusion],
+) -> Vec<String> {
     let timed = motion.start_s.is_some();
-    let mut all = vec![match (motion.interpolation, timed) {
+    let mut all = vec![
+        controller_words(motion.interpolation, timed).to_owned(),
+        "The motion begins at the first point; how the arm gets there is not judged.".to_owned(),
+        "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull.".to_owned(),
+    ];
+    let fixed: Vec<_> = arm
+        .fixed_joints()
+        .iter()
+        .chain(&motion.fixed)
+        .collect::<BTreeMap<_, _>>()
+        .into_iter()
+        .collect();
+    if !fixed.is_empty() {
+        let words: Vec<_> = fixed.iter().map(|(name, at)| format!("{name} at {at}")).collect();
+        all.push(format!("These joints do not move: {}.", words.join(", ")));
+    }
+    let names = |names: Vec<&str>| names.join(", ");
+    if workcell.tool.is_present() {
+        let bodies = workcell.tool.bodies.iter().map(|body| body.name.as_str());
+        let bodies = names(bodies.chain(["sponge"]).collect());
+        all.push(format!(
+            "Behind its flange the arm carries these bodies of a tool: {bodies}."
+        ));
+    }
+    all.push(match &workcell.obstacles[..] {
+        [] => "Nothing stands around the arm, no floor either.".to_owned(),
+        some => format!(
+            "Nothing stands around the arm but these, which do not move: {}.",
+            names(some.iter().map(|obstacle| obstacle.name.as_str()).collect())
+        ),
+    });
+    if timed {
+        let words = match rules.acceleration_rad_s2 {
+            None => {
+                "Speed limits are those of the description; no acceleration limits were stated, and accelerations are not judged."
+            }
+            Some(_) => "Speed limits are those of the description; acceleration limits are as they were stated.",
+        };
+        all.push(words.to_owned());
+    }
+    all.extend(excluded_words(excluded));
+    all
+}
+
+/// Motion that a controller is assumed to make.
+fn controller_words(interpolation: Interpolation, timed: bool) -> &'static str {
+    match (interpolation, timed) {
         (Interpolation::Linear, true) => {
             "The controller moves every joint at constant speed from each point to the next, a straight line in joint space, and follows it \
              exactly; the speed jumps at the points."
@@ -359,25 +419,10 @@ fn assumptions(motion: &PointMotion, obstacles: &[String], rules: &MotionRules, 
              and follows it exactly."
         }
     }
-    .to_owned()];
-    all.push("The motion begins at the first point; how the arm gets there is not judged.".to_owned());
-    all.push(
-        "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull.".to_owned(),
-    );
-    all.push(match obstacles {
-        [] => "Nothing stands around the arm, no floor either.".to_owned(),
-        some => format!(
-            "Nothing stands around the arm but these, which do not move: {}.",
-            some.join(", ")
-        ),
-    });
-    if timed {
-        all.push(match rules.acceleration_rad_s2 {
-            None => "Speed limits are those of the description; no acceleration limits were stated, and accelerations are not judged.",
-            Some(_) => "Speed limits are those of the description; acceleration limits are as they were stated.",
-        }
-        .to_owned());
-    }
+}
+
+/// Counts the pairs that are not judged, by their reason.
+fn excluded_words(excluded: &[Exclusion]) -> Option<String> {
     let count = |reason| excluded.iter().filter(|pair| pair.reason == reason).count();
     let told = |(reason, words): (ExclusionReason, &str)| match count(reason) {
         0 => None,
@@ -390,6 +435,7 @@ fn assumptions(motion: &PointMotion, obstacles: &[String], rules: &MotionRules, 
             ExclusionReason::AlwaysTouching,
             "as they touch in every configuration tried",
         ),
+        (ExclusionReason::CarriesTool, "as one carries the other"),
         (ExclusionReason::NeitherMoves, "as neither body moves"),
         (
             ExclusionReason::KeepsItsHeight,
@@ -397,10 +443,7 @@ fn assumptions(motion: &PointMotion, obstacles: &[String], rules: &MotionRules, 
         ),
     ];
     let reasons: Vec<_> = reasons.into_iter().filter_map(told).collect();
-    if !reasons.is_empty() {
-        all.push(format!("Pairs of bodies that are not judged: {}.", reasons.join(", ")));
-    }
-    all
+    (!reasons.is_empty()).then(|| format!("Pairs of bodies that are not judged: {}.", reasons.join(", ")))
 }
 
 impl fmt::Display for MotionMoment {

@@ -2,7 +2,7 @@
 
 use platewash_certificate::Requirement;
 use platewash_kinematics::RobotModel;
-use platewash_scenario::{Failure, Scenario, ScenarioError, check_seed};
+use platewash_scenario::{Failure, Scenario, ScenarioError, TextKind, check_seed};
 use platewash_study::{Outcome, judged};
 use platewash_workcell::cancel::CancelToken;
 use rayon::prelude::*;
@@ -50,6 +50,7 @@ pub fn sweep_each(
     done: &mut (dyn FnMut(&SweepRow) -> ControlFlow<()> + Send),
 ) -> Result<Vec<SweepRow>, Failure> {
     let seed_error = |problem| ScenarioError {
+        kind: TextKind::Scenario,
         source_name: scenario.name.clone(),
         line: None,
         problem,

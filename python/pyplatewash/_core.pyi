@@ -727,6 +727,8 @@ def prove_motion(
     qdd: npt.ArrayLike | None = None,
     *,
     robot: Robot | None = None,
+    tool: Tool | None = None,
+    mount: npt.ArrayLike | None = None,
     obstacles: Any = None,
     clearance_m: float = 0.005,
     interpolation: Literal["linear", "cubic", "quintic"] | None = None,

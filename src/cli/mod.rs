@@ -86,8 +86,8 @@ enum Verb {
     Verify(verify::VerifyArguments),
     /// Prove a trajectory of any planner: joint limits, and clearance of every pair of bodies at every moment
     ///
-    /// The arm is that of --urdf (default: the IRB 120), with the links of its description and no other tool; the obstacles are those of
-    /// --obstacles, in the frame of the arm's base. Joints are matched by name.
+    /// The arm is that of --urdf (default: the IRB 120), with the links of its description and the tool of --tool; the obstacles are those of
+    /// --obstacles. Joints are matched by name; --fix holds others still.
     ///
     /// Exit code 0 if the motion is proved, else 4: broken at a stated moment, or not proved. Without times in the trajectory, positions
     /// and clearance are proved for any timing of straight lines. docs/prove-motion.md has the formats and the assumptions.

@@ -277,7 +277,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     (
         "prove-motion",
         "scenario seed tool_mount out",
-        "prove-motion judges a trajectory of the bare arm, without a scenario, and writes no file; leave it out",
+        "prove-motion judges a trajectory without a scenario, and writes no file but that of --page; leave it out",
     ),
     (
         "study",

@@ -1,17 +1,23 @@
 //! `platewash prove-motion`: a trajectory of any planner, proved over its whole time.
 
-use super::failure::ExitCode;
+use super::failure::{ExitCode, internal};
+use super::files::Files;
 use super::numbers::within;
 use super::options::{Options, installed_files};
 use super::output::DetailArguments;
+use super::page::needed_bundle;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueEnum};
 use platewash::certificate::ProveError;
 use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
 use platewash::kinematics::urdf::file::read_text;
-use platewash::scenario::{Note, ObstacleText, load_arm};
-use platewash::{Failure, JointVector, prove_motion};
+use platewash::kinematics::urdf::{FixedJoints, UrdfError};
+use platewash::scenario::{ArmError, MeshPlaces, Note, ObstacleText, RobotSection, load_arm_with_fixed};
+use platewash::viewer::page::html;
+use platewash::viewer::view::{ArmMotion, View};
+use platewash::workcell::workcell::Workcell;
+use platewash::{Failure, JointVector, Pose, RobotModel, prove_motion};
 use std::path::PathBuf;
 
 /// Longest trajectory that is read \[bytes\].
@@ -22,9 +28,20 @@ const MAX_BYTES: u64 = 256 << 20;
 pub struct ProveMotionArguments {
     /// Trajectory: a table (.csv), or a ROS message JointTrajectory, RobotTrajectory or FollowJointTrajectory goal (.yaml, .json)
     trajectory: PathBuf,
-    /// TOML file with the obstacles: sections [[obstacle]], [floor] and [table] as in a scenario [default: none, and no floor]
+    /// File with the obstacles: TOML sections [[obstacle]], [floor] and [table] as in a scenario, or a planning scene of MoveIt (.scene)
+    /// [default: none, and no floor]
     #[arg(long, value_name = "FILE")]
     obstacles: Option<PathBuf>,
+    /// TOML file with the tool: sections [tool] and [[tool_body]] as in a scenario [default: only what the arm's description holds]
+    #[arg(long, value_name = "FILE")]
+    tool: Option<PathBuf>,
+    /// Place of the arm's base among the obstacles: x, y, z [m], and roll, pitch, yaw [deg] where it is turned [default: at their origin]
+    #[arg(long, value_name = "X,Y,Z[,R,P,Y]", value_parser = mount, allow_hyphen_values = true)]
+    mount: Option<Pose>,
+    /// Joint that does not move, and its position [rad or m]: one that the trajectory leaves out, or a further one of description or
+    /// trajectory, such as a gripper's (may be repeated)
+    #[arg(long, value_name = "JOINT=VALUE", value_parser = fixed_joint, allow_hyphen_values = true)]
+    fix: Vec<(String, f64)>,
     /// Clearance that every pair of bodies must keep [m], from 0 to 1; with 0 they must not touch
     #[arg(long, value_name = "M", default_value = "0.005", value_parser = clearance, allow_negative_numbers = true)]
     clearance: f64,
@@ -35,6 +52,9 @@ pub struct ProveMotionArguments {
     /// Greatest joint accelerations [rad/s²]: one number, or six between commas [default: not judged]
     #[arg(long, value_name = "A,…", value_parser = accelerations, allow_negative_numbers = true)]
     acceleration_limits: Option<[f64; AXES]>,
+    /// Write a page that shows the motion and its worst places, a file of HTML
+    #[arg(long, value_name = "FILE")]
+    page: Option<PathBuf>,
     #[command(flatten)]
     details: DetailArguments,
 }
@@ -64,20 +84,80 @@ fn accelerations(text: &str) -> Result<[f64; AXES]> {
     }
 }
 
+/// A place, and a turn where one is stated.
+fn mount(text: &str) -> Result<Pose> {
+    let expected = "must be x, y, z in metres from -10 to 10 or these and roll, pitch, yaw in degrees from -360 to 360, between commas";
+    let numbers: Vec<&str> = text.split(',').collect();
+    let number = |k: usize, most: f64| {
+        numbers
+            .get(k)
+            .map_or(Ok(0.0), |text| within(text, -most..=most, expected))
+    };
+    if ![3, 6].contains(&numbers.len()) {
+        bail!("{expected}");
+    }
+    let section = RobotSection {
+        mount_m: [number(0, 10.0)?, number(1, 10.0)?, number(2, 10.0)?],
+        mount_rpy_deg: [number(3, 360.0)?, number(4, 360.0)?, number(5, 360.0)?],
+        ..RobotSection::default()
+    };
+    Ok(section.mount())
+}
+
+/// A joint and its position.
+fn fixed_joint(text: &str) -> Result<(String, f64)> {
+    let expected = "must be a joint's name, an equals sign and a number, as in finger_joint=0.02";
+    let (name, at) = text.split_once('=').ok_or_else(|| anyhow!("{expected}"))?;
+    Ok((name.to_owned(), within(at, -1e3..=1e3, expected)?))
+}
+
+/// The arm with the joints that do not move.
+fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
+    let arm = load_arm_with_fixed(&options.robot_section(), &installed_files(), fixed).map_err(|error| {
+        use UrdfError::{AxisCount, Branch, JointKind, Mimic};
+        let could_be_fixed = matches!(
+            &error,
+            ArmError::Urdf {
+                error: AxisCount { .. } | Branch { .. } | JointKind { .. } | Mimic { .. },
+                ..
+            }
+        );
+        match could_be_fixed {
+            true => anyhow!("{error}; joints that do not move can be fixed: --fix JOINT=VALUE"),
+            false => Failure::from(error).into(),
+        }
+    })?;
+    options.warn(&Note::of_arm(&arm));
+    Ok(arm)
+}
+
+/// The arm with its tool among the obstacles.
+fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotModel) -> Result<Workcell> {
+    let meshes = MeshPlaces {
+        package_path: options.package_path.clone(),
+        files: installed_files(),
+    };
+    let load = |file: &PathBuf| ObstacleText::load(file).map_err(Failure::from);
+    let mount = arguments.mount.unwrap_or_else(Pose::identity);
+    let mut cell = Workcell::without_tool(arm, mount, Vec::new())?;
+    if let Some(file) = &arguments.tool {
+        cell.tool = load(file)?.tool(arm, &meshes).map_err(Failure::from)?;
+    }
+    if let Some(file) = &arguments.obstacles {
+        cell.obstacles = load(file)?.obstacles(arm, &cell.tool, &meshes).map_err(Failure::from)?;
+    }
+    Ok(cell)
+}
+
 /// Judges a trajectory of an arm among obstacles.
 pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCode> {
-    let arm = load_arm(&options.robot_section(), &installed_files()).map_err(Failure::from)?;
-    options.warn(&Note::of_arm(&arm));
-    let obstacles = match &arguments.obstacles {
-        Some(file) => ObstacleText::load(file)
-            .map_err(Failure::from)?
-            .obstacles(&arm, &options.package_path)?,
-        None => Vec::new(),
-    };
+    let fixed: FixedJoints = arguments.fix.iter().cloned().collect();
+    let arm = arm(options, &fixed)?;
+    let cell = workcell(options, arguments, &arm)?;
     let path = &arguments.trajectory;
     let name = path.display().to_string();
     let text = read_text(path, MAX_BYTES).with_context(|| format!("{name}: cannot be read"))?;
-    let file = TrajectoryFile::read(&name, text, &arm)?;
+    let file = TrajectoryFile::read(&name, text, &arm, &fixed)?;
     let choice = arguments.interpolation.map(|choice| match choice {
         Interpolation::Linear => trajectory::Interpolation::Linear,
         Interpolation::Cubic => trajectory::Interpolation::Cubic,
@@ -89,12 +169,30 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
         bail!("--acceleration-limits: {name} has no times, so nothing is known of accelerations; leave it out");
     }
     let proved = options.during("proving the motion", || {
-        prove_motion(&motion, &arm, obstacles, arguments.clearance, limits, &options.cancel)
+        prove_motion(&motion, &cell, &arm, arguments.clearance, limits, &options.cancel)
     });
     let report = proved.map_err(|error| match error {
         ProveError::Cancelled(cancelled) => cancelled.into(),
-        other => anyhow!(other).context(name),
+        other => anyhow!(other).context(name.clone()),
     })?;
+    if let Some(file) = &arguments.page {
+        let shown = ArmMotion {
+            name: &name,
+            motion: &motion.motion,
+            workcell: &cell,
+            robot: &arm,
+            clearance_m: arguments.clearance,
+            headline: &report.headline,
+            proved: report.proved,
+            checks: &report.checks,
+            excluded: &report.excluded,
+            assumptions: &report.assumptions,
+        };
+        let page = html(&View::of_arm_motion(&shown).map_err(internal)?, &needed_bundle()?).map_err(internal)?;
+        let mut files = Files::new(None, &[]);
+        files.add_at(file.clone(), page);
+        files.write(&options.cancel)?;
+    }
     options.print(&report, || arguments.details.printed(&report))?;
     Ok(ExitCode::NotVerified.unless(report.proved))
 }

@@ -165,6 +165,108 @@ fn ros_messages_of_another_arm_are_read_by_joint_names() {
     );
 }
 
+/// One obstacle, in MoveIt's words and in ours.
+#[test]
+fn planning_scenes_are_obstacles() {
+    let folder = folder();
+    let dir = folder.path();
+    let file = write(dir, "swing.csv", SWING);
+    let scene = write(
+        dir,
+        "post.scene",
+        "(noname)+\n* post\n0 0 0\n0 0 0 1\n1\nbox\n0.04 0.04 0.6\n0.35 0.25 0.3\n0 0 0 1\n0 0 0 0\n0\n.\n",
+    );
+    let around = write(dir, "post.toml", POST);
+    let clearance = |around: &str| prove(dir, &[&file, "--obstacles", around, "--json"]).json()["clearance"].clone();
+    assert_eq!(clearance(&scene), clearance(&around));
+    write(dir, "bad.scene", "s\n* post\n1\nbox\n0.04 0.04\n");
+    prove(dir, &[&file, "--obstacles", "bad.scene"]).refused(2, &["error: bad.scene, line 6", "three sizes"]);
+}
+
+#[test]
+fn the_arm_stands_at_its_mount_and_carries_its_tool() {
+    let folder = folder();
+    let dir = folder.path();
+    let (file, around) = (write(dir, "swing.csv", SWING), write(dir, "post.toml", POST));
+    let data = |more: &[&str]| prove(dir, &[&[&file[..], "--obstacles", &around, "--json"], more].concat()).json();
+    // Turned by 90° at the same place, the arm swings away from the post; and one that moves with the post meets it.
+    assert_eq!(data(&["--mount", "0,0,0,0,0,-90"])["verdict"], "proved");
+    assert_eq!(data(&["--mount", "0.2,0,0"])["verdict"], "broken");
+    let moved = write(dir, "moved.toml", &POST.replace("0.35, 0.25, 0.3", "-0.25, 1.35, 0.8"));
+    let there = prove(dir, &[&file, "--obstacles", &moved, "--mount=0,1,0.5,0,0,90", "--json"]).json();
+    let here = data(&[]);
+    let worst = |data: &serde_json::Value| data["rules"].as_array().unwrap().last().unwrap().clone();
+    assert_eq!(worst(&there)["pair"], worst(&here)["pair"]);
+    let gap = worst(&there)["measure"]["seen"].as_f64().unwrap() - worst(&here)["measure"]["seen"].as_f64().unwrap();
+    assert!(gap.abs() < 1e-6, "{gap}");
+    let tool = write(dir, "tool.toml", "[tool]\nlength_m = 0.2\n");
+    let found = prove(dir, &[&file, "--tool", &tool]).done();
+    assert!(found.stdout.contains("a tool: handle, sponge."), "{}", found.stdout);
+    let arm_alone = prove(dir, &[&file, "--json"]).json()["clearance"]
+        .as_array()
+        .unwrap()
+        .len();
+    let with_tool = prove(dir, &[&file, "--tool", &tool, "--json"]).json()["clearance"]
+        .as_array()
+        .unwrap()
+        .len();
+    assert!(with_tool > arm_alone);
+    prove(dir, &[&file, "--tool", &around]).refused(2, &["error: post.toml, line 1", "[tool] and [[tool_body]]"]);
+    prove(dir, &[&file, "--mount", "1,2"]).refused(2, &["--mount", "x, y, z in metres"]);
+}
+
+/// A gripper of the description is held still; a joint of the arm that the trajectory leaves out, too.
+#[test]
+fn joints_that_do_not_move_are_fixed() {
+    let folder = folder();
+    let dir = folder.path();
+    let finger = "<link name=\"finger\"><collision><geometry><box size=\"0.02 0.02 0.1\"/></geometry></collision></link>\
+                  <joint name=\"slide\" type=\"prismatic\"><parent link=\"wrist_3\"/><child link=\"finger\"/>\
+                  <origin xyz=\"0 0 0.2\"/><axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"0.1\" velocity=\"1\"/></joint></robot>";
+    let arm = std::fs::read_to_string(UR5).unwrap().replace("</robot>", finger);
+    let arm = write(dir, "arm.urdf", &arm);
+    let table = "shoulder_pan,shoulder_lift,elbow,wrist_1_joint,wrist_2_joint,slide\n0,-1.5,1.5,-1.5,-1.5,0.05\n1,-1.5,1.5,-1.5,-1.5,0.05\n";
+    let file = write(dir, "path.csv", table);
+    let found = prove(
+        dir,
+        &[
+            &file,
+            "--urdf",
+            &arm,
+            "--fix",
+            "slide=0.05",
+            "--fix",
+            "wrist_3_joint=-0.5",
+        ],
+    )
+    .done();
+    assert!(
+        found
+            .stdout
+            .contains("These joints do not move: slide at 0.05, wrist_3_joint at -0.5."),
+        "{}",
+        found.stdout
+    );
+    let all = ["--urdf", &arm, "--fix", "slide=0.05"];
+    prove(dir, &[&[&file[..]], &all[..2]].concat())
+        .refused(2, &["arm.urdf", "'slide' is prismatic", "--fix JOINT=VALUE"]);
+    prove(dir, &[&[&file[..]], &all[..]].concat()).refused(2, &["path.csv:1", "\"wrist_3_joint\" is missing"]);
+    prove(dir, &[&file, "--urdf", &arm, "--fix", "slide=0.2"])
+        .refused(2, &["'slide' is fixed at 0.2, beyond its limits 0 … 0.1"]);
+    prove(dir, &[&file, "--fix", "slide"]).refused(2, &["--fix", "finger_joint=0.02"]);
+}
+
+#[test]
+fn a_page_shows_the_motion_and_the_worst_place() {
+    let folder = folder();
+    let dir = folder.path();
+    let (file, around) = (write(dir, "swing.csv", SWING), write(dir, "post.toml", POST));
+    let found = prove(dir, &[&file, "--obstacles", &around, "--page", "motion.html"]);
+    assert_eq!(found.code, 4, "{}", found.stderr);
+    let page = std::fs::read_to_string(dir.join("motion.html")).unwrap();
+    assert!(page.contains("BROKEN: ") && page.contains("swing.csv") && page.len() > 100_000);
+}
+
 #[test]
 fn bad_input_is_refused_with_file_and_line() {
     let folder = folder();
@@ -188,7 +290,7 @@ fn bad_input_is_refused_with_file_and_line() {
         (&["post.toml"], &["post.toml:1", "another name"]),
         (
             &[&good, "--obstacles", "post.toml"],
-            &["post.toml, line 5", "obstacle[0]"],
+            &["error: post.toml, line 5", "obstacle[0]"],
         ),
         (
             &[&good, "--obstacles", "scenario.toml"],

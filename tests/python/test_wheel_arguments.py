@@ -52,7 +52,7 @@ GOOD: dict[str, Any] = {
     "ranges": {"tool.length_m": (0.1, 0.2)}, "samples method": "random", "log": ["tool.length_m"], "StudyRows folder": "study", "index": 0, "partial": True, "timings": True, "at": "wash.contact_force_n",
     "value": "outcome", "by": ["seed"], "region": None, "StudyRows.export path": "rows.jsonl", "StudyRows.to_parquet path": "rows.parquet", "ax": None,
     "simulate settings": pw.SimulationSettings("exact"), "tune settings": pw.SimulationSettings("pd"), "Record.__getitem__ key": "a", "Record text": "words",
-    "prove_motion q": np.zeros((2, 6)), "prove_motion qd": np.zeros((2, 6)), "prove_motion qdd": np.zeros((2, 6)), "t": [0.0, 1.0], "obstacles": [], "clearance_m": 0.005, "prove_motion interpolation": "cubic",
+    "prove_motion q": np.zeros((2, 6)), "prove_motion qd": np.zeros((2, 6)), "prove_motion qdd": np.zeros((2, 6)), "t": [0.0, 1.0], "obstacles": [], "mount": np.eye(4), "clearance_m": 0.005, "prove_motion interpolation": "cubic",
     "acceleration_limits": np.ones(6),
 }  # fmt: skip
 # Classes of answers, which users are given: whoever makes one is trusted. Exceptions take any words.

@@ -19,6 +19,7 @@ use crate::limits::JointLimits;
 use crate::rotation::RigidTransform;
 use crate::srdf::DisabledPairs;
 use crate::trig::{SeparateMulAdd, atan2, sin_cos_lanes};
+use crate::urdf::FixedJoints;
 use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
@@ -60,6 +61,7 @@ pub struct RobotModel {
     pub(crate) visual_findings: Vec<VisualFinding>,
     /// Names of the links whose visuals stand for collision shapes.
     pub(crate) of_visuals: Vec<String>,
+    pub(crate) fixed: FixedJoints,
 }
 
 impl RobotModel {
@@ -90,6 +92,12 @@ impl RobotModel {
     #[must_use]
     pub fn joints(&self) -> &[Joint; AXES] {
         &self.joints
+    }
+
+    /// Moving joints of the description that are held still on request, with their positions \[rad, or m for a prismatic joint\].
+    #[must_use]
+    pub fn fixed_joints(&self) -> &FixedJoints {
+        &self.fixed
     }
 
     /// Limits of the six joints.

@@ -1,15 +1,17 @@
 //! `prove_motion`: a trajectory of any planner, proved over its whole time.
 
 use crate::argument;
-use crate::arrays::{self, MANY_JOINTS, Numbers};
+use crate::arrays::{self, MANY_JOINTS, Numbers, ONE_POSE};
 use crate::errors;
+use crate::plate::{self, ToolFields};
 use crate::robot::Robot;
 use crate::trajectory::MANY_TIMES;
 use crate::value::{from_mapping, to_record};
 use crate::work::patiently;
 use platewash::export::trajectory::{Interpolation, JointPoints, PointsError};
 use platewash::scenario::ObstacleText;
-use platewash::{Failure, JointVector, ProveError};
+use platewash::workcell::workcell::Workcell;
+use platewash::{Failure, JointVector, Pose, ProveError};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyMapping, PyString, PyTuple};
 
@@ -23,8 +25,9 @@ const CLEARANCE_M: f64 = 0.005;
 /// their speeds, and `qdd`, shape (N, 6) [rad/s²], their accelerations. Between points the motion is `"linear"` (straight in joint space),
 /// `"cubic"` (with the positions and speeds of both points) or `"quintic"` (with the accelerations, too), by default the last that `qd` and
 /// `qdd` allow. Without `t` positions and clearance are proved for any timing, and speeds are not judged.
-/// `obstacles` is the path of a TOML file with `[[obstacle]]`, `[floor]` and `[table]` sections, a list of dictionaries with the keys of
-/// `[[obstacle]]`, or a dictionary of all three sections; they are in the frame of the arm's base, and nothing else is there.
+/// `obstacles` is the path of a TOML file with `[[obstacle]]`, `[floor]` and `[table]` sections or of a planning scene of MoveIt (`.scene`), a
+/// list of dictionaries with the keys of `[[obstacle]]`, or a dictionary of all three sections; nothing else is there. They are in the frame
+/// of the world, in which the arm's base stands at `mount`, a pose of shape (4, 4), by default at its origin. `tool` is a `Tool`.
 /// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given.
 ///
 /// Returns a record: `proved`, `verdict` (`"proved"`, `"broken"`, `"not_proved"`), `headline`, `rules` (each with `requirement`, `status`,
@@ -33,8 +36,8 @@ const CLEARANCE_M: f64 = 0.005;
 ///
 /// Raises InputError for points that are no motion; ScenarioError for obstacles that do not fit.
 #[pyfunction]
-#[pyo3(signature = (q, t=None, qd=None, qdd=None, *, robot=None, obstacles=None, clearance_m=None, interpolation=None, acceleration_limits=None),
-    text_signature = "(q, t=None, qd=None, qdd=None, *, robot=None, obstacles=None, clearance_m=0.005, interpolation=None, acceleration_limits=None)")]
+#[pyo3(signature = (q, t=None, qd=None, qdd=None, *, robot=None, tool=None, mount=None, obstacles=None, clearance_m=None, interpolation=None, acceleration_limits=None),
+    text_signature = "(q, t=None, qd=None, qdd=None, *, robot=None, tool=None, mount=None, obstacles=None, clearance_m=0.005, interpolation=None, acceleration_limits=None)")]
 #[allow(clippy::too_many_arguments)] // They have names in Python.
 pub fn prove_motion<'py>(
     py: Python<'py>,
@@ -43,6 +46,8 @@ pub fn prove_motion<'py>(
     qd: Option<&Bound<'py, PyAny>>,
     qdd: Option<&Bound<'py, PyAny>>,
     robot: Option<&Bound<'py, PyAny>>,
+    tool: Option<&Bound<'py, PyAny>>,
+    mount: Option<&Bound<'py, PyAny>>,
     obstacles: Option<&Bound<'py, PyAny>>,
     clearance_m: Option<&Bound<'py, PyAny>>,
     interpolation: Option<&Bound<'py, PyAny>>,
@@ -57,6 +62,7 @@ pub fn prove_motion<'py>(
         t_s: times.transpose()?,
         qd_rad_s: qd.map(|qd| joints("qd", qd)).transpose()?,
         qdd_rad_s2: qdd.map(|qdd| joints("qdd", qdd)).transpose()?,
+        ..JointPoints::default()
     };
     let clearance_m = argument::number_or("clearance_m", clearance_m, CLEARANCE_M)?;
     if !(0.0..=1.0).contains(&clearance_m) {
@@ -69,22 +75,28 @@ pub fn prove_motion<'py>(
     let limits = acceleration_limits
         .map(|limits| read_acceleration_limits(limits, points.t_s.is_some()))
         .transpose()?;
-    let arm = match Robot::given(robot)? {
-        Some(robot) => robot.get().model().clone(),
-        None => Robot::built_in(py)?.get().model().clone(),
+    let robot = match Robot::given(robot)? {
+        Some(robot) => robot.clone().unbind(),
+        None => Robot::built_in(py)?,
     };
+    let (arm, meshes) = (robot.get().model().clone(), robot.get().mesh_places());
+    let tool = tool.map(|tool| ToolFields::of(tool)?.tool(py)).transpose()?;
+    let mount = mount.map_or_else(|| Ok(Pose::identity()), read_mount)?;
     let text = obstacles.map(obstacle_text).transpose()?;
     let motion = points.motion(&arm, choice);
     let motion = motion.map_err(|error| errors::input(py, argument_of(&error), &error.to_string()))?;
     let judged = patiently(py, move |cancel| -> Result<_, Failure> {
-        let obstacles = match text {
-            Some(text) => text.obstacles(&arm, &[])?,
-            None => Vec::new(),
-        };
+        let mut cell = Workcell::without_tool(&arm, mount, Vec::new())?;
+        if let Some(tool) = tool {
+            cell.tool = tool;
+        }
+        if let Some(text) = text {
+            cell.obstacles = text.obstacles(&arm, &cell.tool, &meshes)?;
+        }
         Ok(platewash::prove_motion(
             &motion,
+            &cell,
             &arm,
-            obstacles,
             clearance_m,
             limits,
             cancel,
@@ -96,6 +108,12 @@ pub fn prove_motion<'py>(
         other => errors::input(py, "q", &other.to_string()),
     })?;
     to_record(py, &report, Some(report.to_string()))
+}
+
+/// Pose of the base in the world.
+fn read_mount(mount: &Bound<'_, PyAny>) -> PyResult<Pose> {
+    let numbers = Numbers::read("mount", mount, ONE_POSE)?;
+    plate::pose(numbers.values()?).map_err(|e| errors::input(mount.py(), "mount", &e.0))
 }
 
 /// Acceleration limits \[rad/s²\]. They need times to be judged.

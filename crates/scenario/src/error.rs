@@ -35,6 +35,9 @@ pub enum Problem {
         expected: String,
         found: String,
     },
+    /// Another fault, in words.
+    #[error("{detail}")]
+    Detail { detail: String },
     /// Keys that contradict each other.
     #[error("{keys}: {detail}")]
     Conflict { keys: String, detail: String },
@@ -42,8 +45,10 @@ pub enum Problem {
 
 /// A scenario that was refused: where and why.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("scenario {}{}: {problem}", printable(.source_name), line_text(*.line))]
+#[error("{}{}{}: {problem}", .kind.words(), printable(.source_name), line_text(*.line))]
 pub struct ScenarioError {
+    /// The kind of the text.
+    pub kind: TextKind,
     /// The file or shipped name.
     pub source_name: String,
     /// Line in the file, from 1, where one is at fault.
@@ -52,9 +57,29 @@ pub struct ScenarioError {
     pub problem: Problem,
 }
 
+/// Kind of a text that was refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextKind {
+    /// A scenario.
+    Scenario,
+    /// A file of obstacles, or of a tool.
+    Bodies,
+}
+
+impl TextKind {
+    /// Words before the name of the text in a message.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Scenario => "scenario ",
+            Self::Bodies => "",
+        }
+    }
+}
+
 impl ScenarioError {
     pub(crate) fn new(source_name: &str, line: Option<usize>, problem: Problem) -> Self {
         Self {
+            kind: TextKind::Scenario,
             source_name: source_name.to_owned(),
             line,
             problem,
@@ -92,7 +117,11 @@ impl Problem {
         match self {
             Self::UnknownKey { key, .. } | Self::Value { key, .. } => Some(key),
             Self::Conflict { keys, .. } => keys.split([',', ' ']).next(),
-            Self::Unreadable { .. } | Self::NotFound { .. } | Self::TooLarge { .. } | Self::Syntax { .. } => None,
+            Self::Unreadable { .. }
+            | Self::NotFound { .. }
+            | Self::TooLarge { .. }
+            | Self::Syntax { .. }
+            | Self::Detail { .. } => None,
         }
     }
 }

@@ -5,7 +5,7 @@
 //! `docs/scenario.md`. The defaults are those of the types here.
 //!
 //! [`Scenario::load`] reads a file, [`Scenario::job`] and [`Scenario::paper_job`] resolve it, with `arm`, `layout`, `place` and `job_on` for
-//! callers that need the steps one by one. [`ObstacleText`] reads obstacles alone, for a motion without plates. [`Draft`] changes a scenario's text key by key. Errors of other crates
+//! callers that need the steps one by one. [`ObstacleText`] reads obstacles or a tool alone, for a motion without plates. [`Draft`] changes a scenario's text key by key. Errors of other crates
 //! become a [`Failure`] by `?`; its words name the keys.
 //!
 //! | concept | module |
@@ -16,7 +16,7 @@
 //! | changing a text key by key | `draft` |
 //! | failures and refusals in the words of the keys | `failure`, `error` |
 //! | keys that would mend a job; a home and a region for an arm | `remedy`, `suggest` |
-//! | obstacles alone | `obstacle_file` |
+//! | obstacles alone, or a tool alone; planning scenes of MoveIt | `obstacle_file`, `planning_scene` |
 
 mod draft;
 mod error;
@@ -24,6 +24,7 @@ mod failure;
 pub mod keys;
 mod load;
 mod obstacle_file;
+mod planning_scene;
 mod remedy;
 mod resolve;
 mod scenario;
@@ -32,15 +33,15 @@ mod suggest;
 mod units;
 
 pub use crate::draft::{Draft, EditError};
-pub use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError};
+pub use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, TextKind};
 pub use crate::failure::Failure;
 pub use crate::keys::document::{FormDomain, FormKey, form, reference};
 pub use crate::keys::value::values_of;
 pub use crate::keys::{LISTS, List};
 pub use crate::load::{SHIPPED, ScenarioSource, ShippedScenario, source};
-pub use crate::obstacle_file::ObstacleText;
+pub use crate::obstacle_file::{MeshPlaces, ObstacleText};
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
-pub use crate::resolve::arm::{ArmError, load_arm};
+pub use crate::resolve::arm::{ArmError, load_arm, load_arm_with_fixed};
 pub use crate::resolve::certified::MAX_CONTACT_CHECKS;
 pub use crate::resolve::solids::Solids;
 pub use crate::scenario::{Scenario, check_seed};

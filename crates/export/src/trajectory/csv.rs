@@ -4,10 +4,11 @@
 //! out. Other columns of this program's own tables are not read.
 
 use crate::dialect::{ProgramFile, ReadError};
-use crate::trajectory::JointPoints;
+use crate::trajectory::{JointPoints, check_fixed, check_fixed_names};
+use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::{MAX_ROWS, STATE};
-use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
+use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
 use platewash_workcell::words::without_mark;
 
 /// Greatest magnitude of a number \[s, rad, rad/s, rad/s²\].
@@ -21,64 +22,133 @@ const TIP: [&str; 3] = ["tip_x_m", "tip_y_m", "tip_z_m"];
 const PLAN_TIME: [&str; 1] = ["plan_t_s"];
 
 /// Reads a table: the points, and the line of each.
-pub(super) fn read(file: &ProgramFile, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), ReadError> {
-    table(&file.text, arm).map_err(|error| ReadError::at(&file.name, error.line, error.without_line()))
+pub(super) fn read(
+    file: &ProgramFile,
+    arm: &RobotModel,
+    fixed: &FixedJoints,
+) -> Result<(JointPoints, Vec<usize>), ReadError> {
+    let columns = Columns::of(&file.text, arm, fixed);
+    let read = columns.table(&file.text).and_then(|table| {
+        let is_there = |name: &str| table.places(&[name]).is_some();
+        let known = check_fixed_names(arm, fixed, is_there);
+        known.map_err(|reason| TableError {
+            line: 1,
+            column: None,
+            reason,
+        })?;
+        columns.points(&table)
+    });
+    read.map_err(|error| ReadError::at(&file.name, error.line, error.without_line()))
 }
 
-fn table(text: &str, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), TableError> {
-    let names = arm.joints().each_ref().map(|joint| joint.name.as_str());
-    let [speed_names, acceleration_names] = ["rad_s", "rad_s2"].map(|unit| names.map(|name| format!("{name}_{unit}")));
-    let header = without_mark(text)
-        .lines()
-        .find(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let is_named = header.is_some_and(|header| header.split(',').any(|column| names.contains(&column.trim())));
-    let [positions, speeds, accelerations] = match is_named {
-        true => [
-            names,
-            speed_names.each_ref().map(String::as_str),
-            acceleration_names.each_ref().map(String::as_str),
-        ],
-        false => STATE,
-    };
-    let table = NumberTable::read(
-        text,
-        &TableShape {
-            required: &positions,
-            optional: &[&TIME, &speeds, &accelerations, &PLACE, &TIP, &PLAN_TIME],
-            most: GREATEST,
-            most_rows: MAX_ROWS,
-            has_comments: true,
-        },
-    )?;
-    let (time, speed_places) = (table.places(&TIME), table.places(&speeds));
-    // The motion of a plan is made of cubics, whose accelerations its table has, too.
-    let is_plan = table.places(&PLACE).is_some();
-    let acceleration_places = table.places(&accelerations).filter(|_| !is_plan);
-    // Required columns are there.
-    let position_places = table.places(&positions).unwrap_or_default();
-    let mut points = JointPoints {
-        t_s: time.map(|_| Vec::new()),
-        qd_rad_s: speed_places.map(|_| Vec::new()),
-        qdd_rad_s2: acceleration_places.map(|_| Vec::new()),
-        ..JointPoints::default()
-    };
-    let mut lines = Vec::new();
-    let joints = |row: &Row<'_>, places: [usize; AXES]| row.numbers(places).map(JointVector::from);
-    for row in table.rows() {
-        let row = row?;
-        if let (Some(place), Some(times)) = (time, &mut points.t_s) {
-            let [t_s] = row.numbers(place)?;
-            row.check_after(place[0], t_s, times.last().copied())?;
-            times.push(t_s);
+/// Names of the columns of positions, speeds and accelerations.
+struct Columns {
+    /// Those of the six axes, and the position of each that is fixed.
+    axes: [[String; AXES]; 3],
+    at: [Option<f64>; AXES],
+    /// Those of other joints that are fixed, and their positions.
+    others: Vec<([String; 3], f64)>,
+}
+
+impl Columns {
+    /// Names in the table of an arm: those of its joints where the header has one of them.
+    fn of(text: &str, arm: &RobotModel, fixed: &FixedJoints) -> Self {
+        let named = |name: &str| [name.to_owned(), format!("{name}_rad_s"), format!("{name}_rad_s2")];
+        let names = arm.joints().each_ref().map(|joint| joint.name.as_str());
+        let header = without_mark(text)
+            .lines()
+            .find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+        let is_named = header.is_some_and(|header| header.split(',').any(|column| names.contains(&column.trim())));
+        let axis = |rate: usize, joint: usize| match is_named {
+            true => named(names[joint])[rate].clone(),
+            false => STATE[rate][joint].to_owned(),
+        };
+        let others = fixed.iter().filter(|(name, _)| !names.contains(&name.as_str()));
+        Self {
+            axes: std::array::from_fn(|rate| std::array::from_fn(|joint| axis(rate, joint))),
+            at: names.map(|name| fixed.get(name).copied()),
+            others: others.map(|(name, at)| (named(name), *at)).collect(),
         }
-        if let (Some(places), Some(all)) = (speed_places, &mut points.qd_rad_s) {
-            all.push(joints(&row, places)?);
-        }
-        if let (Some(places), Some(all)) = (acceleration_places, &mut points.qdd_rad_s2) {
-            all.push(joints(&row, places)?);
-        }
-        points.q_rad.push(joints(&row, position_places)?);
-        lines.push(row.line);
     }
-    Ok((points, lines))
+
+    fn table<'t>(&self, text: &'t str) -> Result<NumberTable<'t>, TableError> {
+        let moving = |rate: usize| -> Vec<&str> {
+            let axes = self.axes[rate].iter().zip(&self.at);
+            axes.filter(|(_, at)| at.is_none())
+                .map(|(name, _)| name.as_str())
+                .collect()
+        };
+        let [positions, speeds, accelerations] = [0, 1, 2].map(moving);
+        let still: Vec<[&str; 1]> = self.fixed().map(|(name, _)| [name]).collect();
+        let mut optional: Vec<&[&str]> = vec![&TIME, &speeds, &accelerations, &PLACE, &TIP, &PLAN_TIME];
+        optional.extend(still.iter().map(|name| &name[..]));
+        NumberTable::read(
+            text,
+            &TableShape {
+                required: &positions,
+                optional: &optional,
+                most: GREATEST,
+                most_rows: MAX_ROWS,
+                has_comments: true,
+            },
+        )
+    }
+
+    /// Columns of joints that are fixed, with the number that each must have.
+    fn fixed(&self) -> impl Iterator<Item = (&str, f64)> {
+        let axes = (0..AXES).filter_map(|joint| {
+            let names = self.axes.each_ref().map(|names| names[joint].as_str());
+            self.at[joint].map(|at| (names, at))
+        });
+        let others = self
+            .others
+            .iter()
+            .map(|(names, at)| (names.each_ref().map(String::as_str), *at));
+        axes.chain(others)
+            .flat_map(|([position, speed, acceleration], at)| [(position, at), (speed, 0.0), (acceleration, 0.0)])
+    }
+
+    fn points(&self, table: &NumberTable<'_>) -> Result<(JointPoints, Vec<usize>), TableError> {
+        // The motion of a plan is made of cubics, whose accelerations its table has, too.
+        let is_plan = table.places(&PLACE).is_some();
+        let place = |name: &str| table.places(&[name]).map(|[place]| place);
+        let places = [0, 1, 2].map(|rate: usize| self.axes[rate].each_ref().map(|name| place(name)));
+        let time = table.places(&TIME);
+        let still: Vec<_> = self
+            .fixed()
+            .filter_map(|(name, at)| Some((name, place(name)?, at)))
+            .collect();
+        let (mut all, mut times, mut lines) = ([const { Vec::new() }; 3], Vec::new(), Vec::new());
+        for row in table.rows() {
+            let row = row?;
+            if let Some(place) = time {
+                let [t_s] = row.numbers(place)?;
+                row.check_after(place[0], t_s, times.last().copied())?;
+                times.push(t_s);
+            }
+            for (name, place, at) in &still {
+                let [found] = row.numbers([*place])?;
+                check_fixed(name, *at, found).or_else(|reason| row.refused(*place, reason))?;
+            }
+            for (rate, all) in all.iter_mut().enumerate() {
+                let axis = |joint: usize| match (places[rate][joint], self.at[joint]) {
+                    (Some(place), _) => Ok(row.numbers([place])?[0]),
+                    (None, at) => Ok(at.filter(|_| rate == 0).unwrap_or(0.0)),
+                };
+                let numbers: Vec<f64> = (0..AXES).map(axis).collect::<Result<_, TableError>>()?;
+                all.push(JointVector::from_iterator(numbers));
+            }
+            lines.push(row.line);
+        }
+        let has = |rate: usize| (0..AXES).any(|joint| self.at[joint].is_none() && places[rate][joint].is_some());
+        let [q_rad, speeds, accelerations] = all;
+        let points = JointPoints {
+            q_rad,
+            t_s: time.map(|_| times),
+            qd_rad_s: has(1).then_some(speeds),
+            qdd_rad_s2: (has(2) && !is_plan).then_some(accelerations),
+            ..JointPoints::default()
+        };
+        Ok((points, lines))
+    }
 }

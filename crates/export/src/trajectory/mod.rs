@@ -10,9 +10,11 @@ mod csv;
 mod ros;
 
 use crate::dialect::{ProgramFile, ReadError};
+use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::words::quoted;
 
 /// Points that an arm reaches one after the other, with the joints in the arm's order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -25,6 +27,8 @@ pub struct JointPoints {
     pub qd_rad_s: Option<Vec<JointVector>>,
     /// Joint accelerations \[rad/s²\]; `None` where the points have none.
     pub qdd_rad_s2: Option<Vec<JointVector>>,
+    /// Joints that were stated not to move, axes of the arm or not.
+    pub fixed: FixedJoints,
 }
 
 /// Motion of each joint between two points.
@@ -62,6 +66,8 @@ pub struct PointMotion {
     pub interpolation: Interpolation,
     /// Time of the first point \[s\]; `None` where the points have no times.
     pub start_s: Option<f64>,
+    /// Joints that were stated not to move, axes of the arm or not.
+    pub fixed: FixedJoints,
 }
 
 /// Reason that points are no motion. Points are counted from 0.
@@ -207,6 +213,7 @@ impl JointPoints {
             motion,
             interpolation,
             start_s,
+            fixed: self.fixed.clone(),
         })
     }
 
@@ -321,19 +328,23 @@ pub struct TrajectoryFile {
 
 impl TrajectoryFile {
     /// Reads a trajectory of an arm from a text, by the end of the file's name: `.csv`, or a ROS message as `.yaml`, `.yml` or `.json`.
-    /// Joints are matched by name, and every joint of the arm must be there.
+    /// Joints are matched by name. A joint of the arm that the file leaves out, and one of the file that is none of the six axes, must be in
+    /// `fixed`, or be fixed in the arm itself; where the file has it, its position there must be the same at every point.
     ///
     /// # Errors
     /// [`ReadError`] with the line.
-    pub fn read(name: &str, text: String, arm: &RobotModel) -> Result<Self, ReadError> {
+    pub fn read(name: &str, text: String, arm: &RobotModel, fixed: &FixedJoints) -> Result<Self, ReadError> {
         let file = ProgramFile {
             name: name.to_owned(),
             text,
         };
-        let (points, lines) = match file.name.to_ascii_lowercase().ends_with(".csv") {
-            true => csv::read(&file, arm)?,
-            false => ros::read(&file, arm)?,
+        let mut all = arm.fixed_joints().clone();
+        all.extend(fixed.iter().map(|(name, at)| (name.clone(), *at)));
+        let (mut points, lines) = match file.name.to_ascii_lowercase().ends_with(".csv") {
+            true => csv::read(&file, arm, &all)?,
+            false => ros::read(&file, arm, &all)?,
         };
+        points.fixed = all;
         let name = file.name;
         Ok(Self { name, points, lines })
     }
@@ -350,6 +361,34 @@ impl TrajectoryFile {
                 .or(self.lines.first());
             ReadError::at(&self.name, line.copied().unwrap_or(1), error.to_string())
         })
+    }
+}
+
+/// Greatest difference at which a joint is where it is fixed \[rad, m\].
+const SAME: f64 = 1e-9;
+
+/// Checks a number of a joint that is fixed: a position, speed or acceleration.
+fn check_fixed(joint: &str, expected: f64, found: f64) -> Result<(), String> {
+    if (found - expected).abs() <= SAME {
+        return Ok(());
+    }
+    Err(format!(
+        "expected {expected} for joint {}, which is fixed; found {found}",
+        quoted(joint)
+    ))
+}
+
+/// Checks that every joint that is fixed is one of the arm, of its description or of the file.
+fn check_fixed_names(arm: &RobotModel, fixed: &FixedJoints, of_file: impl Fn(&str) -> bool) -> Result<(), String> {
+    let is_known = |name: &String| {
+        of_file(name) || arm.fixed_joints().contains_key(name) || arm.joints().iter().any(|joint| joint.name == *name)
+    };
+    match fixed.keys().find(|name| !is_known(name)) {
+        Some(name) => Err(format!(
+            "joint {} is fixed, and neither the trajectory nor the arm has a joint of that name",
+            quoted(name)
+        )),
+        None => Ok(()),
     }
 }
 

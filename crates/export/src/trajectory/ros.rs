@@ -8,12 +8,17 @@ use crate::ros2::node::{Fault, Node};
 use crate::ros2::number::ParsedNumber;
 use crate::ros2::read::{Fields, document, entries, list, parse_number, refused, text};
 use crate::ros2::write::{NS_PER_S, seconds_between};
-use crate::trajectory::JointPoints;
-use platewash_kinematics::{AXES, JointVector, RobotModel};
+use crate::trajectory::{JointPoints, check_fixed, check_fixed_names};
+use platewash_kinematics::urdf::FixedJoints;
+use platewash_kinematics::{Joint, JointVector, RobotModel};
 use platewash_workcell::words::quoted;
 
 /// Reads a message: the points, and the line of each.
-pub(super) fn read(file: &ProgramFile, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), ReadError> {
+pub(super) fn read(
+    file: &ProgramFile,
+    arm: &RobotModel,
+    fixed: &FixedJoints,
+) -> Result<(JointPoints, Vec<usize>), ReadError> {
     // `ros2 topic echo` ends each message so.
     let ended = file.text.trim_end().strip_suffix("\n---").unwrap_or(&file.text);
     let root = document(
@@ -21,12 +26,12 @@ pub(super) fn read(file: &ProgramFile, arm: &RobotModel) -> Result<(JointPoints,
         ended,
         "expected a trajectory .csv, .yaml, .yml or .json; found another name",
     );
-    let read = root.and_then(|root| message(&root, arm));
+    let read = root.and_then(|root| message(&root, &Joints { arm, fixed }));
     read.map_err(|fault| refused(file, fault))
 }
 
 /// Finds the `JointTrajectory` of a message.
-fn message(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), Fault> {
+fn message(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<usize>), Fault> {
     let has = |key: &str| Ok(entries(root, "a message")?.iter().any(|entry| entry.key == key));
     if has("joint_trajectory")? {
         let robot = ["joint_trajectory", "multi_dof_joint_trajectory"];
@@ -34,7 +39,7 @@ fn message(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>
         if let Some(other) = fields.get("multi_dof_joint_trajectory") {
             check_no_points(other)?;
         }
-        return trajectory(fields.needed("joint_trajectory")?, arm);
+        return trajectory(fields.needed("joint_trajectory")?, joints);
     }
     if has("trajectory")? {
         let goal = [
@@ -50,9 +55,23 @@ fn message(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>
         if let Some(other) = fields.get("multi_dof_trajectory") {
             check_no_points(other)?;
         }
-        return trajectory(fields.needed("trajectory")?, arm);
+        return trajectory(fields.needed("trajectory")?, joints);
     }
-    trajectory(root, arm)
+    trajectory(root, joints)
+}
+
+/// Joints that a message may have.
+struct Joints<'a> {
+    arm: &'a RobotModel,
+    fixed: &'a FixedJoints,
+}
+
+/// Joints of a message, in its order.
+struct Columns<'a> {
+    names: Vec<String>,
+    joints: &'a Joints<'a>,
+    /// Place of each axis of the arm; `None` where it is fixed and left out.
+    places: Vec<Option<usize>>,
 }
 
 /// Refuses a motion of joints with more than one degree of freedom.
@@ -67,23 +86,23 @@ fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
     }
 }
 
-fn trajectory(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usize>), Fault> {
+fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<usize>), Fault> {
     let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
-    let order = order(fields.needed("joint_names")?, arm)?;
+    let columns = joints.columns(fields.needed("joint_names")?)?;
     let nodes = list(fields.needed("points")?)?;
     let (mut points, mut lines) = (JointPoints::default(), Vec::new());
     let (mut times_ns, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
         let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
-        let joints = |row: Vec<f64>| JointVector::from_fn(|joint, _| row[order[joint]]);
-        let row = |name| row(&point, name);
+        let row = |name| columns.row(&point, name);
         let Some(positions) = row("positions")? else {
-            return Err(Fault::new(node.line, format!("expected {AXES} positions; found none")));
+            let count = columns.names.len();
+            return Err(Fault::new(node.line, format!("expected {count} positions; found none")));
         };
-        points.q_rad.push(joints(positions));
-        speeds.extend(row("velocities")?.map(joints));
-        accelerations.extend(row("accelerations")?.map(joints));
+        points.q_rad.push(positions);
+        speeds.extend(row("velocities")?);
+        accelerations.extend(row("accelerations")?);
         if let Some(time) = point.get("time_from_start") {
             times_ns.push(duration_ns(time)?);
         }
@@ -115,45 +134,78 @@ fn trajectory(root: &Node<'_>, arm: &RobotModel) -> Result<(JointPoints, Vec<usi
     Ok((points, lines))
 }
 
-/// Place in the message of each joint of the arm.
-fn order(node: &Node<'_>, arm: &RobotModel) -> Result<[usize; AXES], Fault> {
-    let known = arm.joints().each_ref().map(|joint| joint.name.as_str());
-    let all = known.join(", ");
-    let mut names: Vec<String> = Vec::new();
-    for name in list(node)? {
-        let (line, name) = (name.line, text(name)?);
-        let found = quoted(&name);
-        if names.contains(&name) {
-            return Err(Fault::new(
-                line,
-                format!("expected each joint once; found {found} again"),
-            ));
+impl Joints<'_> {
+    /// Reads the names of a message's joints.
+    fn columns(&self, node: &Node<'_>) -> Result<Columns<'_>, Fault> {
+        let known = self.arm.joints().each_ref().map(|joint| joint.name.as_str());
+        let all = known.join(", ");
+        let mut names: Vec<String> = Vec::new();
+        for name in list(node)? {
+            let (line, name) = (name.line, text(name)?);
+            let found = quoted(&name);
+            if names.contains(&name) {
+                let reason = format!("expected each joint once; found {found} again");
+                return Err(Fault::new(line, reason));
+            }
+            if !known.contains(&name.as_str()) && !self.fixed.contains_key(&name) {
+                let reason = format!(
+                    "expected the arm's joints {all}; found {found}, which is none of them (one that does not move can be fixed: --fix)"
+                );
+                return Err(Fault::new(line, reason));
+            }
+            names.push(name);
         }
-        if !known.contains(&name.as_str()) {
-            let reason = format!("expected the arm's joints {all}; found {found}, which is none of them");
-            return Err(Fault::new(line, reason));
-        }
-        names.push(name);
-    }
-    let mut places = [0; AXES];
-    for (place, joint) in places.iter_mut().zip(known) {
-        let Some(found) = names.iter().position(|name| name == joint) else {
-            let reason = format!("expected the arm's joints {all}; {} is missing", quoted(joint));
-            return Err(Fault::new(node.line, reason));
+        let place = |joint: &str| {
+            let found = names.iter().position(|name| name == joint);
+            match found {
+                None if !self.fixed.contains_key(joint) => Err(format!(
+                    "expected the arm's joints {all}; {} is missing (one that does not move can be fixed: --fix)",
+                    quoted(joint)
+                )),
+                found => Ok(found),
+            }
         };
-        *place = found;
+        let refused = |reason| Fault::new(node.line, reason);
+        let places = known
+            .into_iter()
+            .map(place)
+            .collect::<Result<_, _>>()
+            .map_err(refused)?;
+        let of_file = |name: &str| names.iter().any(|other| other == name);
+        check_fixed_names(self.arm, self.fixed, of_file).map_err(refused)?;
+        let joints = self;
+        Ok(Columns { names, joints, places })
     }
-    Ok(places)
 }
 
-/// Numbers of a point, one for each joint; `None` for a row that is left out or empty.
-fn row(point: &Fields<'_, '_>, name: &str) -> Result<Option<Vec<f64>>, Fault> {
-    let Some(node) = point.get(name) else { return Ok(None) };
-    let row: Vec<_> = list(node)?.iter().map(number).collect::<Result<_, _>>()?;
-    match row.len() {
-        0 => Ok(None),
-        AXES => Ok(Some(row)),
-        found => Err(Fault::new(node.line, format!("expected {AXES} {name}; found {found}"))),
+impl Columns<'_> {
+    /// Numbers of a point, in the order of the arm's axes; `None` for a row that is left out or empty. Joints that are fixed are at rest.
+    fn row(&self, point: &Fields<'_, '_>, name: &str) -> Result<Option<JointVector>, Fault> {
+        let Some(node) = point.get(name) else { return Ok(None) };
+        let row: Vec<_> = list(node)?.iter().map(number).collect::<Result<_, _>>()?;
+        let expected = self.names.len();
+        match row.len() {
+            0 => return Ok(None),
+            found if found != expected => {
+                return Err(Fault::new(
+                    node.line,
+                    format!("expected {expected} {name}; found {found}"),
+                ));
+            }
+            _ => {}
+        }
+        let at_rest = |at: f64| if name == "positions" { at } else { 0.0 };
+        for (joint, found) in self.names.iter().zip(&row) {
+            if let Some(at) = self.joints.fixed.get(joint) {
+                check_fixed(joint, at_rest(*at), *found).map_err(|reason| Fault::new(node.line, reason))?;
+            }
+        }
+        let axes = self.joints.arm.joints().iter().zip(&self.places);
+        let number = |(joint, place): (&Joint, &Option<usize>)| match place {
+            Some(place) => row[*place],
+            None => self.joints.fixed.get(&joint.name).copied().map_or(f64::NAN, at_rest),
+        };
+        Ok(Some(JointVector::from_iterator(axes.map(number))))
     }
 }
 

@@ -7,7 +7,12 @@ fn arm() -> RobotModel {
 }
 
 fn read(name: &str, text: &str) -> Result<TrajectoryFile, String> {
-    TrajectoryFile::read(name, text.to_owned(), &arm()).map_err(|e| e.to_string())
+    fixed(name, text, &[])
+}
+
+fn fixed(name: &str, text: &str, fixed: &[(&str, f64)]) -> Result<TrajectoryFile, String> {
+    let fixed = fixed.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect();
+    TrajectoryFile::read(name, text.to_owned(), &arm(), &fixed).map_err(|e| e.to_string())
 }
 
 fn motion(name: &str, text: &str) -> Result<PointMotion, String> {
@@ -182,6 +187,47 @@ fn refuses_messages_with_the_line() {
     assert!(chosen.unwrap_err().to_string().contains("no accelerations"));
 }
 
+/// One joint of the arm is left out, and one of a gripper is there.
+#[test]
+fn joints_are_fixed_at_stated_values() {
+    let message = message(SECOND)
+        .replace("joint_6", "finger")
+        .replace("[0.6, 0.5", "[0.02, 0.5")
+        .replacen("[0.0, 0.0", "[0.02, 0.0", 1);
+    let at = [("finger", 0.02), ("joint_6", 0.7)];
+    let found = fixed("a.yaml", &message, &at).unwrap();
+    assert_eq!(found.points.q_rad[1], JointVector::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.7));
+    assert_eq!(found.points.qd_rad_s.as_ref().unwrap()[1][5], 0.0);
+    assert_eq!(found.points.fixed.len(), 2);
+    let columns = "joint_2,joint_1,joint_3,joint_4,joint_5,finger";
+    let table = format!("{columns}\n0,0,0,0,0,0.02\n0.2,0.1,0.3,0.4,0.5,0.02\n");
+    let of_table = fixed("a.csv", &table, &at).unwrap();
+    assert_eq!(of_table.points.q_rad[1], found.points.q_rad[1]);
+    let numbered = "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad\n0,0,0,0,0\n0.1,0.2,0.3,0.4,0.5\n";
+    let found = fixed("a.csv", numbered, &[("joint_6", 0.7)]).unwrap();
+    assert_eq!(found.points.q_rad[1], of_table.points.q_rad[1]);
+    let error = |name: &str, text: &str, at: &[(&str, f64)]| fixed(name, text, at).unwrap_err();
+    assert!(
+        error("a.yaml", &message, &at[..1]).contains("\"joint_6\" is missing (one that does not move can be fixed")
+    );
+    assert!(error("a.yaml", &message, &at[1..]).contains("found \"finger\", which is none of them"));
+    let moved = message.replace("[0.02, 0.5", "[0.03, 0.5");
+    assert!(
+        error("a.yaml", &moved, &at)
+            .contains("a.yaml:6: expected 0.02 for joint \"finger\", which is fixed; found 0.03")
+    );
+    let moving = message.replace("velocities: [0, 0.0", "velocities: [0.1, 0.0");
+    assert!(error("a.yaml", &moving, &at).contains("a.yaml:7: expected 0 for joint \"finger\""));
+    assert!(
+        error("a.csv", &table.replace(",0.02\n0.2", ",0.03\n0.2"), &at)
+            .contains("a.csv:2: column 6 (finger): expected 0.02")
+    );
+    for (name, text) in [("a.yaml", &message), ("a.csv", &table)] {
+        let at = [at[0], at[1], ("thumb", 0.0)];
+        assert!(error(name, text, &at).contains("joint \"thumb\" is fixed, and neither"));
+    }
+}
+
 #[test]
 fn refuses_tables_with_the_line() {
     let head = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n";
@@ -250,7 +296,7 @@ fn refuses_arrays_that_do_not_fit() {
         q_rad: q.clone(),
         t_s,
         qd_rad_s,
-        qdd_rad_s2: None,
+        ..JointPoints::default()
     };
     let error = |points: JointPoints| points.motion(&arm(), None).unwrap_err();
     assert_eq!(

@@ -77,6 +77,17 @@ pub enum UrdfError {
     /// A joint mimics another one.
     #[error("joint '{joint}' mimics joint '{follows}'; independent axes are needed")]
     Mimic { joint: String, follows: String },
+    /// A joint is fixed where it cannot be.
+    #[error("joint '{joint}' is fixed at {position}, beyond its limits {lower} … {upper}")]
+    FixedBeyond {
+        joint: String,
+        position: f64,
+        lower: f64,
+        upper: f64,
+    },
+    /// A joint is fixed that follows another one.
+    #[error("joint '{joint}' is fixed, and mimics joint '{follows}'; fix that one")]
+    FixedFollower { joint: String, follows: String },
     /// An axis is zero or not finite.
     #[error("joint '{joint}': axis must be a finite vector other than zero; found {found:?}")]
     Axis { joint: String, found: [f64; 3] },

@@ -2,7 +2,7 @@
 //!
 //! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
 //! `urdf-rs` reads the elements (where it refuses one, `error` finds which); `tree` checks the structure, orders the six
-//! joints and checks their limits; `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
+//! joints and checks their limits; `fixed` holds other joints still; `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
 //! their vertices) and visual geometry (reading the `triangles` of meshes), which is left out by name where it cannot be read. Every file is read through `file`.
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
@@ -10,6 +10,7 @@
 mod error;
 pub mod file;
 mod files;
+mod fixed;
 mod mesh;
 mod scan;
 pub(crate) mod shapes;
@@ -18,6 +19,7 @@ mod triangles;
 
 pub use crate::urdf::error::UrdfError;
 pub use crate::urdf::files::{Files, HeldFiles};
+pub use crate::urdf::fixed::FixedJoints;
 pub use crate::urdf::mesh::{MeshError, MeshSource};
 pub use crate::urdf::scan::MAX_BYTES;
 pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
@@ -27,6 +29,7 @@ use crate::fingerprint::sha256_hex;
 use crate::geometry::{Inertial, Shape};
 use crate::model::{Frame, Joint, Link, RobotModel};
 use crate::rotation::RigidTransform;
+use crate::urdf::fixed::Fixed;
 use crate::urdf::shapes::VisualReader;
 use crate::urdf::tree::{Tree, finite, pose, rigid};
 use crate::words::message_in_words;
@@ -44,7 +47,16 @@ impl RobotModel {
     /// # Errors
     /// [`UrdfError`], naming the joint or link at fault.
     pub fn from_urdf(text: &str, meshes: &MeshSource) -> Result<Self, UrdfError> {
-        load(text, meshes)
+        load(text, meshes, &FixedJoints::new())
+    }
+
+    /// Builds a model as [`RobotModel::from_urdf`] does, of a description with more than six moving joints: those in `fixed` are held at
+    /// the stated positions, with those that mimic them, the outermost first, until six move. Other names in `fixed` are ignored.
+    ///
+    /// # Errors
+    /// [`UrdfError`], naming the joint or link at fault.
+    pub fn from_urdf_with_fixed(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<Self, UrdfError> {
+        load(text, meshes, fixed)
     }
 }
 
@@ -52,17 +64,18 @@ impl RobotModel {
 ///
 /// # Errors
 /// [`UrdfError`], naming the joint or link at fault.
-fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
+fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
-    let robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
+    let mut robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
     sizes(&robot)?;
+    let fixed = fixed::fix(&mut robot, fixed)?;
     let tree = Tree::build(&robot)?;
     let limits = tree::limits(&tree)?;
     let joints = tree.axes.map(|joint| Joint {
         name: joint.name.clone(),
         child: joint.child.link.clone(),
     });
-    let (folded, frames) = fold(&tree)?;
+    let (folded, frames) = fold(&tree, &fixed)?;
     let last_link = frames[tree.position(&tree.axes[AXES - 1].child.link)];
     let mut looks = VisualReader::new(&robot, meshes);
     let links = tree
@@ -75,7 +88,7 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
     let of_visuals: Vec<_> = of_visuals.map(|link| link.name.clone()).collect();
     Ok(RobotModel {
         name: robot.name.clone(),
-        sha256: fingerprint(text, &links, &of_visuals),
+        sha256: fingerprint(text, &links, &of_visuals, &fixed.positions),
         joints,
         limits,
         folded,
@@ -84,12 +97,13 @@ fn load(text: &str, meshes: &MeshSource) -> Result<RobotModel, UrdfError> {
         disabled: None,
         visual_findings: looks.findings,
         of_visuals,
+        fixed: fixed.positions,
     })
 }
 
 /// Returns the SHA-256 of the text, followed by the vertices of its collision meshes, if any, as bytes of little-endian doubles in metres,
-/// and by the names of the links whose visuals stand for collision shapes.
-fn fingerprint(text: &str, links: &[Link], of_visuals: &[String]) -> String {
+/// by the names of the links whose visuals stand for collision shapes, and by names and positions of the joints that are fixed on request.
+fn fingerprint(text: &str, links: &[Link], of_visuals: &[String], fixed: &FixedJoints) -> String {
     let mut bytes = text.as_bytes().to_vec();
     for primitive in links.iter().flat_map(|link| &link.collision) {
         if let Shape::Hull { points } = &primitive.shape {
@@ -102,6 +116,9 @@ fn fingerprint(text: &str, links: &[Link], of_visuals: &[String]) -> String {
             .iter()
             .flat_map(|name| format!("\nvisual shapes: {name}").into_bytes()),
     );
+    for (name, position) in fixed {
+        bytes.extend(name.bytes().chain(position.to_le_bytes()));
+    }
     sha256_hex(&bytes)
 }
 
@@ -150,14 +167,19 @@ fn convert_link(
 
 /// Folds every fixed transform: joint frames with z along the axis, and each link as an offset from the
 /// body that carries it.
-fn fold(tree: &Tree<'_>) -> Result<([RigidTransform; AXES], Vec<Frame>), UrdfError> {
+fn fold(tree: &Tree<'_>, fixed: &Fixed) -> Result<([RigidTransform; AXES], Vec<Frame>), UrdfError> {
     let mut folded = [RigidTransform::identity(); AXES];
     let mut frames = vec![Frame::new(0, RigidTransform::identity())];
     for link in &tree.links[1..] {
         let joint = tree.joint_above(&link.name);
         let at = format!("joint '{}'", joint.name);
         let parent = frames[tree.position(&joint.parent.link)];
-        let placed = parent.offset(&rigid(&joint.origin, &at)?);
+        let origin = rigid(&joint.origin, &at)?;
+        let displaced = fixed
+            .displacements
+            .get(&joint.name)
+            .map_or(origin, |by| origin.then(by));
+        let placed = parent.offset(&displaced);
         let axis_index = tree.axes.iter().position(|axis| axis.name == joint.name);
         frames.push(match axis_index {
             None => placed,

@@ -14,8 +14,7 @@ use crate::value::warn;
 use crate::{arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::kinematics::urdf::Files;
-use platewash::scenario::Note;
-use platewash::scenario::RobotSection;
+use platewash::scenario::{MeshPlaces, Note, RobotSection};
 use platewash::{Axes, Frame, IkSolver, RobotModel, Scenario, ToolFrame};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -49,6 +48,15 @@ impl Robot {
     #[must_use]
     pub fn model(&self) -> &Arc<RobotModel> {
         &self.model
+    }
+
+    /// Places in which meshes of obstacles are looked up: those of the arm's packages, and those that ROS has installed.
+    #[must_use]
+    pub fn mesh_places(&self) -> MeshPlaces {
+        MeshPlaces {
+            package_path: self.source.package_path().to_vec(),
+            files: platewash::cli::installed_files(),
+        }
     }
 
     /// The built-in arm.

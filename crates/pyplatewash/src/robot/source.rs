@@ -81,6 +81,14 @@ impl Source {
         }
     }
 
+    /// Folders in which packages are looked up.
+    pub fn package_path(&self) -> &[PathBuf] {
+        match self {
+            Self::BuiltIn => &[],
+            Self::Described(description) => &description.package_path,
+        }
+    }
+
     /// The URDF text.
     pub fn urdf(&self) -> &str {
         match self {

@@ -2,7 +2,7 @@
 
 use crate::sections::robot::{BuiltInArm, RobotSection};
 use platewash_kinematics::irb120::EmbeddedModelError;
-use platewash_kinematics::urdf::{Files, MAX_BYTES, MeshSource};
+use platewash_kinematics::urdf::{Files, FixedJoints, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
 use std::path::Path;
 
@@ -44,8 +44,17 @@ pub enum ArmError {
 /// # Errors
 /// [`ArmError`] with the file and its error.
 pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
+    load_arm_with_fixed(section, files, &FixedJoints::new())
+}
+
+/// The arm of the section as [`load_arm`] makes it, with joints of its description held still: see
+/// [`RobotModel::from_urdf_with_fixed`].
+///
+/// # Errors
+/// [`ArmError`] with the file and its error.
+pub fn load_arm_with_fixed(section: &RobotSection, files: &Files, fixed: &FixedJoints) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
-        (Some(urdf), _) => load_description(urdf, section, files),
+        (Some(urdf), _) => load_description(urdf, section, files, fixed),
         (None, BuiltInArm::Irb120) => Ok(RobotModel::irb120()?),
     }
 }
@@ -55,12 +64,18 @@ pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, Arm
 ///
 /// # Errors
 /// [`ArmError`] with the file and its error.
-fn load_description(urdf: &Path, section: &RobotSection, files: &Files) -> Result<RobotModel, ArmError> {
+fn load_description(
+    urdf: &Path,
+    section: &RobotSection,
+    files: &Files,
+    fixed: &FixedJoints,
+) -> Result<RobotModel, ArmError> {
     let file = urdf.display().to_string();
     let meshes = MeshSource::new(&section.package_path, urdf.parent())
         .reading(files)
         .with_visual_shapes(section.visual_shapes);
-    let robot = RobotModel::from_urdf(&read(urdf, files)?, &meshes).map_err(|error| ArmError::Urdf { file, error })?;
+    let robot = RobotModel::from_urdf_with_fixed(&read(urdf, files)?, &meshes, fixed);
+    let robot = robot.map_err(|error| ArmError::Urdf { file, error })?;
     let Some(path) = &section.srdf else {
         return Ok(robot);
     };

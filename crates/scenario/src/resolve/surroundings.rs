@@ -102,7 +102,7 @@ impl Scenario {
     }
 
     /// Returns the other body that has a name.
-    fn owner(&self, name: &str, arm: &RobotModel, tool: &Tool) -> Option<&'static str> {
+    pub(crate) fn owner(&self, name: &str, arm: &RobotModel, tool: &Tool) -> Option<&'static str> {
         let is_plate = |name: &str| {
             let number = name.strip_prefix("plate ").or_else(|| name.strip_prefix("real plate "));
             number.is_some_and(|number| number.parse::<usize>().is_ok())

@@ -49,23 +49,28 @@ impl Certificate {
     /// As it is shown.
     #[must_use]
     pub fn new(certificate: &proved::Certificate) -> Self {
-        let check = |check: &proved::Check| Check {
-            words: check.requirement.words(),
-            detail: check.detail(),
-            place: place(&check.worst),
-            check: check.clone(),
-        };
         let line = |(name, what): (&str, String)| format!("{name}: {what}");
         Self {
             passes: certificate.passes(),
             headline: printable(&certificate.headline),
             hash: certificate.hash.status,
-            checks: certificate.checks.iter().map(check).collect(),
+            checks: certificate.checks.iter().map(Check::new).collect(),
             contact: certificate.rests_on.requirements.contact.map(|asked| Contact {
                 asked,
                 plates: certificate.contact.clone(),
             }),
             rests_on: certificate.rests_on.lines().into_iter().map(line).collect(),
+        }
+    }
+}
+
+impl Check {
+    pub(super) fn new(check: &proved::Check) -> Self {
+        Self {
+            words: check.requirement.words(),
+            detail: check.detail(),
+            place: place(&check.worst),
+            check: check.clone(),
         }
     }
 }

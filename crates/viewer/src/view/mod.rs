@@ -13,10 +13,12 @@
 //! | smallest distance over time | `clearance.rs` |
 //! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
 //! | executed motion: its data, its display | `execution.rs` |
+//! | a motion of an arm alone | `arm_motion.rs` |
 //!
 //! Tool, obstacles, plates, segments and checks are as plan files and certificates state them.
 
 mod arm;
+mod arm_motion;
 mod body;
 mod certificate;
 mod clearance;
@@ -31,6 +33,7 @@ pub(crate) mod raster;
 pub(crate) mod tips;
 
 pub use arm::{Arm, Joint, Link};
+pub use arm_motion::ArmMotion;
 pub use body::{Body, Shape};
 pub use certificate::{Certificate, Check, Contact};
 pub use clearance::Clearance;
