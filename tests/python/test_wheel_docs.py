@@ -84,7 +84,7 @@ def test_a_plan_is_replayed_elsewhere(engine: str) -> None:
 
 def test_every_example_is_tested() -> None:
     assert [path.stem for path in EXAMPLES] == ["paper_program", "replay_mujoco", "replay_pinocchio"]
-    assert len(NOTEBOOKS) == 4
+    assert len(NOTEBOOKS) == 5
 
 
 def words(notebook: Any) -> list[str]:
