@@ -22,12 +22,19 @@ STEP_S, SAMPLES = 2.0, 60
 Floats = npt.NDArray[np.float64]
 
 
-def between(q: Floats, qd: Floats | None, i: int, u: float) -> Floats:
-    """Joint positions at the share u of the way from point i to the next one: on a line, or on a cubic where speeds are given."""
-    if qd is None:
-        return q[i] + u * (q[i + 1] - q[i])
-    ends = (2 * u**3 - 3 * u**2 + 1) * q[i] + (3 * u**2 - 2 * u**3) * q[i + 1]
-    return ends + STEP_S * ((u**3 - 2 * u**2 + u) * qd[i] + (u**3 - u**2) * qd[i + 1])
+def between(rows: list[Floats], i: int, u: float) -> Floats:
+    """Joint positions at the share u of the way from point i to the next one: on a line, cubic or quintic, for as many rows of derivatives."""
+    count = len(rows)
+    powers = np.arange(2 * count)
+    # Each derivative of Σ cₖuᵏ at u = 0 and u = 1, in shares of the step.
+    conditions, values = [], []
+    for at in (0, 1):
+        for order, row in enumerate(rows):
+            factors = np.prod([powers - k for k in range(order)], axis=0) if order else np.ones(2 * count)
+            conditions.append(factors * (powers >= order) * float(at) ** np.maximum(powers - order, 0))
+            values.append(STEP_S**order * row[i + at])
+    coefficients = np.linalg.solve(np.array(conditions), np.array(values))
+    return u**powers @ coefficients
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -36,7 +43,7 @@ def test_proves_a_motion_only_where_dense_distances_allow_it(seed: int) -> None:
     robot, tree = pw.Robot.load(str(URDF)), urdf_reader.Tree(URDF)
     arm = Reference({link: Body(link, tuple(parts)) for link, parts in urdf_reader.shapes(URDF).items() if parts})
     request, result = coal.DistanceRequest(), coal.DistanceResult()
-    for is_cubic in (False, True, False, True):
+    for derivatives in (0, 1, 2, 2):
         obstacles, boxes = [], {}
         for name in ("near", "far"):
             angle, radius = rng.uniform(-np.pi, np.pi), rng.uniform(0.35, 0.7)
@@ -45,12 +52,13 @@ def test_proves_a_motion_only_where_dense_distances_allow_it(seed: int) -> None:
             obstacles.append({"name": name, "shape": "box", "size_m": size, "at_m": at})
             boxes[name] = coal.Box(*size), coal.Transform3s(np.eye(3), np.array(at))
         q = np.cumsum(np.vstack([START + rng.uniform(-0.5, 0.5, 6), rng.uniform(-0.5, 0.5, (3, 6))]), axis=0)
-        qd = rng.uniform(-0.5, 0.5, (4, 6)) if is_cubic else None
-        proof = pw.prove_motion(q, STEP_S * np.arange(4.0), qd, robot=robot, obstacles=obstacles, clearance_m=CLEARANCE_M)
+        rows = [q, *(rng.uniform(-0.5, 0.5, (4, 6)) for _ in range(derivatives))]
+        proof = pw.prove_motion(q, STEP_S * np.arange(4.0), *rows[1:], robot=robot, obstacles=obstacles, clearance_m=CLEARANCE_M)
+        assert proof.interpolation == ["linear", "cubic", "quintic"][derivatives]
         least = np.inf
         for i in range(3):
             for u in np.linspace(0.0, 1.0, SAMPLES):
-                arm.move(tree.poses(dict(zip(JOINTS, between(q, qd, i, u)))))
+                arm.move(tree.poses(dict(zip(JOINTS, between(rows, i, u)))))
                 for a, b in (bound["pair"] for bound in proof.clearance):
                     if b not in boxes:
                         least = min(least, arm.distance(a, b))
