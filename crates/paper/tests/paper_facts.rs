@@ -3,6 +3,7 @@
 
 use platewash_paper::reproduce::{ReproduceSettings, Reproduction, reproduce};
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::fixtures::is_thorough;
 
 /// Dead-end rates in percent: key, earlier value, its 95 % half-width (binomial with 1500 runs where not stated).
 const DEAD_ENDS: [(&str, f64, f64); 6] = [
@@ -27,9 +28,10 @@ const COVERAGE: [(u32, f64, f64); 8] = [
 ];
 
 fn measured() -> Reproduction {
+    let share = if is_thorough() { 1 } else { 2 };
     let settings = ReproduceSettings {
-        layouts: 200,
-        draws: 20_000,
+        layouts: 200 / share,
+        draws: 20_000 / share,
         seed: 1,
     };
     reproduce(&settings, &CancelToken::new(), &|_, _| ()).unwrap()
