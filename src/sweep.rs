@@ -51,7 +51,7 @@ pub fn sweep_each(
 ) -> Result<Vec<SweepRow>, Failure> {
     let seed_error = |problem| ScenarioError {
         kind: TextKind::Scenario,
-        source_name: scenario.name.clone(),
+        source_name: scenario.name.as_str().into(),
         line: None,
         problem,
     };

@@ -217,7 +217,7 @@ impl Options {
     /// The error with the file that was given in place of the scenario's own name.
     fn of_file(&self, error: ScenarioError) -> ScenarioError {
         ScenarioError {
-            source_name: self.scenario_name().to_owned(),
+            source_name: self.scenario_name().into(),
             ..error
         }
     }

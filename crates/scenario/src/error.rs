@@ -50,7 +50,7 @@ pub struct ScenarioError {
     /// The kind of the text.
     pub kind: TextKind,
     /// The file or shipped name.
-    pub source_name: String,
+    pub source_name: Box<str>,
     /// Line in the file, from 1, where one is at fault.
     pub line: Option<usize>,
     /// The fault.
@@ -80,7 +80,7 @@ impl ScenarioError {
     pub(crate) fn new(source_name: &str, line: Option<usize>, problem: Problem) -> Self {
         Self {
             kind: TextKind::Scenario,
-            source_name: source_name.to_owned(),
+            source_name: source_name.into(),
             line,
             problem,
         }

@@ -34,7 +34,7 @@ pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
         _ => (None, None, None),
     };
     let fields = [
-        ("source", any(py, &error.source_name)),
+        ("source", any(py, &*error.source_name)),
         ("line", error.line.and_then(|line| any(py, line))),
         ("key", key),
         ("expected", expected),
