@@ -145,6 +145,12 @@ fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotMode
     }
     if let Some(file) = &arguments.obstacles {
         cell.obstacles = load(file)?.obstacles(arm, &cell.tool, &meshes).map_err(Failure::from)?;
+        if cell.obstacles.is_empty() {
+            bail!(
+                "{}: expected obstacles; found none; for an arm alone leave --obstacles out",
+                file.display()
+            );
+        }
     }
     Ok(cell)
 }

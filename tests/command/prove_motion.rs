@@ -278,7 +278,12 @@ fn bad_input_is_refused_with_file_and_line() {
     write(dir, "one.csv", &SWING[..SWING.len() - 19]);
     write(dir, "post.toml", &POST.replace("at_m", "at"));
     write(dir, "scenario.toml", "[wash]\nturns = 3\n");
-    let cases: [(&[&str], &[&str]); 13] = [
+    write(dir, "empty.toml", "# nothing yet\n");
+    let cases: [(&[&str], &[&str]); 14] = [
+        (
+            &[&good, "--obstacles", "empty.toml"],
+            &["error: empty.toml: expected obstacles; found none"],
+        ),
         (&["none.csv"], &["none.csv: cannot be read"]),
         (&["nan.csv"], &["nan.csv:3: column 2 (q1_rad)", "\"NaN\""]),
         (&["back.csv"], &["back.csv:3: column 1 (t_s)", "must come after 0.5 s"]),
