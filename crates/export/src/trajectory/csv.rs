@@ -43,10 +43,10 @@ pub(super) fn read(
 
 /// Names of the columns of positions, speeds and accelerations.
 struct Columns {
-    /// Those of the six axes, and the position of each that is fixed.
+    /// Columns of the six axes, and the position of each that is fixed.
     axes: [[String; AXES]; 3],
     at: [Option<f64>; AXES],
-    /// Those of other joints that are fixed, and their positions.
+    /// Columns of other joints that are fixed, and their positions.
     others: Vec<([String; 3], f64)>,
 }
 

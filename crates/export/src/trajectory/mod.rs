@@ -140,7 +140,7 @@ pub enum PointsError {
     },
 }
 
-/// What an interpolation needs besides positions, in words.
+/// Quantities that an interpolation needs besides positions, in words.
 fn needs(choice: Interpolation) -> &'static str {
     match choice {
         Interpolation::Linear => "nothing else",
