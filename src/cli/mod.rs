@@ -4,6 +4,7 @@
 
 mod align;
 mod compare;
+mod description;
 mod dry_run;
 mod edit;
 mod export;
@@ -245,6 +246,7 @@ fn dispatch(arguments: Arguments, token: impl FnOnce() -> CancelToken) -> Result
     if !verb.is_soon_done() {
         options.cancel = token();
     }
+    options.find_description()?;
     options
         .set_up()?
         .install(|| carry_out(&options, verb))

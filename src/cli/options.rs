@@ -1,5 +1,6 @@
 //! Options that every verb takes, those that some verbs do not take, and tips on arguments that the command does not know.
 
+use super::description::{self, Description};
 use super::failure::internal;
 use super::numbers::seed;
 use super::output::Progress;
@@ -36,17 +37,23 @@ pub struct Options {
     /// Output folder
     #[arg(long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// URDF of another six-axis arm (xacro files must be expanded first)
+    /// URDF of another six-axis arm; a .xacro file is expanded where xacro is installed
     #[arg(long, global = true, value_name = "FILE")]
     pub urdf: Option<PathBuf>,
+    /// Another six-axis arm by name, such as ur5e, whose description is in a package of ROS_PACKAGE_PATH or AMENT_PREFIX_PATH
+    #[arg(long, global = true, value_name = "NAME", conflicts_with = "urdf")]
+    pub arm: Option<String>,
+    /// Argument for the expansion of a .xacro file (may be repeated)
+    #[arg(long, global = true, value_name = "NAME:=VALUE")]
+    pub xacro_arg: Vec<String>,
     /// Folder that holds the package of package:// mesh names (may be repeated); folders above the URDF and those of ROS are looked at, too
-    #[arg(long, global = true, value_name = "DIR", requires = "urdf")]
+    #[arg(long, global = true, value_name = "DIR")]
     pub package_path: Vec<PathBuf>,
     /// SRDF that lists the link pairs to leave out of the collision check
-    #[arg(long, global = true, value_name = "FILE", requires = "urdf")]
+    #[arg(long, global = true, value_name = "FILE")]
     pub srdf: Option<PathBuf>,
     /// Take the visuals of links without collision shapes as such, meshes as convex hulls
-    #[arg(long, global = true, requires = "urdf")]
+    #[arg(long, global = true)]
     pub visual_shapes: bool,
     /// Link after joint 6 that carries the tool, and its axis along which the tool leaves it (z if left out) [default: tool0, or what the description tells]
     #[arg(long, global = true, value_name = "LINK[:AXIS]")]
@@ -63,6 +70,9 @@ pub struct Options {
     /// Number of threads [default: one for each processor]; it does not change results
     #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Source of the files of an arm, with the expanded text of a .xacro file.
+    #[arg(skip)]
+    pub files: Files,
     /// Tells long work to give up.
     #[arg(skip)]
     pub cancel: CancelToken,
@@ -91,13 +101,53 @@ impl Options {
             .map_err(internal)
     }
 
+    /// Finds the description of an arm that is given by name, and expands a .xacro file.
+    pub fn find_description(&mut self) -> Result<()> {
+        self.files = installed_files();
+        let mut description = match (&self.arm, &self.urdf) {
+            (Some(name), _) => description::find(name)?,
+            (None, Some(file)) => Description {
+                file: file.clone(),
+                arguments: Vec::new(),
+            },
+            (None, None) => {
+                let needs = [
+                    ("--package-path", !self.package_path.is_empty()),
+                    ("--srdf", self.srdf.is_some()),
+                    ("--visual-shapes", self.visual_shapes),
+                    ("--xacro-arg", !self.xacro_arg.is_empty()),
+                ];
+                if let Some((option, _)) = needs.into_iter().find(|(_, is_given)| *is_given) {
+                    bail!("{option}: is for another arm; give its description as --urdf FILE, or --arm NAME");
+                }
+                return Ok(());
+            }
+        };
+        if description
+            .file
+            .extension()
+            .is_some_and(|extension| extension == "xacro")
+        {
+            description.arguments.extend(self.xacro_arg.iter().cloned());
+            let text = description::expand(&description)?;
+            self.files = std::mem::take(&mut self.files).with_text(&description.file, &text);
+        } else if !self.xacro_arg.is_empty() {
+            bail!(
+                "--xacro-arg: {} is no .xacro file; leave it out",
+                description.file.display()
+            );
+        }
+        self.urdf = Some(description.file);
+        Ok(())
+    }
+
     /// The scenario with what the options override.
     pub fn scenario(&self) -> Result<Scenario> {
         let mut scenario = Scenario::load(self.scenario_name())?;
         if let Some(seed) = self.seed {
             scenario.seed = seed;
         }
-        scenario.files = installed_files();
+        scenario.files = self.files.clone();
         if self.urdf.is_some() {
             let RobotSection {
                 urdf,
@@ -227,6 +277,11 @@ impl Options {
 /// ROS_PACKAGE_PATH, and the `share` folder of each prefix in AMENT_PREFIX_PATH.
 #[must_use]
 pub fn installed_files() -> Files {
+    Files::default().with_installed(installed_folders())
+}
+
+/// Folders in which ROS has packages installed, as the environment states them.
+pub fn installed_folders() -> Vec<PathBuf> {
     let folders = |name: &str| -> Vec<PathBuf> {
         let list = std::env::var_os(name).unwrap_or_default();
         std::env::split_paths(&list)
@@ -235,7 +290,7 @@ pub fn installed_files() -> Files {
     };
     let prefixes = folders("AMENT_PREFIX_PATH").into_iter();
     let shares = prefixes.map(|prefix| prefix.join("share"));
-    Files::default().with_installed(folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect())
+    folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect()
 }
 
 /// True where a job was refused because of its scenario, in a message that does not name the scenario.
@@ -271,7 +326,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ("simulate tune view figures export dry-run compare", "seed", PLAN_STATES),
     (
         "align",
-        "scenario seed urdf package_path srdf visual_shapes tool_mount out",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes tool_mount out",
         "align works from the points of its file alone, without a scenario or a seed, and writes no file; leave it out",
     ),
     (
@@ -281,7 +336,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "study",
-        "scenario seed urdf package_path srdf visual_shapes tool_mount",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes tool_mount",
         "the study file states its scenarios and seeds; leave it out",
     ),
     (
@@ -291,12 +346,12 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "scenario",
-        "scenario seed urdf package_path srdf visual_shapes tool_mount out",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes tool_mount out",
         "scenario prints a shipped scenario as it is, `platewash scenario NAME`; leave it out",
     ),
     (
         "reproduce",
-        "scenario urdf package_path srdf visual_shapes tool_mount",
+        "scenario urdf arm xacro_arg package_path srdf visual_shapes tool_mount",
         "reproduce measures the paper's own scenarios and arm; leave it out",
     ),
 ];
@@ -350,17 +405,12 @@ fn tip(given: &str) -> Option<String> {
     if SHIPPED.iter().any(|shipped| shipped.name == given) || given.ends_with(".toml") {
         return Some(format!("a scenario is given as '--scenario {given}'"));
     }
-    if given.ends_with(".xacro") {
-        return Some(format!(
-            "xacro is expanded first: 'xacro {given} > ARM.urdf', then '--urdf ARM.urdf'"
-        ));
-    }
-    if given.ends_with(".urdf") {
+    if [".urdf", ".xacro"].iter().any(|end| given.ends_with(end)) {
         return Some(format!("the description of an arm is given as '--urdf {given}'"));
     }
     let option = given.strip_prefix("--")?.split('=').next()?.replace('-', "_");
-    if ["arm", "robot", "model"].contains(&&*option) {
-        return Some("another arm is given by its description: '--urdf ARM.urdf'".to_owned());
+    if ["robot", "model"].contains(&&*option) {
+        return Some("another arm is given by its description, '--urdf ARM.urdf', or by name, '--arm NAME'".to_owned());
     }
     let is_named = |path: &&str| {
         let name = path.rsplit('.').next().and_then(|name| name.strip_prefix(&*option));

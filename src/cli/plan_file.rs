@@ -1,7 +1,7 @@
 //! Plan files as input, with the arm that they are for.
 
 use super::failure::not_verified;
-use super::options::{Options, installed_files};
+use super::options::Options;
 use anyhow::{Error, Result, anyhow, bail, ensure};
 use platewash::certificate::prove_with;
 use platewash::kinematics::urdf::file;
@@ -85,7 +85,7 @@ pub fn refused(path: &Path, error: impl Display) -> Error {
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
 fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> Result<Arc<RobotModel>> {
     if options.urdf.is_some() {
-        let arm = load_arm(&options.robot_section(), &installed_files())?;
+        let arm = load_arm(&options.robot_section(), &options.files)?;
         refuse_other(wanted, &ArmId::of(&arm))?;
         return Ok(Arc::new(arm));
     }

@@ -3,7 +3,7 @@
 use super::failure::{ExitCode, internal};
 use super::files::Files;
 use super::numbers::within;
-use super::options::{Options, installed_files};
+use super::options::Options;
 use super::output::DetailArguments;
 use super::page::needed_bundle;
 use anyhow::{Context, Result, anyhow, bail};
@@ -113,7 +113,7 @@ fn fixed_joint(text: &str) -> Result<(String, f64)> {
 
 /// The arm with the joints that do not move.
 fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
-    let arm = load_arm_with_fixed(&options.robot_section(), &installed_files(), fixed).map_err(|error| {
+    let arm = load_arm_with_fixed(&options.robot_section(), &options.files, fixed).map_err(|error| {
         use UrdfError::{AxisCount, Branch, JointKind, Mimic};
         let could_be_fixed = matches!(
             &error,
@@ -135,7 +135,7 @@ fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
 fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotModel) -> Result<Workcell> {
     let meshes = MeshPlaces {
         package_path: options.package_path.clone(),
-        files: installed_files(),
+        files: options.files.clone(),
     };
     let load = |file: &PathBuf| ObstacleText::load(file).map_err(Failure::from);
     let mount = arguments.mount.unwrap_or_else(Pose::identity);

@@ -105,7 +105,60 @@ fn packages_of_ros_are_found_and_arms_are_given_as_urdf() {
     }
     platewash(dir, &["run", "--arm", "ur5e.urdf"]).refused(2, &["--urdf ARM.urdf"]);
     platewash(dir, &["run", "ur5e.urdf"]).refused(2, &["'--urdf ur5e.urdf'"]);
-    platewash(dir, &["run", "ur5e.urdf.xacro"]).refused(2, &["xacro ur5e.urdf.xacro > ARM.urdf"]);
+    platewash(dir, &["run", "ur5e.urdf.xacro"]).refused(2, &["'--urdf ur5e.urdf.xacro'"]);
+}
+
+/// A stand-in for xacro prints the IRB 120 with the arguments as its name.
+#[cfg(unix)]
+#[test]
+fn arms_are_found_by_name_and_xacro_files_are_expanded() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let dir = folder.path();
+    std::fs::create_dir_all(dir.join("bin")).unwrap();
+    let stand_in = "#!/bin/sh\nfile=$1\nshift\n[ -z \"$BROKEN\" ] || { echo \"undefined $BROKEN\" >&2; exit 1; }\n\
+                    sed \"s/name=\\\"irb120\\\"/name=\\\"$*\\\"/\" \"$file\"\n";
+    std::fs::write(dir.join("bin/xacro"), stand_in).unwrap();
+    std::fs::set_permissions(dir.join("bin/xacro"), PermissionsExt::from_mode(0o755)).unwrap();
+    let urdf = platewash::kinematics::irb120::IRB120_URDF;
+    let write = |path: &str, text: &str| {
+        let path = dir.join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    };
+    write("ws/maker_support/urdf/small5.xacro", urdf);
+    write("ws/ur_description/urdf/ur.urdf.xacro", urdf);
+    write("ws/ur_description/config/ur5e/physical_parameters.yaml", "");
+    let path = std::env::join_paths([dir.join("bin"), "/usr/bin".into(), "/bin".into()]).unwrap();
+    let run = |arguments: &[&str], variables: &[(&str, &OsStr)]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
+        command
+            .current_dir(dir)
+            .args(arguments)
+            .env_remove("ROS_PACKAGE_PATH")
+            .env("PATH", &path);
+        CommandOutput::of(command.envs(variables.iter().copied()).output().unwrap())
+    };
+    let (ws, none) = (("ROS_PACKAGE_PATH", OsStr::new("ws")), ("PATH", OsStr::new("")));
+    let name =
+        |arguments: &[&str]| run(&[&["robot", "--json"], arguments].concat(), &[ws]).done().json()["name"].clone();
+    assert_eq!(name(&["--arm", "ur5e"]), "name:=ur5e ur_type:=ur5e");
+    assert_eq!(name(&["--arm", "small5", "--xacro-arg", "colour:=red"]), "colour:=red");
+    assert_eq!(name(&["--urdf", "ws/ur_description/urdf/ur.urdf.xacro"]), "");
+
+    // Verify expands it again.
+    run(&["plan", "--quiet", "--arm", "small5"], &[ws]).done();
+    run(&["verify", "out/plan.json", "--arm", "small5"], &[ws]).done();
+
+    run(&["robot", "--arm", "small5"], &[]).refused(2, &["--arm small5", "which are not set", "'--urdf ARM.urdf'"]);
+    run(&["robot", "--arm", "small5"], &[ws, none]).refused(2, &["small5.xacro", "not installed", "pip install xacro"]);
+    run(&["robot", "--arm", "small5"], &[ws, ("BROKEN", OsStr::new("side"))])
+        .refused(2, &["small5.xacro", "undefined side", "--xacro-arg NAME:=VALUE"]);
+    run(&["robot", "--xacro-arg", "a:=b"], &[]).refused(2, &["--xacro-arg", "--urdf FILE"]);
+    write("other/small_description/robots/small5.urdf", urdf);
+    let both = std::env::join_paths(["ws", "other"]).unwrap();
+    run(&["robot", "--arm", "small5"], &[("ROS_PACKAGE_PATH", &both)])
+        .refused(2, &["several descriptions", "small_description"]);
 }
 
 /// The IRB 120 with a hand that has a mesh as its only shape: without the option the hand is not checked, with it the plan says what

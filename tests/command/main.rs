@@ -50,6 +50,15 @@ struct CommandOutput {
 }
 
 impl CommandOutput {
+    fn of(output: Output) -> Self {
+        let Output { status, stdout, stderr } = output;
+        Self {
+            code: status.code().unwrap(),
+            stdout: String::from_utf8(stdout).unwrap(),
+            stderr: String::from_utf8(stderr).unwrap(),
+        }
+    }
+
     fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|e| panic!("{e}: {}", self.stdout))
     }
@@ -91,16 +100,8 @@ fn platewash(folder: &Path, arguments: &[&str]) -> CommandOutput {
 }
 
 fn platewash_os(folder: &Path, arguments: &[&OsStr]) -> CommandOutput {
-    let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_platewash"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    CommandOutput {
-        code: status.code().unwrap(),
-        stdout: String::from_utf8(stdout).unwrap(),
-        stderr: String::from_utf8(stderr).unwrap(),
-    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));
+    CommandOutput::of(command.args(arguments).current_dir(folder).output().unwrap())
 }
 
 fn folder() -> TempDir {

@@ -55,7 +55,7 @@ fn a_cell_without_a_home_is_run_from_one_that_is_found() {
     assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
     assert!(
         ran.stderr
-            .contains("robot.start_deg is not stated: a clear home is looked for"),
+            .contains("robot.start_deg is not stated for this arm: a clear home is looked for"),
         "{}",
         ran.stderr
     );

@@ -13,6 +13,8 @@ pub type HeldFiles = BTreeMap<PathBuf, Arc<[u8]>>;
 pub struct Files {
     source: FileSource,
     installed: Vec<PathBuf>,
+    /// Texts that stand in place of files.
+    texts: BTreeMap<PathBuf, Arc<str>>,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -52,8 +54,10 @@ impl Files {
     }
 
     fn of(source: FileSource) -> Self {
-        let installed = Vec::new();
-        Self { source, installed }
+        Self {
+            source,
+            ..Self::default()
+        }
     }
 
     /// Returns the source with folders in which packages are installed (`FOLDER/NAME`), such as those that ROS names. They are looked at
@@ -64,6 +68,13 @@ impl Files {
             installed: folders,
             ..self
         }
+    }
+
+    /// Returns the source with a text in place of a file, such as a xacro file with its expansion.
+    #[must_use]
+    pub fn with_text(mut self, path: &Path, text: &str) -> Self {
+        self.texts.insert(path.to_owned(), text.into());
+        self
     }
 
     /// Returns the folders in which packages are installed.
@@ -109,6 +120,11 @@ impl Files {
     /// # Errors
     /// [`FileError`], without the file's name.
     pub fn read_bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+        match self.texts.get(path) {
+            Some(text) if text.len() as u64 > limit => return Err(FileError::TooLong { limit }),
+            Some(text) => return Ok(text.as_bytes().to_vec()),
+            None => {}
+        }
         match &self.source {
             FileSource::Disk => file::read_bytes(path, limit),
             FileSource::Recorded(record) => {
