@@ -2,6 +2,7 @@
 
 use super::options::installed_folders;
 use anyhow::{Result, bail};
+use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -44,11 +45,10 @@ pub fn find(name: &str) -> Result<Description> {
     }
     let folders = installed_folders();
     let packages: Vec<PathBuf> = folders.iter().flat_map(|folder| packages(folder)).collect();
-    let mut found: Vec<Description> = packages
-        .iter()
-        .filter_map(|package| in_package(package, name))
-        .collect();
-    found.dedup();
+    // Of packages with the same name the first counts, as in ROS.
+    let mut names = BTreeSet::new();
+    let first = packages.iter().filter(|package| names.insert(package.file_name()));
+    let mut found: Vec<Description> = first.filter_map(|package| in_package(package, name)).collect();
     match (found.len(), found.pop()) {
         (1, Some(description)) => Ok(description),
         (_, None) => bail!(
