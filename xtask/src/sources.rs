@@ -2,9 +2,11 @@
 
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{bundle, root, target};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// Fails unless a folder holds, byte for byte, every file of the checkout that the extension was compiled from.
+/// Fails unless a folder holds, byte for byte, every file of the checkout that the extension was compiled from. Gives each the checkout's
+/// time of change, from which cargo tells what to build again: a package states one time for all.
 pub fn all_in(folder: &Path) -> Result<()> {
     let account = target().join("release").join(account());
     let text = std::fs::read_to_string(&account).with_context(|| account.display().to_string())?;
@@ -25,6 +27,11 @@ pub fn all_in(folder: &Path) -> Result<()> {
         if read(folder)? != read(&root())? {
             bail!("{} is another file in {}", file.display(), folder.display());
         }
+        let changed = root().join(file).metadata()?.modified()?;
+        File::options()
+            .write(true)
+            .open(folder.join(file))?
+            .set_modified(changed)?;
     }
     println!("    {} source files are the checkout's", files.len());
     Ok(())
