@@ -48,18 +48,17 @@ pub fn find(name: &str) -> Result<Description> {
     // Of packages with the same name the first counts, as in ROS.
     let mut names = BTreeSet::new();
     let first = packages.iter().filter(|package| names.insert(package.file_name()));
-    let mut found: Vec<Description> = first.filter_map(|package| in_package(package, name)).collect();
-    match (found.len(), found.pop()) {
-        (1, Some(description)) => Ok(description),
-        (_, None) => bail!(
+    let found: Vec<Description> = first.filter_map(|package| in_package(package, name)).collect();
+    match &found[..] {
+        [one] => Ok(one.clone()),
+        [] => bail!(
             "--arm {name}: no package has urdf/{name}.urdf, urdf/{name}.xacro or the same in robots/; looked in {} packages of \
              ROS_PACKAGE_PATH and AMENT_PREFIX_PATH{}. Install its ROS description, or give the file: '--urdf ARM.urdf'",
             packages.len(),
             if folders.is_empty() { ", which are not set" } else { "" }
         ),
-        (_, Some(last)) => {
-            found.push(last);
-            let files: Vec<_> = found.iter().map(|one| one.file.display().to_string()).collect();
+        several => {
+            let files: Vec<_> = several.iter().map(|one| one.file.display().to_string()).collect();
             bail!(
                 "--arm {name}: several descriptions: {}; give one as '--urdf FILE'",
                 files.join(", ")

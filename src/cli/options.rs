@@ -149,20 +149,7 @@ impl Options {
         }
         scenario.files = self.files.clone();
         if self.urdf.is_some() {
-            let RobotSection {
-                urdf,
-                srdf,
-                package_path,
-                visual_shapes,
-                ..
-            } = self.robot_section();
-            scenario.robot = RobotSection {
-                urdf,
-                srdf,
-                package_path,
-                visual_shapes,
-                ..scenario.robot
-            };
+            scenario.robot = self.robot_section(scenario.robot);
             self.leave_home_open(&mut scenario)?;
         }
         if let Some(link) = &self.tool_mount {
@@ -173,14 +160,14 @@ impl Options {
         Ok(scenario)
     }
 
-    /// The arm of the options, as the section of a scenario states it.
-    pub fn robot_section(&self) -> RobotSection {
+    /// The section with the arm of the options in place of its own.
+    pub fn robot_section(&self, section: RobotSection) -> RobotSection {
         RobotSection {
             urdf: self.urdf.clone(),
             srdf: self.srdf.clone(),
             package_path: self.package_path.clone(),
             visual_shapes: self.visual_shapes,
-            ..RobotSection::default()
+            ..section
         }
     }
 

@@ -5,7 +5,7 @@ use super::options::Options;
 use anyhow::{Error, Result, anyhow, bail, ensure};
 use platewash::certificate::prove_with;
 use platewash::kinematics::urdf::file;
-use platewash::scenario::{Note, load_arm};
+use platewash::scenario::{Note, RobotSection, load_arm};
 use platewash::workcell::workcell::ArmId;
 use platewash::{Certificate, Failure, Plan, RobotModel};
 use std::fmt::Display;
@@ -85,7 +85,7 @@ pub fn refused(path: &Path, error: impl Display) -> Error {
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
 fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> Result<Arc<RobotModel>> {
     if options.urdf.is_some() {
-        let arm = load_arm(&options.robot_section(), &options.files)?;
+        let arm = load_arm(&options.robot_section(RobotSection::default()), &options.files)?;
         refuse_other(wanted, &ArmId::of(&arm))?;
         return Ok(Arc::new(arm));
     }

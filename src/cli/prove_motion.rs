@@ -113,7 +113,8 @@ fn fixed_joint(text: &str) -> Result<(String, f64)> {
 
 /// The arm with the joints that do not move.
 fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
-    let arm = load_arm_with_fixed(&options.robot_section(), &options.files, fixed).map_err(|error| {
+    let section = options.robot_section(RobotSection::default());
+    let arm = load_arm_with_fixed(&section, &options.files, fixed).map_err(|error| {
         use UrdfError::{AxisCount, Branch, JointKind, Mimic};
         let could_be_fixed = matches!(
             &error,

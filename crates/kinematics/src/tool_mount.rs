@@ -224,32 +224,29 @@ impl RobotModel {
 
     /// Returns the link behind joint 6 whose origin is where its shape ends.
     fn last_link_as_mount(&self) -> Result<ToolMount<'_>, ToolFrameError> {
+        let refused = |why: String| {
+            self.no_mount(format!(
+                "has no link with a usual name for a tool behind joint 6, and {why}"
+            ))
+        };
         let link = self.links_behind_joint_6().next();
-        let found = link.and_then(|link| Some((link, self.outward_axis(link)?)));
-        let Some((link, axis)) = found else {
-            let reason = "has no link with a usual name for a tool behind joint 6, and no axis of its last link leads out along axis 6";
-            return Err(self.no_mount(reason.to_owned()));
+        let Some((link, axis)) = link.and_then(|link| Some((link, self.outward_axis(link)?))) else {
+            return Err(refused("no axis of its last link leads out along axis 6".to_owned()));
+        };
+        let name = &link.name;
+        let Some([low, high]) = self.extent_along_6() else {
+            return Err(refused(format!("no shape that tells where link '{name}' ends")));
         };
         let sense = along(link, axis).z.signum();
-        let end_m = self
-            .extent_along_6()
-            .map(|[low, high]| if sense > 0.0 { high } else { -low });
-        let origin_m = sense * link.frame.on_body().translation.z;
-        match end_m {
-            Some(end_m) if (end_m - origin_m).abs() <= FACE_M => Ok(ToolMount {
-                link: &link.name,
-                axis,
-            }),
-            Some(end_m) => Err(self.no_mount(format!(
-                "has no link with a usual name for a tool behind joint 6, and the shape of link '{}' ends {:.1} mm from its origin",
-                link.name,
-                1e3 * (end_m - origin_m)
-            ))),
-            None => Err(self.no_mount(format!(
-                "has no link with a usual name for a tool behind joint 6, and no shape that tells where link '{}' ends",
-                link.name
-            ))),
+        let end_m = if sense > 0.0 { high } else { -low };
+        let beyond_m = end_m - sense * link.frame.on_body().translation.z;
+        if beyond_m.abs() > FACE_M {
+            let beyond_mm = 1e3 * beyond_m;
+            return Err(refused(format!(
+                "the shape of link '{name}' ends {beyond_mm:.1} mm from its origin"
+            )));
         }
+        Ok(ToolMount { link: name, axis })
     }
 
     /// Returns the axis of a link behind joint 6 that lies along axis 6 and leads away from axis 5, if one does.
