@@ -360,13 +360,7 @@ fn assumptions(
         "The motion begins at the first point; how the arm gets there is not judged.".to_owned(),
         "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull.".to_owned(),
     ];
-    let fixed: Vec<_> = arm
-        .fixed_joints()
-        .iter()
-        .chain(&motion.fixed)
-        .collect::<BTreeMap<_, _>>()
-        .into_iter()
-        .collect();
+    let fixed: BTreeMap<_, _> = arm.fixed_joints().iter().chain(&motion.fixed).collect();
     if !fixed.is_empty() {
         let words: Vec<_> = fixed.iter().map(|(name, at)| format!("{name} at {at}")).collect();
         all.push(format!("These joints do not move: {}.", words.join(", ")));

@@ -60,8 +60,9 @@ fn edited_plans_are_refused_by_the_requirement_that_is_broken() {
     assert!(complaints.is_empty(), "{}: {complaints:#?}", complaints.len());
     let refused = outcomes.iter().filter(|o| !o.refused.is_empty()).count();
     let passed = outcomes.len() - refused;
+    let share = if is_thorough() { 1 } else { 4 };
     assert!(
-        2 * refused > outcomes.len() && 4 * passed > outcomes.len(),
+        share * refused >= 250 && share * passed >= 120,
         "{refused} refused, {passed} passed"
     );
     // Every requirement was broken at least once, and those about numbers were seen broken.

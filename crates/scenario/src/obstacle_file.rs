@@ -68,13 +68,14 @@ impl ObstacleText {
         if is_scene(&self.name) {
             let all = planning_scene::read(&self.name, &self.text).map_err(of_bodies)?;
             let nothing = Scenario::default();
-            let taken = all
-                .iter()
-                .find_map(|o| Some((&o.name, nothing.owner(&o.name, arm, tool)?)));
-            return taken.map_or(Ok(all.clone()), |(name, of)| {
-                let detail = format!("object '{name}' has the name of {of}; give it another one");
-                Err(refused(&self.name, None, Problem::Detail { detail }))
+            let taken = all.iter().find_map(|object| {
+                let (name, of) = (&object.name, nothing.owner(&object.name, arm, tool)?);
+                Some(format!("object '{name}' has the name of {of}; give it another one"))
             });
+            return match taken {
+                None => Ok(all),
+                Some(detail) => Err(refused(&self.name, None, Problem::Detail { detail })),
+            };
         }
         let (scenario, table) = self.sections(
             &OBSTACLES,
