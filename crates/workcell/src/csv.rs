@@ -9,7 +9,7 @@ use crate::trajectory::{PlanSegment, Trajectory};
 use nalgebra::Vector3;
 use platewash_kinematics::words::rounded_up;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 /// Greatest number of rows.
 pub const MAX_ROWS: usize = 1_000_000;
@@ -156,14 +156,30 @@ pub fn write_row(
     motion: [&JointVector; 3],
     tip: &Vector3<f64>,
 ) -> fmt::Result {
+    write_number(f, t_s)?;
     match segment {
-        Some(segment) => write!(f, "{t_s},{},{}", segment.kind.name(), segment.plate)?,
-        None => write!(f, "{t_s},,")?,
+        Some(segment) => write!(f, ",{},{}", segment.kind.name(), segment.plate)?,
+        None => f.write_str(",,")?,
     }
     for joints in motion {
         write_joints(f, joints)?;
     }
-    write!(f, ",{},{},{}", tip.x, tip.y, tip.z)
+    for value in tip {
+        f.write_char(',')?;
+        write_number(f, *value)?;
+    }
+    Ok(())
+}
+
+/// Writes a number as `{}` does, which takes longer: the shortest decimal that reads back exactly, without an exponent.
+fn write_number(f: &mut fmt::Formatter<'_>, value: f64) -> fmt::Result {
+    let has_exponent = value != 0.0 && !(1e-4..1e15).contains(&value.abs());
+    if has_exponent {
+        return write!(f, "{value}");
+    }
+    let mut buffer = zmij::Buffer::new();
+    let text = buffer.format(value);
+    f.write_str(text.strip_suffix(".0").unwrap_or(text))
 }
 
 /// Writes one number per joint, each after a comma.
@@ -171,7 +187,10 @@ pub fn write_row(
 /// # Errors
 /// Errors of the writer.
 pub fn write_joints(f: &mut fmt::Formatter<'_>, joints: &JointVector) -> fmt::Result {
-    joints.iter().try_for_each(|value| write!(f, ",{value}"))
+    joints.iter().try_for_each(|value| {
+        f.write_char(',')?;
+        write_number(f, *value)
+    })
 }
 
 /// Greatest absolute value of a number \[rad, rad/s, rad/s², N·m, s\]. A larger one has another unit, or is no motion.
@@ -266,6 +285,22 @@ mod tests {
             let refused = check_step(duration_s, share * least_step_s(duration_s)).unwrap_err().to_string();
             let suggested = refused.rsplit("at least ").next().and_then(|s| s.strip_suffix(" s")).unwrap();
             prop_assert_eq!(check_step(duration_s, suggested.parse().unwrap()), Ok(()), "{}", refused);
+        }
+    }
+
+    proptest! {
+        /// A number is written as the standard library writes it.
+        #[test]
+        fn numbers_are_plain_and_shortest(bits in any::<u64>(), near in -1000.0..1000.0_f64) {
+            struct Written(f64);
+            impl fmt::Display for Written {
+                fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                    write_number(f, self.0)
+                }
+            }
+            for value in [f64::from_bits(bits), near, near.round(), near * 1e-7, 0.0, -0.0, f64::NAN, f64::INFINITY] {
+                prop_assert_eq!(Written(value).to_string(), value.to_string());
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Estimates for a curve: its time at the limits of washing, and its effect on the bare face.
 
-use crate::pattern::promise::{Margin, Promise};
+use crate::pattern::promise::{Margin, Promise, SampledWash};
 use crate::scene::AxisRule;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
@@ -157,6 +157,86 @@ const STRIDE_M: f64 = 3e-3;
 /// The tilt of the tool that is reckoned with on flat faces, as a share of the cone: the arm tilts it as suits it.
 const LEAN: f64 = 0.8;
 
+/// A curve that may be chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Candidate {
+    curve: WashCurve,
+    /// Lower bound of its time, but for rare curves \[s\]; only the order of candidates depends on it.
+    bound_s: f64,
+}
+
+/// Step of θ between the points from which the time of a curve is bounded \[rad\].
+const COARSE_RAD: f64 = 0.4;
+
+/// Share of the time along a coarse polyline that is a lower bound.
+const COARSE_SHARE: f64 = 0.97;
+
+impl Candidate {
+    /// A curve on a surface, washed as fast as the limits allow \[m/s, m/s²\].
+    pub fn new(curve: WashCurve, surface: &Surface, [speed_m_s, most_m_s2]: [f64; 2]) -> Self {
+        let steps = (curve.end() / COARSE_RAD).ceil();
+        let points = (0..=steps as u32).map(|k| curve.on(surface, curve.end() * f64::from(k) / steps).position);
+        let points: Vec<_> = points.collect();
+        let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let bound_s = COARSE_SHARE * length_m / speed_m_s + speed_m_s / most_m_s2;
+        Self { curve, bound_s }
+    }
+}
+
+/// Candidates with their times, the quickest first. The time of one is computed once its bound is the least that is left.
+#[derive(Debug)]
+pub(crate) struct ByTime<'a> {
+    surface: &'a Surface,
+    limits: [f64; 2],
+    left: Vec<Waiting>,
+}
+
+/// A candidate that is still to come.
+#[derive(Debug)]
+enum Waiting {
+    Bounded(Candidate),
+    Timed(Estimate),
+}
+
+impl Waiting {
+    /// Bound or time \[s\].
+    fn least_s(&self) -> f64 {
+        match self {
+            Self::Bounded(candidate) => candidate.bound_s,
+            Self::Timed(estimate) => estimate.least_s,
+        }
+    }
+}
+
+impl<'a> ByTime<'a> {
+    /// Candidates on a surface, with the greatest speed and acceleration of washing \[m/s, m/s²\].
+    pub fn new(candidates: &[Candidate], surface: &'a Surface, limits: [f64; 2]) -> Self {
+        let left = candidates.iter().copied().map(Waiting::Bounded).collect();
+        Self { surface, limits, left }
+    }
+}
+
+impl Iterator for ByTime<'_> {
+    type Item = Estimate;
+
+    fn next(&mut self) -> Option<Estimate> {
+        loop {
+            let waiting = self.left.iter().enumerate();
+            let (least, _) = waiting.min_by(|(_, a), (_, b)| a.least_s().total_cmp(&b.least_s()))?;
+            match &self.left[least] {
+                Waiting::Bounded(candidate) => {
+                    self.left[least] = Waiting::Timed(Estimate::new(candidate.curve, self.surface, self.limits));
+                }
+                Waiting::Timed(_) => {
+                    if let Waiting::Timed(estimate) = self.left.remove(least) {
+                        return Some(estimate);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// A curve and its time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Estimate {
@@ -188,7 +268,7 @@ impl Estimate {
     pub fn keeps_promise(&self, promise: &Promise, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> bool {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));
-        promise.samples_keep_promise(surface, &self.moments(surface, rule, cone_rad), &Margin::BARE_FACE)
+        SampledWash::new(*promise, *surface, self.moments(surface, rule, cone_rad)).keeps_shares(&Margin::BARE_FACE)
     }
 
     /// The sponge along the curve at the speed of washing, the tool by its rule and leaning as is usual within a cone.

@@ -11,9 +11,9 @@ mod promise;
 mod tests;
 
 pub(crate) use crate::pattern::promise::foundation;
-pub use crate::pattern::promise::{ContactPromise, Margin, Promise, Shortfall};
+pub use crate::pattern::promise::{ContactPromise, Margin, Promise, SampledWash, Shortfall};
 
-use crate::pattern::candidates::{Density, Estimate, candidates};
+use crate::pattern::candidates::{ByTime, Candidate, Density, Estimate, candidates};
 use crate::scene::{AXIS_SHARE, AxisRule};
 use crate::trig::atan2;
 use platewash_workcell::cancel::CancelToken;
@@ -73,8 +73,8 @@ pub struct Patterns {
     rule: AxisRule,
     /// Greatest speed and acceleration of washing \[m/s, m/s²\].
     limits: [f64; 2],
-    /// The shortest first; at least one.
-    candidates: Vec<Estimate>,
+    /// Curves among which is chosen; at least one.
+    candidates: Vec<Candidate>,
     /// True where the job promises something about contact.
     has_contact: bool,
     /// Curves that cover the face more densely.
@@ -93,17 +93,14 @@ impl Patterns {
         let promise = Promise::of(terms, surface);
         let limits = [terms.wash_speed_m_s(), terms.wash_acceleration_m_s2()];
         let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density);
-        let mut all: Vec<Estimate> = curves(Density::Usual)
-            .into_iter()
-            .map(|curve| Estimate::new(curve, surface, limits))
-            .collect();
-        all.sort_by(|a, b| a.least_s.total_cmp(&b.least_s));
+        let usual = curves(Density::Usual).into_iter();
+        let candidates = usual.map(|curve| Candidate::new(curve, surface, limits)).collect();
         let mut patterns = Self {
             surface: *surface,
             promise,
             rule: AxisRule::new(surface, settings.axis_share.unwrap_or(AXIS_SHARE)),
             limits,
-            candidates: all,
+            candidates,
             has_contact: terms.requirements.contact.is_some(),
             dense: curves(Density::Dense),
             cones: cones(terms, settings, surface),
@@ -118,7 +115,7 @@ impl Patterns {
     #[must_use]
     pub fn along(&self, path: &WashPath) -> Self {
         let mut patterns = Self {
-            candidates: vec![Estimate::new(path.curve, &self.surface, self.limits)],
+            candidates: vec![Candidate::new(path.curve, &self.surface, self.limits)],
             dense: Vec::new(),
             cones: vec![path.cone_rad],
             ..self.clone()
@@ -170,25 +167,24 @@ impl Patterns {
         }
         chosen.extend(self.slower(cone_rad, &Margin::BARE_FACE));
         if self.is_chosen() {
-            chosen.extend(
-                self.candidates
-                    .last()
-                    .map(|last| Pattern::candidate(last, cone_rad, 1.0)),
-            );
+            let last = self.by_time().last();
+            chosen.extend(last.map(|last| Pattern::candidate(&last, cone_rad, 1.0)));
         }
         chosen
     }
 
+    /// Candidates, the quickest first.
+    fn by_time(&self) -> ByTime<'_> {
+        ByTime::new(&self.candidates, &self.surface, self.limits)
+    }
+
     /// The shortest of the usual curves that keep the promise at full speed; a stated curve is taken in any case.
     fn usual(&self, cone_rad: f64) -> Vec<Pattern> {
-        let keeps = |estimate: &&Estimate| estimate.keeps_promise(&self.promise, &self.surface, &self.rule, cone_rad);
-        let kept = self
-            .candidates
-            .iter()
-            .take_while(|_| !self.cancel.is_cancelled())
-            .filter(|estimate| !self.is_chosen() || keeps(estimate));
+        let keeps = |estimate: &Estimate| estimate.keeps_promise(&self.promise, &self.surface, &self.rule, cone_rad);
+        let tried = self.by_time().take_while(|_| !self.cancel.is_cancelled());
+        let kept = tried.filter(|estimate| !self.is_chosen() || keeps(estimate));
         kept.take(MOST_OFFERED)
-            .map(|estimate| Pattern::candidate(estimate, cone_rad, 1.0))
+            .map(|estimate| Pattern::candidate(&estimate, cone_rad, 1.0))
             .collect()
     }
 
@@ -200,11 +196,11 @@ impl Patterns {
         }
         let dense = self.dense.iter();
         let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, self.limits));
-        let all = self.candidates.iter().cloned().chain(dense);
+        let all = self.by_time().chain(dense);
         let all = all.take_while(|_| !self.cancel.is_cancelled());
         let kept = all.filter_map(|estimate| {
             let moments = estimate.moments(&self.surface, &self.rule, cone_rad);
-            let share = self.promise.speed_share(&self.surface, &moments, margin, SLOWEST)?;
+            let share = SampledWash::new(self.promise, self.surface, moments).speed_share(margin, SLOWEST)?;
             Some(Pattern::candidate(&estimate, cone_rad, share))
         });
         let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);

@@ -7,7 +7,9 @@ use crate::trig::{acos, sin_cos};
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::distinct_decimals;
-use platewash_workcell::contact::{Columns, ContactSampler, ContactThresholds, Foundation, Level, Moment, SpongePose};
+use platewash_workcell::contact::{
+    Columns, ContactSampler, ContactThresholds, Dwell, Foundation, Level, Moment, SpongePose,
+};
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
@@ -16,6 +18,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
+use std::sync::OnceLock;
 
 /// Number of places of a face that are checked.
 const PLACES: u32 = 2000;
@@ -23,6 +26,9 @@ const PLACES: u32 = 2000;
 /// Number of places that are checked first: where they lack this much of a share, the others are skipped.
 const FIRST: u32 = 250;
 const LACKING: f64 = 8e-3;
+
+/// Stride from one of the first places to the next.
+const STRIDE: u32 = PLACES / FIRST;
 
 /// Number of places that are checked before those, and the stride from one to the next, which spreads them over the face.
 const FEW: u32 = 50;
@@ -165,20 +171,10 @@ impl Promise {
         })
     }
 
-    /// Returns the shortfall of an arm in some configurations along a wash at a constant speed. It is checked in these
-    /// configurations, not between them.
+    /// An arm in some configurations along a wash at a constant speed. It is sampled in these configurations, not between them.
     #[must_use]
-    pub fn shortfall(
-        &self,
-        scene: &Scene<'_>,
-        plate: &Plate,
-        along: &[JointVector],
-        speed_m_s: f64,
-        margin: &Margin,
-    ) -> Option<Shortfall> {
-        let moments = moments(scene, plate, along, speed_m_s);
-        self.overload(&plate.surface, &moments, margin)
-            .or_else(|| self.missing(&plate.surface, &moments, margin))
+    pub fn sampled(&self, scene: &Scene<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f64) -> SampledWash {
+        SampledWash::new(*self, plate.surface, moments(scene, plate, along, speed_m_s))
     }
 
     /// The strain or force of the sponge that exceeds the promise.
@@ -250,32 +246,14 @@ impl Promise {
         )
     }
 
-    /// Checks that the places of a face, one by one over some moments, keep the promise with a margin.
-    pub(crate) fn samples_keep_promise(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
-        !self.first_samples_fail(surface, moments, margin) && self.missing(surface, moments, margin).is_none()
-    }
-
-    /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
-    fn first_samples_fail(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> bool {
-        let wanted = self.wanted_with(margin);
-        let looks = ContactSampler::new(&self.foundation, moments, &wanted);
-        let mut kept = [FIRST; 3];
-        (0..FEW).any(|k| {
-            let here = sample_meets_thresholds(&looks, surface, &wanted, (k * SPREAD % FIRST) * (PLACES / FIRST));
-            for (kept, here) in kept.iter_mut().zip(here) {
-                *kept -= u32::from(!here);
-            }
-            self.short(kept, FIRST, margin, LACKING).is_some()
-        })
-    }
-
-    /// Requirement at a place, with a margin.
-    fn wanted_with(&self, margin: &Margin) -> ContactThresholds {
-        ContactThresholds {
-            time_s: margin.more * self.thresholds.time_s,
-            dose_pa_m: margin.more * self.thresholds.dose_pa_m,
-            ..self.thresholds
-        }
+    /// Checks that a place is pressed deep enough, long enough, and with enough of a dose, with a margin.
+    fn keeps(&self, dwell: &Dwell, margin: &Margin) -> [bool; 3] {
+        let wanted = &self.thresholds;
+        [
+            dwell.compression_m >= wanted.compression_m,
+            dwell.time_s >= margin.more * wanted.time_s,
+            dwell.dose_pa_m >= margin.more * wanted.dose_pa_m,
+        ]
     }
 
     /// Returns the first promised share that is not kept: `kept` of `of` sampled points keep each promise, and a share of `lacking` may
@@ -297,46 +275,108 @@ impl Promise {
             })
         })
     }
+}
 
-    /// Greatest share of the speed, from `least` to 1, at which the places of a face keep the promise with a margin. A lower
-    /// speed makes the contact longer; depth and dose stay the same.
-    pub(crate) fn speed_share(
-        &self,
-        surface: &Surface,
-        moments: &[Moment],
-        margin: &Margin,
-        least: f64,
-    ) -> Option<f64> {
-        let mut slowest = *self;
-        slowest.thresholds.time_s *= least;
-        if !slowest.samples_keep_promise(surface, moments, margin) {
-            return None;
+/// A wash as moments, and the amounts that places of the face get from it, which are computed when they are first asked for.
+#[derive(Debug)]
+pub struct SampledWash {
+    promise: Promise,
+    surface: Surface,
+    moments: Vec<Moment>,
+    /// Amounts at the first places, and at all of them.
+    first: OnceLock<Vec<Dwell>>,
+    all: OnceLock<Vec<Dwell>>,
+}
+
+impl SampledWash {
+    /// A wash of a face that is to keep a promise.
+    pub(crate) fn new(promise: Promise, surface: Surface, moments: Vec<Moment>) -> Self {
+        Self {
+            promise,
+            surface,
+            moments,
+            first: OnceLock::new(),
+            all: OnceLock::new(),
         }
-        let looks = ContactSampler::new(&self.foundation, moments, &self.thresholds);
-        let places = (0..PLACES).into_par_iter();
-        let mut times_s: Vec<f64> = places.map(|k| looks.at(&place(surface, k)).time_s).collect();
-        times_s.sort_by(|a, b| b.total_cmp(a));
-        let [_, share, _] = self.shares;
-        let needed = f64::from(PLACES) * margin.required(share);
-        let time_s = times_s.get((needed.ceil() as usize).saturating_sub(1))?;
-        Some((time_s / (margin.more * self.thresholds.time_s)).clamp(least, 1.0))
     }
 
-    /// The share of a face that is too small, checked place by place over some moments.
-    fn missing(&self, surface: &Surface, moments: &[Moment], margin: &Margin) -> Option<Shortfall> {
-        let wanted = self.wanted_with(margin);
-        let looks = ContactSampler::new(&self.foundation, moments, &wanted);
-        let at = |k: u32| sample_meets_thresholds(&looks, surface, &wanted, k).map(u32::from);
-        let add = |a: [u32; 3], b: [u32; 3]| std::array::from_fn(|i| a[i] + b[i]);
-        // Every eighth seed is spread as evenly.
-        let stride = PLACES / FIRST;
-        let first = (0..FIRST)
-            .into_par_iter()
-            .map(|k| at(k * stride))
-            .reduce(|| [0; 3], add);
-        let all = || (0..PLACES).into_par_iter().map(at).reduce(|| [0; 3], add);
-        self.short(first, FIRST, margin, LACKING)
-            .or_else(|| self.short(all(), PLACES, margin, 0.0))
+    /// Returns the shortfall of the wash against its promise with a margin.
+    #[must_use]
+    pub fn shortfall(&self, margin: &Margin) -> Option<Shortfall> {
+        let overload = self.promise.overload(&self.surface, &self.moments, margin);
+        overload.or_else(|| self.missing(margin))
+    }
+
+    /// Checks that the places of the face keep the promise with a margin.
+    pub(crate) fn keeps_shares(&self, margin: &Margin) -> bool {
+        !self.first_samples_fail(margin) && self.missing(margin).is_none()
+    }
+
+    /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
+    fn first_samples_fail(&self, margin: &Margin) -> bool {
+        let sampler = self.sampler();
+        let mut kept = [FIRST; 3];
+        (0..FEW).any(|k| {
+            let place = place(&self.surface, (k * SPREAD % FIRST) * STRIDE);
+            for (kept, keeps) in kept.iter_mut().zip(self.promise.keeps(&sampler.at(&place), margin)) {
+                *kept -= u32::from(!keeps);
+            }
+            self.promise.short(kept, FIRST, margin, LACKING).is_some()
+        })
+    }
+
+    /// The share of the face that is too small, checked place by place.
+    fn missing(&self, margin: &Margin) -> Option<Shortfall> {
+        let counted = |dwells: &[Dwell]| {
+            dwells.iter().fold([0; 3], |kept: [u32; 3], dwell| {
+                let keeps = self.promise.keeps(dwell, margin);
+                std::array::from_fn(|i| kept[i] + u32::from(keeps[i]))
+            })
+        };
+        let short = self.promise.short(counted(self.first()), FIRST, margin, LACKING);
+        short.or_else(|| self.promise.short(counted(self.all()), PLACES, margin, 0.0))
+    }
+
+    /// Greatest share of the speed, from `least` to 1, at which the places of the face keep the promise with a margin. A lower
+    /// speed makes the contact longer; depth and dose stay the same.
+    pub(crate) fn speed_share(&mut self, margin: &Margin, least: f64) -> Option<f64> {
+        let ContactThresholds { time_s, .. } = self.promise.thresholds;
+        self.promise.thresholds.time_s = least * time_s;
+        let keeps = self.keeps_shares(margin);
+        self.promise.thresholds.time_s = time_s;
+        if !keeps {
+            return None;
+        }
+        let mut times_s: Vec<f64> = self.all().iter().map(|dwell| dwell.time_s).collect();
+        times_s.sort_by(|a, b| b.total_cmp(a));
+        let [_, share, _] = self.promise.shares;
+        let needed = f64::from(PLACES) * margin.required(share);
+        let longest_s = times_s.get((needed.ceil() as usize).saturating_sub(1))?;
+        Some((longest_s / (margin.more * time_s)).clamp(least, 1.0))
+    }
+
+    /// Amounts at every eighth place: these seeds of a sunflower are spread as evenly as all.
+    fn first(&self) -> &[Dwell] {
+        self.first.get_or_init(|| {
+            let (sampler, places) = (self.sampler(), (0..FIRST).into_par_iter());
+            places.map(|k| sampler.at(&place(&self.surface, k * STRIDE))).collect()
+        })
+    }
+
+    /// Amounts at all places.
+    fn all(&self) -> &[Dwell] {
+        self.all.get_or_init(|| {
+            let (first, sampler) = (self.first(), self.sampler());
+            let at = |k: u32| match k % STRIDE {
+                0 => first[(k / STRIDE) as usize],
+                _ => sampler.at(&place(&self.surface, k)),
+            };
+            (0..PLACES).into_par_iter().map(at).collect()
+        })
+    }
+
+    fn sampler(&self) -> ContactSampler<'_> {
+        ContactSampler::new(&self.promise.foundation, &self.moments, &self.promise.thresholds)
     }
 }
 
@@ -363,21 +403,6 @@ fn moments(scene: &Scene<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f
 /// The foundation of a sponge.
 pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
     Foundation::stiff(sponge, sponge.stiffness_pa.unwrap_or([1.0; 2]))
-}
-
-/// Checks that the k-th place is pressed deep enough, long enough, and with enough of a dose.
-fn sample_meets_thresholds(
-    sampler: &ContactSampler<'_>,
-    surface: &Surface,
-    thresholds: &ContactThresholds,
-    k: u32,
-) -> [bool; 3] {
-    let dwell = sampler.at(&place(surface, k));
-    [
-        dwell.compression_m >= thresholds.compression_m,
-        dwell.time_s >= thresholds.time_s,
-        dwell.dose_pa_m >= thresholds.dose_pa_m,
-    ]
 }
 
 /// The k-th place: spread like the seeds of a sunflower, evenly by the area seen from above.

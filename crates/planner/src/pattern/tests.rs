@@ -186,7 +186,10 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                     .map(|(_, q)| *q)
                     .collect();
                 let promise = Promise::of(job.terms(), &plate.surface);
-                promise.shortfall(&scene, plate, &along, 0.25, &Margin::ARM).is_none()
+                promise
+                    .sampled(&scene, plate, &along, 0.25)
+                    .shortfall(&Margin::ARM)
+                    .is_none()
             })
     };
     assert!(pressed(&job));

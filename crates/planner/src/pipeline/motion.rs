@@ -132,8 +132,9 @@ impl Pipeline<'_> {
     }
 }
 
-/// Looks into every piece of the motion.
+/// Looks into a piece of the motion, and into one that is far from the limit.
 const LOOKS: u32 = 16;
+const FEW_LOOKS: u32 = 2;
 
 /// Largest tilt that counts as zero within rounding \[rad\].
 const ROUNDING_RAD: f64 = 1e-8;
@@ -159,15 +160,26 @@ impl Pipeline<'_> {
             };
             let from = times.partition_point(|t| *t < segment.t_start_s);
             let to = times.partition_point(|t| *t < segment.t_end_s);
+            let sine = |at: f64| {
+                let tip = scene.robot.fk(&whole.motion.at(at)?.q).rigid(&scene.tip);
+                Some(tip.rotation.column(2).cross(&face(&tip.translation)).norm())
+            };
             for ends in times[from..=to.min(times.len() - 1)].windows(2) {
-                for k in 0..=LOOKS {
-                    let at = ends[0] + (ends[1] - ends[0]) * (f64::from(k) / f64::from(LOOKS));
-                    let Some(state) = whole.motion.at(at) else { continue };
-                    let tip = scene.robot.fk(&state.q).rigid(&scene.tip);
-                    let sine = tip.rotation.column(2).cross(&face(&tip.translation)).norm();
-                    if sine > worst.map_or(most, |(sine, ..)| sine) {
-                        worst = Some((sine, segment.kind, segment.plate));
-                    }
+                // The least and the greatest sine at some looks.
+                let range = |looks: u32| {
+                    let at = |k: u32| ends[0] + (ends[1] - ends[0]) * (f64::from(k) / f64::from(looks));
+                    let sines = (0..=looks).filter_map(|k| sine(at(k)));
+                    sines.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], sine| {
+                        [least.min(sine), most.max(sine)]
+                    })
+                };
+                let [low, high] = range(FEW_LOOKS);
+                if high + (high - low) <= most {
+                    continue;
+                }
+                let [_, high] = range(LOOKS);
+                if high > worst.map_or(most, |(sine, ..)| sine) {
+                    worst = Some((high, segment.kind, segment.plate));
                 }
             }
         }

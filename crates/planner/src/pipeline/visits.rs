@@ -4,7 +4,7 @@
 
 use crate::error::PlanError;
 use crate::infeasible::{PlaceSearch, UnwashablePlate};
-use crate::pattern::{Margin, Promise, Shortfall};
+use crate::pattern::{Margin, Promise, SampledWash};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{Turn, Visit, turned_as, wash_path};
@@ -124,12 +124,14 @@ impl Pipeline<'_> {
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
         let mut offered = patterns.first().iter().copied().chain(patterns.wider_patterns());
         let mut denser = patterns.denser();
-        // True where the washing found lacks a little of the margin, once that is checked.
+        // Samples of the washing found, where the job promises contact.
+        let mut samples: Option<SampledWash> = None;
+        // True where it lacks a little of the margin, once that is checked.
         let mut lacks = None;
         loop {
             let Some(pattern) = offered.next().or_else(|| {
-                let turn = found.as_ref().ok()?;
-                let lacks = lacks.get_or_insert_with(|| self.shortfall(scene, turn, &Margin::CLOSE).is_some());
+                let samples = samples.as_ref()?;
+                let lacks = lacks.get_or_insert_with(|| samples.shortfall(&Margin::CLOSE).is_some());
                 lacks.then(|| denser.next())?
             }) else {
                 return found;
@@ -151,27 +153,29 @@ impl Pipeline<'_> {
                         speed_m_s,
                         shortfall: None,
                     };
-                    if self.shortfall(scene, &turn, &Margin::ARM).is_none() {
+                    let sampled = self.sampled(scene, &turn);
+                    let shortfall = |margin| sampled.as_ref().and_then(|sampled| sampled.shortfall(margin));
+                    if shortfall(&Margin::ARM).is_none() {
                         return Ok(turn);
                     }
-                    turn.shortfall = self.shortfall(scene, &turn, &Margin::NONE);
+                    turn.shortfall = shortfall(&Margin::NONE);
                     let is_better = found
                         .as_ref()
                         .map_or(true, |found| found.shortfall.is_some() && turn.shortfall.is_none());
                     if is_better {
-                        (found, lacks) = (Ok(turn), None);
+                        (found, samples, lacks) = (Ok(turn), sampled, None);
                     }
                 }
             }
         }
     }
 
-    /// Returns the shortfall of a plate's washing against the promise about contact, checked at its configurations.
-    fn shortfall(&self, scene: &Scene<'_>, turn: &Turn, margin: &Margin) -> Option<Shortfall> {
+    /// Samples of a plate's washing at its configurations; `None` without a promise about contact.
+    fn sampled(&self, scene: &Scene<'_>, turn: &Turn) -> Option<SampledWash> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
         let promise = Promise::of(self.terms, &plate.surface);
-        promise.shortfall(scene, plate, &turn.washing.q, turn.speed_m_s, margin)
+        Some(promise.sampled(scene, plate, &turn.washing.q, turn.speed_m_s))
     }
 
     /// Refuses a washing with a chosen curve if no plan of it could be proved; the certificate judges stated curves.

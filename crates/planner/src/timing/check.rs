@@ -4,7 +4,7 @@
 //! straight line between its values by at most `τ²/8 · sup |second derivative|`, τ the step, so that the larger norm at
 //! the two and this term bound it. Steps are halved until the term is small, or the bound keeps the limit.
 
-use crate::timing::grid::{Grid, Magnitudes, TipModel};
+use crate::timing::grid::{Grid, Magnitudes, TipModel, TipRates};
 use crate::timing::hermite::Piece;
 use crate::timing::{MotionLimits, TipLimits};
 use platewash_kinematics::JointVector;
@@ -42,8 +42,8 @@ impl Demand {
     }
 }
 
-/// The demand of one piece.
-pub(crate) fn demand(piece: &Piece, grid: &Grid, limits: &MotionLimits) -> Demand {
+/// The demand of piece k of a grid.
+pub(crate) fn demand(k: usize, piece: &Piece, grid: &Grid, limits: &MotionLimits) -> Demand {
     let (speed, acceleration) = (piece.most_speed(), piece.most_acceleration());
     let share = |value: &JointVector, limit: &JointVector| value.component_div(limit).max();
     let mut demand = Demand {
@@ -57,21 +57,28 @@ pub(crate) fn demand(piece: &Piece, grid: &Grid, limits: &MotionLimits) -> Deman
             acceleration,
             jerk: piece.jerk().abs(),
         };
-        let [v, a] = tip_demand(piece, model, &magnitudes, tip);
+        let start = grid.knots()[k].tip;
+        let [v, a] = tip_demand(piece, (model, start), &magnitudes, tip);
         demand.speed = demand.speed.max(v);
         demand.tip = a;
     }
     demand
 }
 
-/// Speed and acceleration of the tip over their limits.
-fn tip_demand(piece: &Piece, model: &TipModel, magnitudes: &Magnitudes, limits: &TipLimits) -> [f64; 2] {
+/// Speed and acceleration of the tip over their limits; `start` has its rates where the piece starts, if they are known.
+fn tip_demand(
+    piece: &Piece,
+    (model, start): (&TipModel, Option<TipRates>),
+    magnitudes: &Magnitudes,
+    limits: &TipLimits,
+) -> [f64; 2] {
     let limits = [limits.speed_m_s, limits.acceleration_m_s2];
     let rates = model.higher_rates(magnitudes);
     let between = [rates.third / limits[0], rates.fourth / limits[1]].map(|rate| 0.125 * piece.h * piece.h * rate);
     let look = |share: f64| {
         let [q, qd, qdd] = piece.at(share * piece.h);
-        let tip = model.rates(&q, &qd);
+        let known = start.filter(|_| share == 0.0);
+        let tip = known.map_or_else(|| model.rates(&q, &qd), |known| known.moving(&qd));
         [
             tip.velocity(&qd).norm() / limits[0],
             tip.acceleration(&qdd).norm() / limits[1],
@@ -121,7 +128,7 @@ mod tests {
                 tip: Some(TipLimits { speed_m_s: 0.5, acceleration_m_s2: 8.0 }),
             };
             let piece = Piece::new(h, [&q, &(q + step)], v);
-            let demand = demand(&piece, &grid, &limits);
+            let demand = demand(0, &piece, &grid, &limits);
             let mut seen = [0.0f64; 4];
             for k in 0..=500 {
                 let [q, qd, qdd] = piece.at(h * f64::from(k) / 500.0);

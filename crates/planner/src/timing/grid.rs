@@ -138,6 +138,8 @@ pub(crate) struct TipModel<'a> {
 pub(crate) struct TipRates {
     /// Linear part of the Jacobian \[m\].
     pub jacobian: Matrix3x6<f64>,
+    /// Angular part of the Jacobian: the axes of the joints.
+    axes: Matrix3x6<f64>,
     /// b of the joints' first derivative.
     pub bias: Vector3<f64>,
 }
@@ -175,18 +177,13 @@ impl<'a> TipModel<'a> {
     /// The tip's derivatives at `q` \[rad\] when the joints' first derivative is `first`.
     pub fn rates(&self, q: &JointVector, first: &JointVector) -> TipRates {
         let jacobian = self.robot.fk(q).jacobian(&self.frame, Axes::Base);
-        let mut turning = Vector3::zeros();
-        let mut bias = Vector3::zeros();
-        for k in 0..AXES {
-            let column = jacobian.fixed_view::<3, 1>(0, k).into_owned();
-            let own = jacobian.fixed_view::<3, 1>(3, k) * first[k];
-            bias += (turning * 2.0 + own).cross(&column) * first[k];
-            turning += own;
-        }
-        TipRates {
-            jacobian: jacobian.fixed_rows::<3>(0).into_owned(),
-            bias,
-        }
+        let rows = |first| jacobian.fixed_rows::<3>(first).into_owned();
+        let rates = TipRates {
+            jacobian: rows(0),
+            axes: rows(3),
+            bias: Vector3::zeros(),
+        };
+        rates.moving(first)
     }
 
     /// Bounds on the tip's higher derivatives while the joints move as cubics in time within the magnitudes.
@@ -222,6 +219,18 @@ impl<'a> TipModel<'a> {
 }
 
 impl TipRates {
+    /// The same configuration with another first derivative of the joints.
+    pub fn moving(mut self, first: &JointVector) -> Self {
+        let mut turning = Vector3::zeros();
+        self.bias = Vector3::zeros();
+        for (k, (axis, column)) in self.axes.column_iter().zip(self.jacobian.column_iter()).enumerate() {
+            let own = axis * first[k];
+            self.bias += (turning * 2.0 + own).cross(&column) * first[k];
+            turning += own;
+        }
+        self
+    }
+
     /// Velocity for the joint speeds `qd`.
     pub fn velocity(&self, qd: &JointVector) -> Vector3<f64> {
         self.jacobian * qd

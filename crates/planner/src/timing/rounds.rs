@@ -181,7 +181,7 @@ impl<'a> Rounds<'a> {
     /// Demand of piece k on the limits.
     fn demand(&self, k: usize) -> Demand {
         let piece = piece(k, &self.times, self.grid.knots(), &self.speeds);
-        check::demand(&piece, &self.grid, &self.limits)
+        check::demand(k, &piece, &self.grid, &self.limits)
     }
 
     /// Lowers limits where the motion exceeds them; gives the largest demands.

@@ -7,6 +7,7 @@ use crate::clearance::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
 use crate::workcell::{Obstacle, ObstacleShape};
+use nalgebra::Vector3;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
 
@@ -41,6 +42,42 @@ impl Body {
             Some(tree) => std::slice::from_ref(&tree.whole),
             None => &self.parts,
         }
+    }
+}
+
+/// Sphere that holds a body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ball {
+    /// Index of the arm's body that carries it: 0 for fixed ones.
+    body: usize,
+    /// Centre, in the frame of that body \[m\].
+    centre: Vector3<f64>,
+    /// Radius \[m\]; infinite for a half-space.
+    radius_m: f64,
+}
+
+impl Ball {
+    /// Sphere about the middle of a body's outer parts.
+    pub fn around(body: &Body) -> Self {
+        let centres = || {
+            body.outer()
+                .iter()
+                .map(|part| (part.bounding(), part.frame().on_body().translation))
+        };
+        let count = body.outer().len().max(1) as f64;
+        let centre = centres().map(|(_, centre)| centre).sum::<Vector3<f64>>() / count;
+        let radius_m = centres().map(|(radius_m, at)| radius_m + (at - centre).norm());
+        Self {
+            body: body.outer().first().map_or(0, Part::body),
+            centre,
+            radius_m: radius_m.fold(0.0, f64::max),
+        }
+    }
+
+    /// Centre \[m\], base frame, and radius \[m\].
+    pub fn placed(&self, poses: &BodyPoses) -> (Vector3<f64>, f64) {
+        let RigidTransform { rotation, translation } = &poses.bodies()[self.body];
+        (rotation * self.centre + translation, self.radius_m)
     }
 }
 

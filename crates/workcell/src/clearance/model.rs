@@ -2,7 +2,7 @@
 //!
 //! Errors of building a clearance model.
 
-use crate::clearance::body::{Body, BodyKind, part_pairs, place, plate_body, world};
+use crate::clearance::body::{Ball, Body, BodyKind, part_pairs, place, plate_body, world};
 use crate::clearance::convex::{MOST_CORNERS, MOST_VERTICES};
 use crate::clearance::distance::{Separation, bracketed};
 use crate::clearance::far::{Crowd, Pairs};
@@ -59,6 +59,8 @@ pub struct NearestBodies {
 pub struct ClearanceModel {
     pub(crate) robot: RobotModel,
     pub(crate) bodies: Vec<Body>,
+    /// Spheres that hold the bodies.
+    pub(crate) balls: Vec<Ball>,
     pub(crate) pairs: Vec<(usize, usize)>,
     /// Pairs with bounded obstacles, and below all others.
     pub(crate) crowd: Crowd,
@@ -91,6 +93,7 @@ impl ClearanceModel {
             crowd,
             others,
             robot: robot.clone(),
+            balls: bodies.iter().map(Ball::around).collect(),
             bodies,
             to_base,
             plates: plates.to_vec(),
@@ -111,11 +114,12 @@ impl ClearanceModel {
         for (here, plate) in self.plates.iter_mut().zip(plates) {
             *here = *plate;
         }
-        for body in &mut self.bodies {
+        for (body, ball) in self.bodies.iter_mut().zip(&mut self.balls) {
             if let BodyKind::Plate(index) = body.kind
                 && let Some(plate) = plates.get(index)
             {
                 *body = plate_body(index, &from_base(self.to_base.as_ref(), plate), Some(body));
+                *ball = Ball::around(body);
             }
         }
     }

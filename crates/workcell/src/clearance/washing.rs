@@ -8,8 +8,11 @@
 use crate::clearance::body::{BodyKind, place};
 use crate::clearance::distance::{Separation, bracketed, separation};
 use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest};
+use crate::clearance::motion::ROUNDING_M;
 use crate::clearance::part::PlacedPart;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, JointVector};
+use std::cell::OnceCell;
 
 /// Function that computes a distance.
 type Measure = fn(&PlacedPart<'_>, &PlacedPart<'_>) -> Separation;
@@ -66,21 +69,26 @@ impl ClearanceModel {
         }
     }
 
-    /// Stops at the first pair that is too near, and computes a distance only where boxes and bounding spheres do not decide.
+    /// Stops at the first pair that is too near, and computes a distance only where boxes and bounding spheres do not decide: first those
+    /// of whole bodies, then those of their parts.
     fn all_keep(&self, q: &JointVector, required: f64, counts: impl Fn(usize, usize) -> bool) -> bool {
         let poses = self.robot.fk(q);
         let is_enough = |gap: f64| gap > 0.0 && gap >= required;
-        let mut first = Vec::with_capacity(self.bodies.len());
-        let mut frames = Vec::with_capacity(4 * self.bodies.len());
-        for body in &self.bodies {
-            first.push(frames.len());
-            // Few obstacles are examined, if any.
-            let looked_at = body.outer().iter().filter(|_| body.kind != BodyKind::Obstacle);
-            frames.extend(looked_at.map(|part| part.rigid(&poses)));
-        }
-        let rigid = |body: usize, part: usize| match &self.bodies[body] {
-            stands if stands.kind == BodyKind::Obstacle => stands.outer()[part].rigid(&poses),
-            _ => frames[first[body] + part],
+        let balls: Vec<_> = self.balls.iter().map(|ball| ball.placed(&poses)).collect();
+        let is_apart = |a: usize, b: usize| {
+            let ((here, radius_m), (there, other_m)) = (balls[a], balls[b]);
+            is_enough((there - here).norm() - radius_m - other_m - ROUNDING_M)
+        };
+        let frames: Vec<OnceCell<Vec<RigidTransform>>> = vec![OnceCell::new(); self.bodies.len()];
+        let rigid = |body: usize, part: usize| {
+            let placed = || {
+                self.bodies[body]
+                    .outer()
+                    .iter()
+                    .map(|part| part.rigid(&poses))
+                    .collect()
+            };
+            frames[body].get_or_init(placed)[part]
         };
         let keeps = |(a, b): (usize, usize), (p, r): (usize, usize)| {
             let (part, other) = (&self.bodies[a].outer()[p], &self.bodies[b].outer()[r]);
@@ -90,7 +98,7 @@ impl ClearanceModel {
                 || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
                 || self.parts_keep((a, b), (p, r), &poses, required)
         };
-        let mut counting = self.others.iter().filter(|&&(a, b)| counts(a, b));
+        let mut counting = self.others.iter().filter(|&&(a, b)| !is_apart(a, b) && counts(a, b));
         // Obstacles always count.
         let keeps_from_obstacles = |(a, leaves): &(usize, Vec<bool>)| {
             self.bodies[*a].outer().iter().enumerate().all(|(p, part)| {

@@ -4,6 +4,7 @@
 
 use crate::contact::{Foundation, SpongePose};
 use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Moment of a wash, in the frame of the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +17,14 @@ pub struct Moment {
     pub speed: Vector3<f64>,
     /// Angular velocity ω of the sponge \[rad/s\].
     pub turning: Vector3<f64>,
+}
+
+impl Moment {
+    /// Sliding speed of the sponge over a point \[m/s\].
+    fn slide_m_s(&self, point: &Vector3<f64>) -> f64 {
+        let slide = self.speed + self.turning.cross(&(point - self.pose.tip));
+        (slide - self.pose.axis * slide.dot(&self.pose.axis)).norm()
+    }
 }
 
 /// Upper bounds on the motion of a sponge over a stretch of time.
@@ -87,11 +96,11 @@ pub struct Dwell {
 /// Returns the part of [0, 1] on which the line through two values is not below 0.
 #[must_use]
 pub fn at_least_0([from, to]: [f64; 2]) -> Option<[f64; 2]> {
-    let crossing = from / (from - to);
+    let crossing = || from / (from - to);
     match (from >= 0.0, to >= 0.0) {
         (true, true) => Some([0.0, 1.0]),
-        (true, false) => Some([0.0, crossing]),
-        (false, true) => Some([crossing, 1.0]),
+        (true, false) => Some([0.0, crossing()]),
+        (false, true) => Some([crossing(), 1.0]),
         (false, false) => None,
     }
 }
@@ -110,8 +119,86 @@ pub struct ContactSampler<'a> {
     foundation: &'a Foundation,
     moments: &'a [Moment],
     thresholds: &'a ContactThresholds,
-    /// Longest distance of the tip between two moments \[m\].
-    stride_m: f64,
+    /// One for each moment.
+    prepared: Vec<Prepared>,
+    /// Bundles of the sizes [`BUNDLES`]; the parts of a bundle follow it.
+    bundles: Vec<Bundle>,
+}
+
+/// Sizes of the bundles of moments, each a part of the one before.
+const BUNDLES: [usize; 3] = [64, 16, 4];
+
+/// Amounts of a moment that are the same for all points.
+#[derive(Debug, Clone, Copy)]
+struct Prepared {
+    pose: SpongePose,
+    /// How far the height error moves a point off the axis, and how far it lowers the point along it \[m\].
+    moved_m: [f64; 2],
+    /// Sliding speed, if the sponge does not turn \[m/s\].
+    slide_m_s: Option<f64>,
+}
+
+/// Bound on the poses of some consecutive moments and of their neighbours on either side.
+#[derive(Debug, Clone)]
+struct Bundle {
+    /// Pose near all of them.
+    pose: SpongePose,
+    /// Greatest distance of a tip from that one \[m\].
+    tip_m: f64,
+    /// Greatest distance of an axis from that one; both are unit vectors.
+    axis: f64,
+    /// Moments of a bundle without parts; empty for others.
+    moments: Range<usize>,
+    /// Number of its parts, and of theirs.
+    parts: usize,
+}
+
+/// Enlargement of the bound of a bundle, far above rounding errors \[m\].
+const ROUNDING_M: f64 = 1e-9;
+
+impl Bundle {
+    /// Adds the bundles of a range of moments, and their parts.
+    fn add(all: &mut Vec<Self>, moments: &[Moment], within: Range<usize>, sizes: &[usize]) {
+        let Some((&size, parts)) = sizes.split_first() else {
+            return;
+        };
+        for start in within.clone().step_by(size) {
+            let own = start..(start + size).min(within.end);
+            let place = all.len();
+            all.push(Self::around(moments, &own));
+            Self::add(all, moments, own.clone(), parts);
+            all[place].parts = all.len() - place - 1;
+            if parts.is_empty() {
+                all[place].moments = own;
+            }
+        }
+    }
+
+    /// Bound on some moments, without parts.
+    fn around(moments: &[Moment], own: &Range<usize>) -> Self {
+        let poses = &moments[own.start.saturating_sub(1)..(own.end + 1).min(moments.len())];
+        let pose = poses[poses.len() / 2].pose;
+        let farthest = |of: fn(&SpongePose) -> Vector3<f64>| {
+            let off = poses.iter().map(|moment| (of(&moment.pose) - of(&pose)).norm());
+            off.fold(0.0, f64::max)
+        };
+        Self {
+            pose,
+            tip_m: farthest(|pose| pose.tip) + ROUNDING_M,
+            axis: farthest(|pose| pose.axis),
+            moments: 0..0,
+            parts: 0,
+        }
+    }
+
+    /// Checks that a point is farther than a radius from the axes of all moments: ‖(x − tip) × a‖ changes by no more than the tip moves,
+    /// and by ‖x − tip‖ times as much as the axis moves.
+    fn is_beyond(&self, radius_m: f64, point: &Vector3<f64>) -> bool {
+        let away = point - self.pose.tip;
+        let (along, squared) = (away.dot(&self.pose.axis), away.norm_squared());
+        let reach_m = radius_m + self.tip_m + (squared.sqrt() + self.tip_m) * self.axis;
+        squared - along * along > reach_m * reach_m
+    }
 }
 
 /// State of a point at a moment.
@@ -121,22 +208,29 @@ struct Instant {
     compression_m: f64,
     /// Depth within the sponge's rim \[m\]; negative outside.
     inside_m: f64,
-    /// Sliding speed of the sponge over it \[m/s\].
-    slide_m_s: f64,
 }
 
 impl<'a> ContactSampler<'a> {
     /// Prepares the moments of a wash.
     #[must_use]
     pub fn new(foundation: &'a Foundation, moments: &'a [Moment], thresholds: &'a ContactThresholds) -> Self {
-        let strides = moments
-            .windows(2)
-            .map(|ends| (ends[1].pose.tip - ends[0].pose.tip).norm());
+        let prepared = |moment: &Moment| {
+            let Moment { pose, turning, .. } = *moment;
+            let share = [pose.axis.xy().norm(), pose.axis.z.abs()];
+            Prepared {
+                pose,
+                moved_m: share.map(|share| thresholds.height_error_m * share),
+                slide_m_s: (turning == Vector3::zeros()).then(|| moment.slide_m_s(&pose.tip)),
+            }
+        };
+        let mut bundles = Vec::new();
+        Bundle::add(&mut bundles, moments, 0..moments.len(), &BUNDLES);
         Self {
             foundation,
             moments,
             thresholds,
-            stride_m: strides.fold(1e-9, f64::max),
+            prepared: moments.iter().map(prepared).collect(),
+            bundles,
         }
     }
 
@@ -151,8 +245,10 @@ impl<'a> ContactSampler<'a> {
             if here.inside_m >= 0.0 {
                 dwell.compression_m = dwell.compression_m.max(here.compression_m);
             }
-            if let Some(before) = before {
-                self.add_between(&mut dwell, [before, here]);
+            let ends = before.map(|before| [before, here]);
+            if let Some((ends, shares)) = ends.and_then(|ends| Some((ends, self.in_contact(ends)?))) {
+                let slide_m_s = ends.map(|end| self.slide_m_s(end.index, point));
+                self.add_between(&mut dwell, ends, shares, slide_m_s);
             }
         });
         dwell
@@ -178,59 +274,62 @@ impl<'a> ContactSampler<'a> {
         stays
     }
 
-    /// Visits the moments that are near enough to a point, each with the one before it if that is near enough, too.
+    /// Visits the moments at which a point may be inside the sponge's rim, and their neighbours, each with the one before it if that
+    /// is visited, too.
     fn pass(&self, point: &Vector3<f64>, mut at: impl FnMut(Option<&Instant>, &Instant)) {
-        // One moment more on either side.
-        let reach_m = self.foundation.radius_m + self.foundation.free_height_m + self.stride_m;
-        let mut before: Option<Instant> = None;
-        let mut index = 0;
-        while let Some(moment) = self.moments.get(index) {
-            let far_m = (point - moment.pose.tip).norm();
-            if far_m > reach_m + self.stride_m {
-                // No moment before that one is near enough.
-                index += ((far_m - reach_m) / self.stride_m) as usize;
+        let radius_m = self.foundation.radius_m;
+        let (mut before, mut next): (Option<Instant>, usize) = (None, 0);
+        while let Some(bundle) = self.bundles.get(next) {
+            next += 1;
+            if bundle.is_beyond(radius_m, point) {
+                next += bundle.parts;
                 continue;
             }
-            let here = self.instant(index, moment, point);
-            at(before.as_ref().filter(|before| before.index + 1 == index), &here);
-            before = Some(here);
-            index += 1;
+            let prepared = &self.prepared[bundle.moments.clone()];
+            for (index, moment) in bundle.moments.clone().zip(prepared) {
+                let here = self.instant(index, moment, point);
+                at(before.as_ref().filter(|before| before.index + 1 == index), &here);
+                before = Some(here);
+            }
         }
     }
 
-    fn instant(&self, index: usize, moment: &Moment, point: &Vector3<f64>) -> Instant {
+    fn instant(&self, index: usize, moment: &Prepared, point: &Vector3<f64>) -> Instant {
         let SpongePose { tip, axis } = &moment.pose;
-        let (away, error_m) = (point - tip, self.thresholds.height_error_m);
+        let [aside_m, lower_m] = moment.moved_m;
+        let away = point - tip;
         let along = away.dot(axis);
-        let slide = moment.speed + moment.turning.cross(&away);
-        let aside_m = (away.norm_squared() - along * along).max(0.0).sqrt() + error_m * axis.xy().norm();
+        let aside_m = (away.norm_squared() - along * along).max(0.0).sqrt() + aside_m;
         Instant {
             index,
-            compression_m: self.foundation.compression_m - along - error_m * axis.z.abs(),
+            compression_m: self.foundation.compression_m - along - lower_m,
             inside_m: self.foundation.radius_m - aside_m,
-            slide_m_s: (slide - axis * slide.dot(axis)).norm(),
         }
+    }
+
+    /// Sliding speed of the sponge over a point \[m/s\].
+    fn slide_m_s(&self, index: usize, point: &Vector3<f64>) -> f64 {
+        self.prepared[index]
+            .slide_m_s
+            .unwrap_or_else(|| self.moments[index].slide_m_s(point))
     }
 
     /// Returns the part of the time between two moments in which a point is in contact; `None` if it is not.
     fn in_contact(&self, ends: [&Instant; 2]) -> Option<[f64; 2]> {
+        let inside = at_least_0(ends.map(|end| end.inside_m))?;
         let pressed = ends.map(|end| end.compression_m - self.thresholds.compression_m);
-        let inside = ends.map(|end| end.inside_m);
-        both(at_least_0(pressed)?, at_least_0(inside)?)
+        both(at_least_0(pressed)?, inside)
     }
 
-    /// Adds time and dose between two moments.
-    fn add_between(&self, dwell: &mut Dwell, ends: [&Instant; 2]) {
-        let Some([from, to]) = self.in_contact(ends) else {
-            return;
-        };
+    /// Adds time and dose for the part of the time between two moments that is in contact, with the speeds of sliding at both.
+    fn add_between(&self, dwell: &mut Dwell, ends: [&Instant; 2], [from, to]: [f64; 2], slide_m_s: [f64; 2]) {
         let [first, last] = ends.map(|end| self.moments[end.index].t_s);
         let along_s = (to - from) * (last - first);
         let middle = 0.5 * (from + to);
-        let mean = |of: fn(&Instant) -> f64| of(ends[0]) + (of(ends[1]) - of(ends[0])) * middle;
+        let mean = |[first, last]: [f64; 2]| first + (last - first) * middle;
         let pressure_pa =
-            self.foundation.stiffness_pa[0] / self.foundation.free_height_m * mean(|end| end.compression_m);
+            self.foundation.stiffness_pa[0] / self.foundation.free_height_m * mean(ends.map(|end| end.compression_m));
         dwell.time_s += along_s;
-        dwell.dose_pa_m += pressure_pa * mean(|end| end.slide_m_s) * along_s;
+        dwell.dose_pa_m += pressure_pa * mean(slide_m_s) * along_s;
     }
 }
