@@ -113,11 +113,11 @@ fn one_lane<M: MulAdd>(angle: f64) -> (f64, f64) {
 
     // Quadrant q turns (sin, cos) by q·π/2.
     let (sin, cos) = (sin.to_bits(), cos.to_bits());
-    let odd = quadrant & 1 != 0;
-    let (sin, cos) = (if odd { cos } else { sin }, if odd { sin } else { cos });
+    // Masks instead of branches, and no check for overflow: either would keep the lanes from becoming vectors.
+    let swap = (sin ^ cos) & 0_u64.wrapping_sub(quadrant & 1);
     let sin_sign = (quadrant << 62) & SIGN;
-    let cos_sign = ((quadrant + 1) << 62) & SIGN;
-    (f64::from_bits(sin ^ sin_sign ^ sign), f64::from_bits(cos ^ cos_sign))
+    let cos_sign = (quadrant.wrapping_add(1) << 62) & SIGN;
+    (f64::from_bits(sin ^ swap ^ sin_sign ^ sign), f64::from_bits(cos ^ swap ^ cos_sign))
 }
 
 /// (r, t, n) with angle = n π/2 + r + t, |r| ≤ π/4 and |t| at most half a unit in r's last place; only the last bits
