@@ -28,6 +28,7 @@
 //! | points spread evenly | [`halton`] |
 //! | rotations, folded transforms | [`rotation`] |
 //! | trigonometry, the same on every machine | [`trig`] |
+//! | vectors of four numbers, with the instructions that the processor has | `lanes.rs` |
 //! | SHA-256 of descriptions | [`fingerprint`] |
 //! | numbers in sentences | [`words`] |
 //!
@@ -52,6 +53,7 @@ pub mod geometry;
 pub mod halton;
 pub mod ik;
 pub mod irb120;
+mod lanes;
 pub mod limits;
 pub mod model;
 pub mod rotation;

@@ -81,6 +81,7 @@ impl JointLimits {
     }
 
     /// Returns the nearest configuration inside the limits, joint by joint.
+    #[inline]
     #[must_use]
     pub fn clamp(&self, q: &JointVector) -> JointVector {
         q.sup(&self.lower).inf(&self.upper)

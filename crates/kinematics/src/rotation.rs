@@ -1,6 +1,7 @@
 //! Rotation matrices, rotation vectors and folded rigid transforms.
 
 use crate::Pose;
+use crate::lanes::Vector;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -57,6 +58,65 @@ impl RigidTransform {
     }
 }
 
+/// A [`RigidTransform`] column by column, three lanes each; the fourth lane stays 0.
+#[derive(Clone, Copy)]
+pub(crate) struct Columns<V> {
+    /// Axes of the last frame in the first one.
+    pub axes: [V; 3],
+    /// Its origin \[m\].
+    pub origin: V,
+}
+
+impl<V: Vector> Columns<V> {
+    #[inline(always)]
+    pub fn identity() -> Self {
+        let axes = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+        Self {
+            axes: axes.map(V::from_array),
+            origin: V::splat(0.0),
+        }
+    }
+
+    /// [`RigidTransform::then`], bit for bit.
+    #[inline(always)]
+    pub fn then(&self, next: &RigidTransform) -> Self {
+        let column =
+            |c: [f64; 3]| self.axes[0] * V::splat(c[0]) + self.axes[1] * V::splat(c[1]) + self.axes[2] * V::splat(c[2]);
+        let [x, y, z]: [[f64; 3]; 3] = next.rotation.into();
+        Self {
+            axes: [column(x), column(y), column(z)],
+            origin: column(next.translation.into()) + self.origin,
+        }
+    }
+
+    /// [`RigidTransform::turned_about_z`], bit for bit.
+    #[inline(always)]
+    pub fn turned_about_z(&self, s: f64, c: f64) -> Self {
+        let ([x, y, z], s, c) = (self.axes, V::splat(s), V::splat(c));
+        Self {
+            axes: [x * c + y * s, y * c - x * s, z],
+            origin: self.origin,
+        }
+    }
+
+    /// [`RigidTransform::then`] and [`RigidTransform::turned_about_z`].
+    #[inline(always)]
+    pub fn then_turned(&self, next: &RigidTransform, s: f64, c: f64) -> Self {
+        self.then(next).turned_about_z(s, c)
+    }
+
+    /// Returns the transform in its usual form.
+    #[inline(always)]
+    pub fn rigid(&self) -> RigidTransform {
+        let ([a, b, c, _], [d, e, f, _]) = (self.axes[0].to_array(), self.axes[1].to_array());
+        let ([g, h, i, _], [x, y, z, _]) = (self.axes[2].to_array(), self.origin.to_array());
+        RigidTransform {
+            rotation: Matrix3::new(a, d, g, b, e, h, c, f, i),
+            translation: Vector3::new(x, y, z),
+        }
+    }
+}
+
 impl From<&Pose> for RigidTransform {
     fn from(pose: &Pose) -> Self {
         Self {
@@ -98,16 +158,23 @@ const SMALL: f64 = 0.02;
 /// Exact to rounding everywhere: the angle comes from `atan2(‖v‖, tr R − 1)` with `v` the skew part, which
 /// is accurate near 0; near π, where `v` vanishes, the axis comes from the symmetric part
 /// `(R + Rᵀ)/2 = cos θ I + (1 − cos θ) a aᵀ` and only its sign from `v`.
+#[inline(always)]
 #[must_use]
 pub fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
     // v = 2 sin θ · axis, and tr R − 1 = 2 cos θ.
     let v = Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12);
-    let (two_sin, two_cos) = (v.norm(), r.trace() - 1.0);
+    let (two_sin, two_cos) = (v.norm_squared().sqrt(), r.trace() - 1.0);
     if two_sin < SMALL && two_cos > 0.0 {
         // θ/(2 sin θ) = asin(x)/(2x) with x = sin θ: the next term is below 1e-17.
         let x2 = 0.25 * two_sin * two_sin;
         return v * (0.5 + x2 * (1.0 / 12.0 + x2 * (3.0 / 80.0 + x2 * (5.0 / 224.0))));
     }
+    large_rotation_vector(r, v, two_sin, two_cos)
+}
+
+/// [`rotation_vector`] of larger angles; v = 2 sin θ · axis.
+#[inline(never)]
+fn large_rotation_vector(r: &Matrix3<f64>, v: Vector3<f64>, two_sin: f64, two_cos: f64) -> Vector3<f64> {
     let angle = atan2(two_sin, two_cos);
     if two_cos > -1.9 {
         return v * (angle / two_sin);

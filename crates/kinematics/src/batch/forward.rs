@@ -1,8 +1,8 @@
 //! Forward kinematics of four configurations at once, and the columns of their Jacobians.
 
 use crate::batch::chain::{Bend, Chain, Link};
-use crate::batch::kernel::{LANES, Vector};
-use crate::trig::sin_cos_lanes;
+use crate::lanes::{LANES, Vector};
+use crate::trig::sin_cos_vector;
 use crate::{AXES, JointVector};
 
 /// Frames: columns of the rotation, and the origin \[m\].
@@ -114,28 +114,14 @@ fn start<V: Vector>(chain: &Chain) -> Tips<V> {
     }
 }
 
-/// Sines and cosines of all joint angles `q + o`, two joints at a time.
+/// Sines and cosines of all joint angles `q + o`.
 #[inline(always)]
 fn sines_and_cosines<V: Vector>(chain: &Chain, q: &[V; AXES]) -> [(V, V); AXES] {
     let mut turns = [(V::splat(0.0), V::splat(0.0)); AXES];
-    for i in (0..AXES).step_by(2) {
-        let mut angles = [0.0; 2 * LANES];
-        angles[..LANES].copy_from_slice(&(q[i] + V::splat(chain.offsets[i])).to_array());
-        angles[LANES..].copy_from_slice(&(q[i + 1] + V::splat(chain.offsets[i + 1])).to_array());
-        let (sin, cos) = sin_cos_lanes::<V::Rounding, { 2 * LANES }>(&angles);
-        let [[s, t], [c, d]] = [halves(&sin), halves(&cos)];
-        turns[i] = (s, c);
-        turns[i + 1] = (t, d);
+    for i in 0..AXES {
+        turns[i] = sin_cos_vector(q[i] + V::splat(chain.offsets[i]));
     }
     turns
-}
-
-#[inline(always)]
-fn halves<V: Vector>(v: &[f64; 2 * LANES]) -> [V; 2] {
-    [
-        V::from_array([v[0], v[1], v[2], v[3]]),
-        V::from_array([v[4], v[5], v[6], v[7]]),
-    ]
 }
 
 /// Applies one joint and the transform after it: `Rz(θ) · Trans(t) · Rx(α)`.

@@ -2,11 +2,10 @@
 
 use crate::batch::chain::Chain;
 use crate::batch::forward::{Tips, frames_and_lines, no_lines, vectors};
-use crate::batch::kernel::{Kernel, LANES, Vector};
 use crate::batch::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
-use crate::batch::vector::{Backend, run};
 use crate::batch::{BatchError, CHUNK, same_length};
 use crate::ik::{Damping, IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
+use crate::lanes::{Backend, Kernel, LANES, Vector, run};
 use crate::{AXES, JointVector, Pose};
 use rayon::prelude::*;
 
@@ -102,6 +101,8 @@ struct Chunk<'a> {
 }
 
 impl Kernel for Chunk<'_> {
+    type Output = ();
+
     #[inline(always)]
     fn run<V: Vector>(mut self) {
         let limits = self.solver.robot().limits();

@@ -17,21 +17,18 @@
 //! | the two forward batches | `poses.rs` |
 //! | pose errors and damped steps of four problems | `step.rs` |
 //! | the inverse batch | `inverse.rs` |
-//! | vectors of four, and the only `unsafe` | `vector.rs` |
 
 #![allow(clippy::needless_range_loop)] // a lane's or a joint's number indexes several arrays at once
 
 mod chain;
 mod forward;
 mod inverse;
-mod kernel;
 mod poses;
 mod step;
-mod vector;
 
 pub use crate::batch::inverse::{solve, solve_into};
 pub use crate::batch::poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
-pub use crate::batch::vector::Backend;
+pub use crate::lanes::Backend;
 
 /// Number of configurations per unit of work for the thread pool. It is fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 512;

@@ -2,9 +2,8 @@
 
 use crate::batch::chain::Chain;
 use crate::batch::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
-use crate::batch::kernel::{Kernel, LANES, Vector};
-use crate::batch::vector::{Backend, run};
 use crate::batch::{BatchError, CHUNK, same_length};
+use crate::lanes::{Backend, Kernel, LANES, Vector, run};
 use crate::rotation::RigidTransform;
 use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
 use nalgebra::{Matrix3, Vector3};
@@ -152,6 +151,8 @@ struct Poses<'a> {
 }
 
 impl Kernel for Poses<'_> {
+    type Output = ();
+
     #[inline(always)]
     fn run<V: Vector>(self) {
         let outputs = self.positions.chunks_mut(LANES).zip(self.rotations.chunks_mut(LANES));
@@ -177,6 +178,8 @@ struct Matrices<'a> {
 }
 
 impl Kernel for Matrices<'_> {
+    type Output = ();
+
     #[inline(always)]
     fn run<V: Vector>(self) {
         for (q, matrices) in self.q.chunks(LANES).zip(self.matrices.chunks_mut(LANES)) {
@@ -206,6 +209,8 @@ struct Jacobians<'a> {
 }
 
 impl Kernel for Jacobians<'_> {
+    type Output = ();
+
     #[inline(always)]
     fn run<V: Vector>(self) {
         let mut lines = no_lines::<V>();

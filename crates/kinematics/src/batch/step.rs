@@ -3,7 +3,7 @@
 
 use crate::AXES;
 use crate::batch::forward::{Line, Tips, cross, dot, moment};
-use crate::batch::kernel::Vector;
+use crate::lanes::Vector;
 
 /// Cosine of the error angle (0.5 rad) below which a lane is left to the scalar solver.
 pub(crate) const LEAST_COSINE: f64 = 0.877_582_561_890_372_8;

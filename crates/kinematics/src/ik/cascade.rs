@@ -129,14 +129,15 @@ impl<'a> IkSolver<'a> {
     pub fn solve(&self, target: &Pose, seed: &JointVector) -> Result<IkSolution, IkError> {
         let task = self.task(target)?;
         check_seed(seed)?;
-        let start = task.at(self.robot.limits().clamp(seed));
+        let start = self.robot.limits().clamp(seed);
+        let first = dls::descend_below(COLD, &task, start, &dls::ALL_FREE, &self.settings);
         let mut search = Search {
             task: &task,
-            best: start,
+            best: first.best,
             iterations: 0,
             no_branch: None,
         };
-        let answer = self.search(&mut search, start);
+        let answer = self.search(&mut search, &start, first);
         answer.ok_or_else(|| IkError::NotSolved(self.failure(&search)))
     }
 
@@ -156,13 +157,15 @@ impl<'a> IkSolver<'a> {
         Ok(solutions?)
     }
 
-    /// Runs the stages in order; `None` if all of them fail.
-    fn search(&self, search: &mut Search<'_>, start: Iterate) -> Option<IkSolution> {
-        let cold = Self::is_cold(start.cost);
-        if cold && let Some(answer) = self.try_branches(&start.q, search) {
-            return Some(answer);
+    /// Runs the stages in order, after the first descent from `start`; `None` if all of them fail.
+    fn search(&self, search: &mut Search<'_>, start: &JointVector, mut first: Descent) -> Option<IkSolution> {
+        let cold = first.stop == Stop::Cold;
+        if cold {
+            if let Some(answer) = self.try_branches(start, search) {
+                return Some(answer);
+            }
+            first = dls::descend(search.task, *start, &dls::ALL_FREE, &self.settings);
         }
-        let first = dls::descend(search.task, start, &dls::ALL_FREE, &self.settings);
         if let Some(answer) = self.note(&first, Method::Dls, Start::Seed, search) {
             return Some(answer);
         }
@@ -174,7 +177,7 @@ impl<'a> IkSolver<'a> {
         {
             return Some(answer);
         }
-        if !cold && let Some(answer) = self.try_branches(&start.q, search) {
+        if !cold && let Some(answer) = self.try_branches(start, search) {
             return Some(answer);
         }
         if search.no_branch.is_some() || self.beyond_reach(&search.task.target) {
@@ -190,7 +193,7 @@ impl<'a> IkSolver<'a> {
         let target = AnalyticArm::body_target(&self.frame, &search.task.target)?;
         match arm.nearest(&target, seed, self.robot.limits()) {
             Ok(nearest) => {
-                let from = search.task.at(nearest.q);
+                let from = nearest.q;
                 let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
                 self.note(&descent, Method::Dls, Start::Analytic, search)
             }
@@ -207,7 +210,7 @@ impl<'a> IkSolver<'a> {
         let mut stopped = Vec::new();
         let starts = self.starts.nearest(&search.task.target, self.settings.listed_starts);
         for (k, q) in starts.into_iter().enumerate() {
-            let from = search.task.at(q);
+            let from = q;
             let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
             if let Some(answer) = self.note(&descent, Method::Dls, Start::Listed(k), search) {
                 return Some(answer);
@@ -227,7 +230,7 @@ impl<'a> IkSolver<'a> {
         let RandomRestarts { seed, count } = self.settings.random_restarts?;
         let mut rng = Pcg64::seed_from_u64(seed);
         (0..count).find_map(|k| {
-            let from = search.task.at(self.random_configuration(&mut rng));
+            let from = self.random_configuration(&mut rng);
             let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
             let answer = self.note(&descent, Method::Dls, Start::Random(k), search);
             if answer.is_some() || descent.stop != Stop::ActiveLimit {

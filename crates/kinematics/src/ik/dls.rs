@@ -6,11 +6,14 @@
 //!
 //! The pose error and its Jacobian at one configuration.
 
+#![allow(clippy::needless_range_loop)] // a row's or a joint's number indexes several arrays at once
+
 use crate::ik::settings::IkSettings;
-use crate::model::{Axes, BodyPoses, Frame, Jacobian, manipulability};
-use crate::rotation::{RigidTransform, rotation_vector};
+use crate::lanes::{Kernel, LANES, Vector, run_exact};
+use crate::model::{Axes, Frame, Jacobian, manipulability, turns};
+use crate::rotation::{Columns, RigidTransform, rotation_vector};
 use crate::{AXES, JointVector, RobotModel};
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix3, Vector6};
 
 /// Smallest damping: keeps the normal matrix definite at an exact singularity without slowing convergence.
 pub(crate) const LEAST_DAMPING: f64 = 1e-11;
@@ -29,68 +32,95 @@ pub(crate) type FreeJoints = [bool; AXES];
 pub(crate) const ALL_FREE: FreeJoints = [true; AXES];
 
 /// Descends from `start` (within the limits) moving the free joints only.
-pub(crate) fn descend(task: &Task<'_>, start: Iterate, free: &FreeJoints, settings: &IkSettings) -> Descent {
-    let limits = task.robot.limits();
-    let mut here = start;
-    let mut boost = 1.0;
-    let mut clamped = 0;
-    let mut milestone = here.cost;
-    for iterations in 0..settings.max_iterations {
-        let stopped = |stop| Descent {
+pub(crate) fn descend(task: &Task<'_>, start: JointVector, free: &FreeJoints, settings: &IkSettings) -> Descent {
+    descend_below(f64::INFINITY, task, start, free, settings)
+}
+
+/// The same, unless the squared error at the start is above `coldest`: then the descent stops there.
+pub(crate) fn descend_below(
+    coldest: f64,
+    task: &Task<'_>,
+    start: JointVector,
+    free: &FreeJoints,
+    settings: &IkSettings,
+) -> Descent {
+    run_exact(Descending {
+        coldest,
+        task,
+        start,
+        free,
+        settings,
+    })
+}
+
+/// Descent, compiled for several instruction sets.
+struct Descending<'a> {
+    coldest: f64,
+    task: &'a Task<'a>,
+    start: JointVector,
+    free: &'a FreeJoints,
+    settings: &'a IkSettings,
+}
+
+impl Kernel for Descending<'_> {
+    type Output = Descent;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Descent {
+        let (task, settings, limits) = (self.task, self.settings, self.task.robot.limits());
+        let (mut here, mut lines) = task.evaluate::<V>(self.start);
+        let mut boost = 1.0;
+        let mut clamped = 0;
+        let mut milestone = here.cost;
+        let mut iterations = 0;
+        let stop = loop {
+            if here.cost > self.coldest && iterations == 0 {
+                break Stop::Cold;
+            }
+            if task.solved(&here) {
+                break Stop::Solved;
+            }
+            if iterations >= settings.max_iterations {
+                break Stop::Iterations;
+            }
+            if clamped >= CLAMPED_IN_A_ROW {
+                break Stop::ActiveLimit;
+            }
+            if iterations > 0 && iterations % STAGNATION_WINDOW == 0 {
+                if here.cost > milestone * STAGNATION_RATIO {
+                    break Stop::Stagnation;
+                }
+                milestone = here.cost;
+            }
+            let jacobian = lines.jacobian();
+            let lambda = settings.damping.lambda(here.cost, || jacobian.matrix());
+            let Some(step) = jacobian
+                .only(self.free)
+                .step(&here.error, lambda.max(LEAST_DAMPING) * boost)
+            else {
+                break Stop::Stagnation;
+            };
+            let aim = here.q + bounded(step, settings.step_bound_rad);
+            let (next, next_lines) = task.evaluate::<V>(limits.clamp(&aim));
+            if next.cost < here.cost {
+                clamped = if next.q == aim { 0 } else { clamped + 1 };
+                boost = f64::max(boost * 0.1, 1.0);
+                (here, lines) = (next, next_lines);
+            } else {
+                boost *= 10.0;
+            }
+            iterations += 1;
+        };
+        Descent {
             best: here,
             iterations,
             stop,
-        };
-        if task.solved(&here) {
-            return stopped(Stop::Solved);
-        }
-        if clamped >= CLAMPED_IN_A_ROW {
-            return stopped(Stop::ActiveLimit);
-        }
-        if iterations > 0 && iterations % STAGNATION_WINDOW == 0 {
-            if here.cost > milestone * STAGNATION_RATIO {
-                return stopped(Stop::Stagnation);
-            }
-            milestone = here.cost;
-        }
-        let jacobian = task.jacobian(&here);
-        let lambda = settings.damping.lambda(here.cost, &jacobian).max(LEAST_DAMPING) * boost;
-        let Some(step) = step(&jacobian, &here.error, lambda, free) else {
-            return stopped(Stop::Stagnation);
-        };
-        let aim = here.q + bounded(step, settings.step_bound_rad);
-        let next = task.at(limits.clamp(&aim));
-        if next.cost < here.cost {
-            clamped = if next.q == aim { 0 } else { clamped + 1 };
-            boost = f64::max(boost * 0.1, 1.0);
-            here = next;
-        } else {
-            boost *= 10.0;
         }
     }
-    let stop = if task.solved(&here) {
-        Stop::Solved
-    } else {
-        Stop::Iterations
-    };
-    Descent {
-        best: here,
-        iterations: settings.max_iterations,
-        stop,
-    }
-}
-
-/// Returns the damped step on the free joints; `None` if the normal matrix is not positive definite (NaN).
-fn step(jacobian: &Matrix6<f64>, error: &Vector6<f64>, lambda: f64, free: &FreeJoints) -> Option<JointVector> {
-    let mut jacobian = *jacobian;
-    for (mut column, _) in jacobian.column_iter_mut().zip(free).filter(|(_, free)| !**free) {
-        column.fill(0.0);
-    }
-    let normal = jacobian.tr_mul(&jacobian) + Matrix6::from_diagonal_element(lambda);
-    solve_spd(&normal, &jacobian.tr_mul(error))
 }
 
 /// Returns the step shortened so that no joint moves more than `bound` \[rad\]; its direction is kept.
+#[inline(always)]
 fn bounded(step: JointVector, bound: f64) -> JointVector {
     let largest = step.amax();
     if largest > bound {
@@ -135,14 +165,14 @@ impl Default for Damping {
 }
 
 impl Damping {
-    /// Returns λ at a squared error and a Jacobian.
-    #[inline]
-    pub(crate) fn lambda(&self, squared_error: f64, jacobian: &Jacobian) -> f64 {
+    /// Returns λ at a squared error and a Jacobian, which only some schemes ask for.
+    #[inline(always)]
+    pub(crate) fn lambda(&self, squared_error: f64, jacobian: impl FnOnce() -> Jacobian) -> f64 {
         match *self {
             Self::ErrorProportional { gain } => gain * squared_error,
             Self::Constant { lambda } => lambda,
             Self::NearSingularities { largest, threshold } => {
-                let short = (1.0 - manipulability(jacobian) / threshold).max(0.0);
+                let short = (1.0 - manipulability(&jacobian()) / threshold).max(0.0);
                 largest * short * short
             }
         }
@@ -165,41 +195,41 @@ impl Damping {
 
 const N: usize = 6;
 
-/// Solves `A x = b` for symmetric positive definite `A` (its lower triangle is read); `None` when a pivot is not positive
+/// Solves `A x = b` for symmetric positive definite `A` (column by column; its lower triangle is read); `None` when a pivot is not positive
 /// (an indefinite matrix, or NaN).
 ///
 /// `A = L D Lᵀ` column by column, then two triangular solves (Golub & Van Loan, *Matrix Computations*, §4.1.2). One
 /// division per pivot; the bounds are constants, so that the compiler unrolls everything.
-#[inline]
-pub(crate) fn solve_spd(a: &Matrix6<f64>, b: &Vector6<f64>) -> Option<Vector6<f64>> {
+#[inline(always)]
+fn solve_spd(a: &[[f64; 2 * LANES]; N], b: [f64; N]) -> Option<[f64; N]> {
     let mut l = *a;
     let mut inverse = [0.0; N];
     for j in 0..N {
-        let pivot = l[(j, j)];
+        let pivot = l[j][j];
         // Written so that NaN fails too.
         if pivot.is_nan() || pivot <= 0.0 {
             return None;
         }
         inverse[j] = 1.0 / pivot;
         for i in j + 1..N {
-            let scaled = l[(i, j)] * inverse[j];
+            let scaled = l[j][i] * inverse[j];
             for k in j + 1..=i {
-                l[(i, k)] -= scaled * l[(k, j)];
+                l[k][i] -= scaled * l[j][k];
             }
         }
     }
     // Column j of `l` below the diagonal now holds L times the pivot.
-    let mut x = *b;
+    let mut x = b;
     for j in 0..N {
         let y = x[j] * inverse[j];
         for i in j + 1..N {
-            x[i] -= l[(i, j)] * y;
+            x[i] -= l[j][i] * y;
         }
     }
     for j in (0..N).rev() {
         let mut sum = x[j];
         for i in j + 1..N {
-            sum -= l[(i, j)] * x[i];
+            sum -= l[j][i] * x[i];
         }
         x[j] = sum * inverse[j];
     }
@@ -222,32 +252,60 @@ pub(crate) struct Task<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Iterate {
     pub q: JointVector,
-    bodies: BodyPoses,
     /// Error `e = (p* − p, log(R* Rᵀ))`, metres and radians in base axes.
     pub error: Vector6<f64>,
     /// Squared error `‖e‖²`.
     pub cost: f64,
 }
 
+/// Evaluation of the error, compiled for several instruction sets.
+struct Evaluation<'a> {
+    task: &'a Task<'a>,
+    q: JointVector,
+}
+
+impl Kernel for Evaluation<'_> {
+    type Output = Iterate;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Iterate {
+        self.task.evaluate::<V>(self.q).0
+    }
+}
+
 impl Task<'_> {
     pub fn at(&self, q: JointVector) -> Iterate {
-        let bodies = self.robot.fk(&q);
-        let tip = bodies.rigid(&self.frame);
-        let linear = self.target.translation - tip.translation;
-        let angular = rotation_vector(&(self.target.rotation * tip.rotation.transpose()));
-        let error = Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z);
-        Iterate {
-            q,
-            bodies,
-            error,
-            cost: error.norm_squared(),
-        }
+        run_exact(Evaluation { task: self, q })
+    }
+
+    /// Returns the error at `q` and the lines of the joints.
+    #[inline(always)]
+    fn evaluate<V: Vector>(&self, q: JointVector) -> (Iterate, JointLines<V>) {
+        let (tip, lines) = JointLines::<V>::of(self.robot, &self.frame, &q);
+        let (position, rotation) = (&self.target.translation, self.target.rotation.as_slice());
+        let [x, y, z] = [
+            [rotation[0], rotation[1], rotation[2], 0.0],
+            [rotation[3], rotation[4], rotation[5], 0.0],
+            [rotation[6], rotation[7], rotation[8], 0.0],
+        ];
+        let (x, y, z) = (V::from_array(x), V::from_array(y), V::from_array(z));
+        let linear = (V::from_array([position.x, position.y, position.z, 0.0]) - tip.origin).to_array();
+        let (a, b, c) = (tip.axes[0].to_array(), tip.axes[1].to_array(), tip.axes[2].to_array());
+        // `R* Rᵀ`, column by column.
+        let d = (x * V::splat(a[0]) + y * V::splat(b[0]) + z * V::splat(c[0])).to_array();
+        let e = (x * V::splat(a[1]) + y * V::splat(b[1]) + z * V::splat(c[1])).to_array();
+        let f = (x * V::splat(a[2]) + y * V::splat(b[2]) + z * V::splat(c[2])).to_array();
+        let angular = rotation_vector(&Matrix3::new(d[0], e[0], f[0], d[1], e[1], f[1], d[2], e[2], f[2]));
+        let error = Vector6::new(linear[0], linear[1], linear[2], angular.x, angular.y, angular.z);
+        let cost = error.norm_squared();
+        (Iterate { q, error, cost }, lines)
     }
 
     pub fn jacobian(&self, iterate: &Iterate) -> Jacobian {
-        iterate.bodies.jacobian(&self.frame, Axes::Base)
+        self.robot.fk(&iterate.q).jacobian(&self.frame, Axes::Base)
     }
 
+    #[inline(always)]
     pub fn solved(&self, iterate: &Iterate) -> bool {
         iterate.position_error() <= self.tolerance[0] && iterate.orientation_error() <= self.tolerance[1]
     }
@@ -255,13 +313,133 @@ impl Task<'_> {
 
 impl Iterate {
     /// Distance from the target \[m\].
+    #[inline(always)]
     pub fn position_error(&self) -> f64 {
-        self.error.fixed_rows::<3>(0).norm()
+        self.error.fixed_rows::<3>(0).norm_squared().sqrt()
     }
 
     /// Angle from the target \[rad\].
+    #[inline(always)]
     pub fn orientation_error(&self) -> f64 {
-        self.error.fixed_rows::<3>(3).norm()
+        self.error.fixed_rows::<3>(3).norm_squared().sqrt()
+    }
+}
+
+/// Axes of the joints, a point on each, and the tip that they move \[m\]; zero for joints that do not move it.
+#[derive(Clone, Copy)]
+struct JointLines<V> {
+    axes: [V; AXES],
+    points: [V; AXES],
+    tip: V,
+}
+
+impl<V: Vector> JointLines<V> {
+    /// Returns the pose of `frame` at `q` and the lines of the joints between it and the base.
+    #[inline(always)]
+    fn of(robot: &RobotModel, frame: &Frame, q: &JointVector) -> (Columns<V>, Self) {
+        let (sines, cosines) = turns::<V>(q);
+        let mut body = Columns::<V>::identity();
+        let (mut axes, mut points) = ([V::splat(0.0); AXES], [V::splat(0.0); AXES]);
+        for (i, folded) in robot.folded.iter().enumerate().take(frame.body()) {
+            body = body.then(folded).turned_about_z(sines[i], cosines[i]);
+            (axes[i], points[i]) = (body.axes[2], body.origin);
+        }
+        let tip = body.then(&frame.offset);
+        (
+            tip,
+            Self {
+                axes,
+                points,
+                tip: tip.origin,
+            },
+        )
+    }
+
+    /// Returns the geometric Jacobian in base axes, as [`BodyPoses::jacobian`](crate::BodyPoses::jacobian) does.
+    #[inline(always)]
+    fn jacobian(&self) -> Rows<V> {
+        let zero = V::splat(0.0);
+        let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (self.axes, self.points);
+        let axes = [V::transposed([a, b, c, d]), V::transposed([e, f, zero, zero])];
+        let points = [V::transposed([g, h, i, j]), V::transposed([k, l, zero, zero])];
+        let tip = self.tip.to_array();
+        let mut rows = [[zero; 2]; AXES];
+        for half in 0..2 {
+            let ([x, y, z, _], p) = (axes[half], points[half]);
+            let lever = [
+                V::splat(tip[0]) - p[0],
+                V::splat(tip[1]) - p[1],
+                V::splat(tip[2]) - p[2],
+            ];
+            rows[0][half] = y * lever[2] - z * lever[1];
+            rows[1][half] = z * lever[0] - x * lever[2];
+            rows[2][half] = x * lever[1] - y * lever[0];
+            (rows[3][half], rows[4][half], rows[5][half]) = (x, y, z);
+        }
+        Rows(rows)
+    }
+}
+
+/// Jacobian row by row: four joints in a vector, then two.
+#[derive(Clone, Copy)]
+struct Rows<V>([[V; 2]; AXES]);
+
+impl<V: Vector> Rows<V> {
+    /// Returns one row; the last two entries are no joints'.
+    #[inline(always)]
+    fn row(&self, k: usize) -> [f64; 2 * LANES] {
+        let ([a, b, c, d], [e, f, g, h]) = (self.0[k][0].to_array(), self.0[k][1].to_array());
+        [a, b, c, d, e, f, g, h]
+    }
+
+    fn matrix(&self) -> Jacobian {
+        Jacobian::from_fn(|row, joint| self.row(row)[joint])
+    }
+
+    /// Returns the Jacobian with zeros in the columns of joints that are not free.
+    #[inline(always)]
+    fn only(mut self, free: &FreeJoints) -> Self {
+        if *free == ALL_FREE {
+            return self;
+        }
+        let kept = |joint: usize| f64::from_bits(if free[joint] { u64::MAX } else { 0 });
+        let low = V::from_array([kept(0), kept(1), kept(2), kept(3)]);
+        let high = V::from_array([kept(4), kept(5), 0.0, 0.0]);
+        for k in 0..AXES {
+            self.0[k] = [self.0[k][0].and(low), self.0[k][1].and(high)];
+        }
+        self
+    }
+
+    /// Returns the damped step; `None` if the normal matrix is not positive definite (NaN).
+    #[inline(always)]
+    fn step(&self, error: &Vector6<f64>, lambda: f64) -> Option<JointVector> {
+        // Row after row, from zero: the order in which `Matrix6::tr_mul` adds.
+        let zero = V::splat(0.0);
+        let mut entries = [[0.0; 2 * LANES]; AXES];
+        for k in 0..AXES {
+            entries[k] = self.row(k);
+        }
+        let mut normal = [[0.0; 2 * LANES]; AXES];
+        for joint in 0..AXES {
+            let mut column = [zero; 2];
+            for k in 0..AXES {
+                let entry = V::splat(entries[k][joint]);
+                column = [column[0] + self.0[k][0] * entry, column[1] + self.0[k][1] * entry];
+            }
+            normal[joint][..LANES].copy_from_slice(&column[0].to_array());
+            normal[joint][LANES..].copy_from_slice(&column[1].to_array());
+        }
+        for joint in 0..AXES {
+            normal[joint][joint] += lambda;
+        }
+        let mut gradient = [zero; 2];
+        for k in 0..AXES {
+            let entry = V::splat(error[k]);
+            gradient = [gradient[0] + self.0[k][0] * entry, gradient[1] + self.0[k][1] * entry];
+        }
+        let ([a, b, c, d], [e, f, ..]) = (gradient[0].to_array(), gradient[1].to_array());
+        solve_spd(&normal, [a, b, c, d, e, f]).map(Vector6::from)
     }
 }
 
@@ -276,6 +454,8 @@ pub(crate) enum Stop {
     ActiveLimit,
     /// The iterations ran out.
     Iterations,
+    /// The start is too far away.
+    Cold,
 }
 
 /// Stop of a descent.
@@ -288,7 +468,13 @@ pub(crate) struct Descent {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Matrix6;
     use proptest::prelude::*;
+
+    fn solved(a: &Matrix6<f64>, b: &Vector6<f64>) -> Option<Vector6<f64>> {
+        let columns = std::array::from_fn(|j| std::array::from_fn(|i| if i < N { a[(i, j)] } else { f64::NAN }));
+        solve_spd(&columns, (*b).into()).map(Vector6::from)
+    }
 
     #[test]
     fn damping_schemes_agree_with_hand_calculation() {
@@ -296,19 +482,19 @@ mod tests {
         let singular = Jacobian::zeros();
         let sugihara = Damping::default();
         assert_eq!(
-            [sugihara.lambda(0.04, &regular), sugihara.lambda(0.0, &singular)],
+            [sugihara.lambda(0.04, || regular), sugihara.lambda(0.0, || singular)],
             [0.3 * 0.04, 0.0]
         );
-        assert_eq!(Damping::Constant { lambda: 1e-3 }.lambda(9.0, &regular), 1e-3);
+        assert_eq!(Damping::Constant { lambda: 1e-3 }.lambda(9.0, || regular), 1e-3);
         let nakamura = Damping::NearSingularities {
             largest: 0.1,
             threshold: 2.0,
         };
         assert_eq!(
-            [nakamura.lambda(1.0, &regular), nakamura.lambda(1.0, &singular)],
+            [nakamura.lambda(1.0, || regular), nakamura.lambda(1.0, || singular)],
             [0.1 * 0.25, 0.1]
         );
-        assert_eq!(nakamura.lambda(1.0, &(regular * 2.0)), 0.0);
+        assert_eq!(nakamura.lambda(1.0, || regular * 2.0), 0.0);
     }
 
     #[test]
@@ -334,7 +520,7 @@ mod tests {
             let a = m.tr_mul(&m) + Matrix6::from_diagonal_element(1e-3);
             let b = Vector6::from_row_slice(&b);
             let expected = a.lu().solve(&b).ok_or_else(|| TestCaseError::fail("singular"))?;
-            let x = solve_spd(&a, &b).ok_or_else(|| TestCaseError::fail("not positive"))?;
+            let x = solved(&a, &b).ok_or_else(|| TestCaseError::fail("not positive"))?;
             prop_assert!((x - expected).amax() < 1e-9 * (1.0 + expected.amax()));
         }
     }
@@ -343,8 +529,8 @@ mod tests {
     fn rejects_matrices_that_are_not_positive_definite() {
         let mut a = Matrix6::identity();
         a[(3, 3)] = -1.0;
-        assert_eq!(solve_spd(&a, &Vector6::zeros()), None);
+        assert_eq!(solved(&a, &Vector6::zeros()), None);
         a[(3, 3)] = f64::NAN;
-        assert_eq!(solve_spd(&a, &Vector6::zeros()), None);
+        assert_eq!(solved(&a, &Vector6::zeros()), None);
     }
 }

@@ -283,7 +283,7 @@ impl Search<'_> {
     fn polish(&mut self, q: &JointVector) -> Option<GeneralizedSolution> {
         let held = self.deviation(q).allowed(&self.asked.freedom);
         let task = self.task(held.applied_to(&self.target));
-        let descent = dls::descend(&task, task.at(*q), &ALL_FREE, &self.solver.settings);
+        let descent = dls::descend(&task, *q, &ALL_FREE, &self.solver.settings);
         let iterations = self.iterations + descent.iterations;
         let Iterate { q, .. } = descent.best;
         let within = (0..AXES).all(|i| self.lowest[i] <= q[i] && q[i] <= self.highest[i]);
@@ -307,7 +307,13 @@ impl Search<'_> {
         let frame = bodies.rigid(self.solver.frame());
         let jacobian = bodies.jacobian(self.solver.frame(), Axes::Base);
         let slope = Deviation::jacobian(&frame, &self.target, &jacobian);
-        let lambda = self.solver.settings.damping.lambda(cost, &jacobian).max(LEAST_DAMPING) * boost;
+        let lambda = self
+            .solver
+            .settings
+            .damping
+            .lambda(cost, || jacobian)
+            .max(LEAST_DAMPING)
+            * boost;
         let mut here = Deviation::of(&frame, &self.target).0;
         let mut m = DMatrix::zeros(6, N);
         m.view_mut((0, 0), (6, AXES)).copy_from(&slope);

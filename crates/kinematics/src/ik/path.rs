@@ -133,7 +133,7 @@ impl IkSolver<'_> {
         last: &JointVector,
         iterations: &mut usize,
     ) -> Option<JointVector> {
-        let start = task.at(self.robot.limits().clamp(&guess));
+        let start = self.robot.limits().clamp(&guess);
         let descent = dls::descend(task, start, &ALL_FREE, &self.settings);
         *iterations += descent.iterations;
         let solved = descent.stop == Stop::Solved && self.robot.limits().contain(&descent.best.q);
@@ -150,8 +150,7 @@ impl IkSolver<'_> {
         iterations: &mut usize,
     ) -> Result<JointVector, PathBreak> {
         let task = self.task_unchecked(to);
-        let start = task.at(*last);
-        let descent = dls::descend(&task, start, &ALL_FREE, &self.settings);
+        let descent = dls::descend(&task, *last, &ALL_FREE, &self.settings);
         *iterations += descent.iterations;
         let moved = step(&descent.best.q, last);
         let solved = task.solved(&descent.best) && self.robot.limits().contain(&descent.best.q);

@@ -36,7 +36,7 @@ pub(crate) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) ->
             }
         }
         let jacobian = task.jacobian(&here);
-        let lambda = settings.damping.lambda(here.cost, &jacobian).max(LEAST_DAMPING) * boost;
+        let lambda = settings.damping.lambda(here.cost, || jacobian).max(LEAST_DAMPING) * boost;
         let bounds = [
             (limits.lower - here.q).sup(&JointVector::repeat(-settings.step_bound_rad)),
             (limits.upper - here.q).inf(&JointVector::repeat(settings.step_bound_rad)),
@@ -78,7 +78,7 @@ fn polish(task: &Task<'_>, from: Iterate, settings: &IkSettings) -> Descent {
             }
         }
     }
-    dls::descend(task, task.at(q), &free, settings)
+    dls::descend(task, q, &free, settings)
 }
 
 /// Solves the program; `None` unless clarabel reports it solved.

@@ -159,7 +159,7 @@ impl FoundAnswers<'_> {
             return;
         }
         let start = self.nearest_turns(start);
-        let descent = dls::descend(self.task, self.task.at(start), &ALL_FREE, &self.solver.settings);
+        let descent = dls::descend(self.task, start, &ALL_FREE, &self.solver.settings);
         let limits = self.solver.robot().limits();
         if !self.task.solved(&descent.best) || !limits.contain(&descent.best.q) {
             return;

@@ -1,5 +1,6 @@
 //! Sine and cosine together: three-part reduction by π/2, then one polynomial each, without a branch.
 
+use crate::lanes::Vector;
 use crate::trig::mul_add::{MulAdd, SeparateMulAdd, polynomial};
 
 /// Largest |angle| \[rad\] of the fast path. Up to here a quadrant number has at most 16 bits, so that its products with [`HALF_PI_HIGH`]
@@ -95,6 +96,58 @@ pub fn sin_cos_lanes<M: MulAdd, const N: usize>(angles: &[f64; N]) -> ([f64; N],
     (sines, cosines)
 }
 
+/// Sines and cosines of the angles \[rad\] in a vector, with the bits of [`sin_cos_lanes`] of the vector's rounding.
+#[inline(always)]
+pub(crate) fn sin_cos_vector<V: Vector>(angles: V) -> (V, V) {
+    let sign_bit = V::splat(-0.0);
+    let sign = angles.and(sign_bit);
+    let positive = angles.xor(sign);
+    let (sin, cos, quadrant) = first_quadrant(positive);
+
+    // Quadrant q turns (sin, cos) by q·π/2.
+    let (odd, upper) = (quadrant.shift_left::<63>(), quadrant.shift_left::<62>());
+    let turned_sin = odd.if_sign_bit(cos, sin);
+    let turned_cos = odd.if_sign_bit(sin, cos);
+    let sines = turned_sin.xor(upper.xor(sign).and(sign_bit));
+    let cosines = turned_cos.xor(upper.xor(odd).and(sign_bit));
+    if positive.all_at_most(BOUND) {
+        return (sines, cosines);
+    }
+    let (mut sines, mut cosines) = (sines.to_array(), cosines.to_array());
+    recompute_lanes(&angles.to_array(), &mut sines, &mut cosines);
+    (V::from_array(sines), V::from_array(cosines))
+}
+
+/// [`one_lane`] in vectors, up to the quadrant.
+#[inline(always)]
+fn first_quadrant<V: Vector>(angle: V) -> (V, V, V) {
+    let rounded = angle.mul_add(V::splat(std::f64::consts::FRAC_2_PI), V::splat(ROUNDER));
+    let n = rounded - V::splat(ROUNDER);
+    let first = n.mul_add(V::splat(-HALF_PI_HIGH), angle);
+    let middle = V::splat(-HALF_PI_MIDDLE);
+    let second = n.mul_add(middle, first);
+    let lost = n.mul_add(middle, first - second);
+    let low = n.mul_sub(V::splat(HALF_PI_LOW), lost);
+    let r = second - low;
+    let tail = (second - r) - low;
+
+    let z = r * r;
+    let z2 = z * z;
+    let half = V::splat(0.5) * z;
+    let w = V::splat(1.0) - half;
+    let rest = r.neg_mul_add(tail, (V::splat(1.0) - w) - half);
+    let cos = w + z2.mul_add(polynomial_of(&COS, z, z2), rest);
+    let sin = r + (r * z).mul_add(polynomial_of(&SIN, z, z2), tail * w);
+    (sin, cos, rounded)
+}
+
+/// The polynomial of [`polynomial`] in vectors.
+#[inline(always)]
+fn polynomial_of<V: Vector>(c: &[f64; 6], z: V, z2: V) -> V {
+    let pair = |k: usize| z.mul_add(V::splat(c[k + 1]), V::splat(c[k]));
+    z2.mul_add(z2.mul_add(pair(4), pair(2)), pair(0))
+}
+
 /// The fast path, for |angle| ≤ [`BOUND`]; elsewhere the answer is meaningless.
 #[inline(always)]
 fn one_lane<M: MulAdd>(angle: f64) -> (f64, f64) {
@@ -113,11 +166,14 @@ fn one_lane<M: MulAdd>(angle: f64) -> (f64, f64) {
 
     // Quadrant q turns (sin, cos) by q·π/2.
     let (sin, cos) = (sin.to_bits(), cos.to_bits());
-    let odd = quadrant & 1 != 0;
-    let (sin, cos) = (if odd { cos } else { sin }, if odd { sin } else { cos });
+    // Masks instead of branches, and no check for overflow: either would keep the lanes from becoming vectors.
+    let swap = (sin ^ cos) & 0_u64.wrapping_sub(quadrant & 1);
     let sin_sign = (quadrant << 62) & SIGN;
-    let cos_sign = ((quadrant + 1) << 62) & SIGN;
-    (f64::from_bits(sin ^ sin_sign ^ sign), f64::from_bits(cos ^ cos_sign))
+    let cos_sign = (quadrant.wrapping_add(1) << 62) & SIGN;
+    (
+        f64::from_bits(sin ^ swap ^ sin_sign ^ sign),
+        f64::from_bits(cos ^ swap ^ cos_sign),
+    )
 }
 
 /// (r, t, n) with angle = n π/2 + r + t, |r| ≤ π/4 and |t| at most half a unit in r's last place; only the last bits
