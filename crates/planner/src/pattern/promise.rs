@@ -34,8 +34,8 @@ const STRIDE: u32 = PLACES / FIRST;
 const FEW: u32 = 50;
 const SPREAD: u32 = 97;
 
-/// The angle between neighbours of a sunflower's seeds \[rad\].
-const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
+/// The angle between neighbours of a sunflower's seeds, in turns.
+const GOLDEN: f64 = 0.381_966_011_250_105;
 
 /// Every force is within \[N\].
 const ANY_FORCE_N: [f64; 2] = [0.0, f64::INFINITY];
@@ -49,8 +49,8 @@ const ANY_M: f64 = -1e3;
 /// Margins by which an estimate must exceed the promise: it samples some places and moments only, and is no bound.
 #[derive(Debug, Clone, Copy)]
 pub struct Margin {
-    /// Factor on time and dose.
-    more: f64,
+    /// Factor on time, and on dose.
+    more: [f64; 2],
     /// Part of the share that may lack it, kept as a reserve.
     part: f64,
     /// Factor on strain and force.
@@ -61,26 +61,30 @@ pub struct Margin {
 
 impl Margin {
     /// Margin before the arm's own tilts are known.
-    pub const BARE_FACE: Self = Self { more: 1.1, ..Self::ARM };
+    pub const BARE_FACE: Self = Self {
+        more: [1.1; 2],
+        ..Self::ARM
+    };
 
     /// Margin with the arm's own configurations.
     pub const ARM: Self = Self {
-        more: 1.04,
+        more: [1.04; 2],
         part: 0.2,
         load: 1.02,
         tilt_rad: 5e-4,
     };
 
-    /// Margin on the bare face where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) allows for.
+    /// Margin on the bare face where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) allows for; no factor on time and dose is
+    /// larger.
     pub const WEAK_ARM: Self = Self {
-        more: 1.3,
+        more: [1.3; 2],
         part: 0.5,
         ..Self::ARM
     };
 
     /// Margin with the arm where a larger one would cost time: for the part of a share that a check of single places may miss.
     pub const CLOSE: Self = Self {
-        more: 1.005,
+        more: [1.005; 2],
         part: 0.05,
         load: 1.005,
         tilt_rad: 1e-4,
@@ -88,11 +92,17 @@ impl Margin {
 
     /// No margin: a shortfall that remains is certain to fail the proof.
     pub const NONE: Self = Self {
-        more: 1.0,
+        more: [1.0; 2],
         part: 0.0,
         load: 1.0,
         tilt_rad: 0.0,
     };
+
+    /// Margin with a share of the time alone.
+    fn slowed(mut self, share: f64) -> Self {
+        self.more[0] *= share;
+        self
+    }
 
     /// The share that must be seen of one that is required.
     fn required(&self, share: f64) -> f64 {
@@ -248,11 +258,11 @@ impl Promise {
 
     /// Checks that a place is pressed deep enough, long enough, and with enough of a dose, with a margin.
     fn keeps(&self, dwell: &Dwell, margin: &Margin) -> [bool; 3] {
-        let wanted = &self.thresholds;
+        let (wanted, [time, dose]) = (&self.thresholds, margin.more);
         [
             dwell.compression_m >= wanted.compression_m,
-            dwell.time_s >= margin.more * wanted.time_s,
-            dwell.dose_pa_m >= margin.more * wanted.dose_pa_m,
+            dwell.time_s >= time * wanted.time_s,
+            dwell.dose_pa_m >= dose * wanted.dose_pa_m,
         ]
     }
 
@@ -317,8 +327,8 @@ impl SampledWash {
         let sampler = self.sampler();
         let mut kept = [FIRST; 3];
         (0..FEW).any(|k| {
-            let place = place(&self.surface, (k * SPREAD % FIRST) * STRIDE);
-            for (kept, keeps) in kept.iter_mut().zip(self.promise.keeps(&sampler.at(&place), margin)) {
+            let dwell = self.dwell(&sampler, (k * SPREAD % FIRST) * STRIDE);
+            for (kept, keeps) in kept.iter_mut().zip(self.promise.keeps(&dwell, margin)) {
                 *kept -= u32::from(!keeps);
             }
             self.promise.short(kept, FIRST, margin, LACKING).is_some()
@@ -339,12 +349,9 @@ impl SampledWash {
 
     /// Greatest share of the speed, from `least` to 1, at which the places of the face keep the promise with a margin. A lower
     /// speed makes the contact longer; depth and dose stay the same.
-    pub(crate) fn speed_share(&mut self, margin: &Margin, least: f64) -> Option<f64> {
-        let ContactThresholds { time_s, .. } = self.promise.thresholds;
-        self.promise.thresholds.time_s = least * time_s;
-        let keeps = self.keeps_shares(margin);
-        self.promise.thresholds.time_s = time_s;
-        if !keeps {
+    pub(crate) fn speed_share(&self, margin: &Margin, least: f64) -> Option<f64> {
+        let time_s = self.promise.thresholds.time_s;
+        if !self.keeps_shares(&margin.slowed(least)) {
             return None;
         }
         let mut times_s: Vec<f64> = self.all().iter().map(|dwell| dwell.time_s).collect();
@@ -352,14 +359,14 @@ impl SampledWash {
         let [_, share, _] = self.promise.shares;
         let needed = f64::from(PLACES) * margin.required(share);
         let longest_s = times_s.get((needed.ceil() as usize).saturating_sub(1))?;
-        Some((longest_s / (margin.more * time_s)).clamp(least, 1.0))
+        Some((longest_s / (margin.more[0] * time_s)).clamp(least, 1.0))
     }
 
     /// Amounts at every eighth place: these seeds of a sunflower are spread as evenly as all.
     fn first(&self) -> &[Dwell] {
         self.first.get_or_init(|| {
             let (sampler, places) = (self.sampler(), (0..FIRST).into_par_iter());
-            places.map(|k| sampler.at(&place(&self.surface, k * STRIDE))).collect()
+            places.map(|k| self.dwell(&sampler, k * STRIDE)).collect()
         })
     }
 
@@ -369,9 +376,16 @@ impl SampledWash {
             let (first, sampler) = (self.first(), self.sampler());
             let at = |k: u32| match k % STRIDE {
                 0 => first[(k / STRIDE) as usize],
-                _ => sampler.at(&place(&self.surface, k)),
+                _ => self.dwell(&sampler, k),
             };
             (0..PLACES).into_par_iter().map(at).collect()
+        })
+    }
+
+    /// Amounts at the k-th place, up to the moment from which any margin is kept.
+    fn dwell(&self, sampler: &ContactSampler<'_>, k: u32) -> Dwell {
+        sampler.until(&place(&self.surface, k), |dwell| {
+            self.promise.keeps(dwell, &Margin::WEAK_ARM) == [true; 3]
         })
     }
 
@@ -408,7 +422,7 @@ pub(crate) fn foundation(sponge: &Sponge) -> Foundation {
 /// The k-th place: spread like the seeds of a sunflower, evenly by the area seen from above.
 fn place(surface: &Surface, k: u32) -> Vector3<f64> {
     let rho = surface.rim_m() * ((f64::from(k) + 0.5) / f64::from(PLACES)).sqrt();
-    let (s, c) = sin_cos((GOLDEN_RAD * f64::from(k)) % TAU);
+    let (s, c) = sin_cos(TAU * (GOLDEN * f64::from(k)).fract());
     Vector3::new(rho * c, rho * s, surface.height_m(rho))
 }
 

@@ -289,11 +289,15 @@ impl<'a> Task<'a> {
             check_step(&last.q, &q, along_m)?;
             self.check_side(&last.q, &q)?;
         }
-        let has_room = looked_at && self.has_room(&q);
-        if looked_at && !has_room {
+        if !looked_at {
+            return Ok((q, false));
+        }
+        let levels_m = [self.required_m(), self.required_m() + ROOM_M];
+        let kept = self.scene.surroundings.levels_kept(&q, self.stretch(), &levels_m);
+        if kept == 0 {
             self.check_clear(&q)?;
         }
-        Ok((q, has_room))
+        Ok((q, kept == levels_m.len()))
     }
 
     /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a

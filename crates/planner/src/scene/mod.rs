@@ -310,6 +310,12 @@ pub trait Surroundings: Debug + Sync {
     /// Checks that every pair that counts keeps `required_m` at `q` \[rad\].
     fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool;
 
+    /// Number of clearances \[m\], from the first of an ascending list, that every pair that counts keeps at `q` \[rad\].
+    fn levels_kept(&self, q: &JointVector, stretch: Stretch, required_m: &[f64]) -> usize {
+        let kept = required_m.iter().take_while(|level| self.is_clear(q, stretch, **level));
+        kept.count()
+    }
+
     /// The nearest of the pairs that do not; `None` where there is none.
     fn too_near(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> Option<PairClearance>;
 
@@ -321,10 +327,15 @@ pub trait Surroundings: Debug + Sync {
 
 impl Surroundings for ClearanceModel {
     fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool {
-        match stretch {
-            Stretch::AtPlate(plate) => self.keeps_washing(q, plate, required_m),
-            Stretch::Free => self.keeps_clearance(q, required_m),
-        }
+        Surroundings::levels_kept(self, q, stretch, &[required_m]) == 1
+    }
+
+    fn levels_kept(&self, q: &JointVector, stretch: Stretch, required_m: &[f64]) -> usize {
+        let working_on = match stretch {
+            Stretch::AtPlate(plate) => Some(plate),
+            Stretch::Free => None,
+        };
+        ClearanceModel::levels_kept(self, q, working_on, required_m)
     }
 
     fn too_near(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> Option<PairClearance> {

@@ -21,14 +21,23 @@ impl ClearanceModel {
     /// True if every pair keeps `required_m` at `q` \[rad\]. False for NaN; touching pairs do not even keep 0.
     #[must_use]
     pub fn keeps_clearance(&self, q: &JointVector, required_m: f64) -> bool {
-        self.all_keep(q, required_m, |_, _| true)
+        self.levels_kept(q, None, &[required_m]) == 1
     }
 
     /// True if every pair keeps `required_m` at `q` \[rad\], except the sponge and the plates that it may touch while it works on
     /// `working_on`; otherwise as [`ClearanceModel::keeps_clearance`].
     #[must_use]
     pub fn keeps_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> bool {
-        self.all_keep(q, required_m, |a, b| self.counts_washing(working_on, a, b))
+        self.levels_kept(q, Some(working_on), &[required_m]) == 1
+    }
+
+    /// Number of clearances \[m\], from the first of an ascending list, that every pair keeps at `q` \[rad\]: as
+    /// [`ClearanceModel::keeps_washing`] on a plate, as [`ClearanceModel::keeps_clearance`] on none.
+    #[must_use]
+    pub fn levels_kept(&self, q: &JointVector, working_on: Option<usize>, required_m: &[f64]) -> usize {
+        self.levels_kept_by(q, required_m, |a, b| {
+            working_on.is_none_or(|plate| self.counts_washing(plate, a, b))
+        })
     }
 
     /// Returns the nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near; `None` if there are none.
@@ -69,15 +78,15 @@ impl ClearanceModel {
         }
     }
 
-    /// Stops at the first pair that is too near, and computes a distance only where boxes and bounding spheres do not decide: first those
+    /// Stops at the first pair that keeps no level, and computes a distance only where boxes and bounding spheres do not decide: first those
     /// of whole bodies, then those of their parts.
-    fn all_keep(&self, q: &JointVector, required: f64, counts: impl Fn(usize, usize) -> bool) -> bool {
+    fn levels_kept_by(&self, q: &JointVector, required: &[f64], counts: impl Fn(usize, usize) -> bool) -> usize {
         let poses = self.robot.fk(q);
-        let is_enough = |gap: f64| gap > 0.0 && gap >= required;
+        let is_enough = |gap: f64, required: f64| gap > 0.0 && gap >= required;
         let balls: Vec<_> = self.balls.iter().map(|ball| ball.placed(&poses)).collect();
-        let is_apart = |a: usize, b: usize| {
+        let is_apart = |a: usize, b: usize, required: f64| {
             let ((here, radius_m), (there, other_m)) = (balls[a], balls[b]);
-            is_enough((there - here).norm() - radius_m - other_m - ROUNDING_M)
+            is_enough((there - here).norm() - radius_m - other_m - ROUNDING_M, required)
         };
         let frames: Vec<OnceCell<Vec<RigidTransform>>> = vec![OnceCell::new(); self.bodies.len()];
         let rigid = |body: usize, part: usize| {
@@ -90,25 +99,37 @@ impl ClearanceModel {
             };
             frames[body].get_or_init(placed)[part]
         };
-        let keeps = |(a, b): (usize, usize), (p, r): (usize, usize)| {
+        let keeps = |(a, b): (usize, usize), (p, r): (usize, usize), required: f64| {
             let (part, other) = (&self.bodies[a].outer()[p], &self.bodies[b].outer()[r]);
             let (here, there) = (rigid(a, p), rigid(b, r));
-            is_enough(part.gap_to_sphere(&here, other, &there))
-                || is_enough(other.gap_to_sphere(&there, part, &here))
+            is_enough(part.gap_to_sphere(&here, other, &there), required)
+                || is_enough(other.gap_to_sphere(&there, part, &here), required)
                 || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
                 || self.parts_keep((a, b), (p, r), &poses, required)
         };
-        let mut counting = self.others.iter().filter(|&&(a, b)| !is_apart(a, b) && counts(a, b));
+        let mut levels = required;
+        for &(a, b) in &self.others {
+            let Some(&most) = levels.last() else { return 0 };
+            if is_apart(a, b, most) || !counts(a, b) {
+                continue;
+            }
+            for parts in self.part_pairs(a, b) {
+                levels = lowered(levels, |required| keeps((a, b), parts, required));
+            }
+        }
         // Obstacles always count.
-        let keeps_from_obstacles = |(a, leaves): &(usize, Vec<bool>)| {
-            self.bodies[*a].outer().iter().enumerate().all(|(p, part)| {
+        for (a, leaves) in &self.crowd.moving {
+            for (p, part) in self.bodies[*a].outer().iter().enumerate() {
+                let Some(&most) = levels.last() else { return 0 };
                 let placed = part.place(&poses);
-                let mut near = self.crowd.obstacles_near(leaves, &placed, is_enough);
-                near.all(|b| (0..self.bodies[b].outer().len()).all(|r| keeps((*a, b), (p, r))))
-            })
-        };
-        counting.all(|&(a, b)| self.part_pairs(a, b).all(|parts| keeps((a, b), parts)))
-            && self.crowd.moving.iter().all(keeps_from_obstacles)
+                for b in self.crowd.obstacles_near(leaves, &placed, |gap| is_enough(gap, most)) {
+                    for r in 0..self.bodies[b].outer().len() {
+                        levels = lowered(levels, |required| keeps((*a, b), (p, r), required));
+                    }
+                }
+            }
+        }
+        levels.len()
     }
 
     /// True if the parts of a body with a tree are clear of a part of another one; false if neither body has one.
@@ -118,4 +139,13 @@ impl ClearanceModel {
         let found = self.within(bodies, parts, poses, separation, below);
         found.is_some_and(|found| found.is_none_or(|found| is_clear(found.distance, required)))
     }
+}
+
+/// The levels of an ascending list without those at its end that are not kept.
+fn lowered(levels: &[f64], keeps: impl Fn(f64) -> bool) -> &[f64] {
+    let kept = levels
+        .iter()
+        .rposition(|level| keeps(*level))
+        .map_or(0, |last| last + 1);
+    &levels[..kept]
 }

@@ -4,7 +4,7 @@
 
 use crate::contact::{Foundation, SpongePose};
 use nalgebra::Vector3;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Moment of a wash, in the frame of the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -237,6 +237,12 @@ impl<'a> ContactSampler<'a> {
     /// Returns the amounts at a point \[m\], plate frame.
     #[must_use]
     pub fn at(&self, point: &Vector3<f64>) -> Dwell {
+        self.until(point, |_| false)
+    }
+
+    /// Returns the amounts at a point \[m\], plate frame, from the moments up to the first at which they are enough.
+    #[must_use]
+    pub fn until(&self, point: &Vector3<f64>, is_enough: impl Fn(&Dwell) -> bool) -> Dwell {
         let mut dwell = Dwell {
             compression_m: f64::NEG_INFINITY,
             ..Dwell::default()
@@ -249,7 +255,11 @@ impl<'a> ContactSampler<'a> {
             if let Some((ends, shares)) = ends.and_then(|ends| Some((ends, self.in_contact(ends)?))) {
                 let slide_m_s = ends.map(|end| self.slide_m_s(end.index, point));
                 self.add_between(&mut dwell, ends, shares, slide_m_s);
+                if is_enough(&dwell) {
+                    return ControlFlow::Break(());
+                }
             }
+            ControlFlow::Continue(())
         });
         dwell
     }
@@ -259,10 +269,10 @@ impl<'a> ContactSampler<'a> {
     pub fn contact_intervals(&self, point: &Vector3<f64>) -> Vec<[f64; 2]> {
         let mut stays: Vec<[f64; 2]> = Vec::new();
         self.pass(point, |before, here| {
-            let Some(ends) = before.map(|before| [before, here]) else {
-                return;
+            let ends = before.map(|before| [before, here]);
+            let Some((ends, shares)) = ends.and_then(|ends| Some((ends, self.in_contact(ends)?))) else {
+                return ControlFlow::Continue(());
             };
-            let Some(shares) = self.in_contact(ends) else { return };
             let [first, last] = ends.map(|end| self.moments[end.index].t_s);
             let [from, to] = shares.map(|share| first + (last - first) * share);
             match stays.last_mut() {
@@ -270,13 +280,14 @@ impl<'a> ContactSampler<'a> {
                 Some(stay) if stay[1] == from => stay[1] = to,
                 _ => stays.push([from, to]),
             }
+            ControlFlow::Continue(())
         });
         stays
     }
 
     /// Visits the moments at which a point may be inside the sponge's rim, and their neighbours, each with the one before it if that
-    /// is visited, too.
-    fn pass(&self, point: &Vector3<f64>, mut at: impl FnMut(Option<&Instant>, &Instant)) {
+    /// is visited, too; up to the first at which it is told to stop.
+    fn pass(&self, point: &Vector3<f64>, mut at: impl FnMut(Option<&Instant>, &Instant) -> ControlFlow<()>) {
         let radius_m = self.foundation.radius_m;
         let (mut before, mut next): (Option<Instant>, usize) = (None, 0);
         while let Some(bundle) = self.bundles.get(next) {
@@ -288,7 +299,10 @@ impl<'a> ContactSampler<'a> {
             let prepared = &self.prepared[bundle.moments.clone()];
             for (index, moment) in bundle.moments.clone().zip(prepared) {
                 let here = self.instant(index, moment, point);
-                at(before.as_ref().filter(|before| before.index + 1 == index), &here);
+                let next_to = before.as_ref().filter(|before| before.index + 1 == index);
+                if at(next_to, &here).is_break() {
+                    return;
+                }
                 before = Some(here);
             }
         }
