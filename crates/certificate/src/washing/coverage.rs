@@ -9,8 +9,7 @@
 //! Moments of the tip, seen along the axis of a plate, as a polyline that the tip never leaves by much.
 
 use crate::error::ProveError;
-use crate::motion::piece::Piece;
-use crate::motion::tip::{Arm, Stretch};
+use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits::Tips;
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
@@ -77,7 +76,7 @@ pub(crate) struct Wash {
 pub(crate) fn washes(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    pieces: &[Piece],
+    pieces: &[TipPiece<'_>],
     schedule: &Schedule,
     tips: &Tips,
     cancel: &CancelToken,
@@ -108,9 +107,9 @@ pub(crate) fn washes(
 struct Washing<'a> {
     arm: &'a Arm<'a>,
     subject: &'a Subject<'a>,
-    pieces: &'a [Piece],
+    pieces: &'a [TipPiece<'a>],
     /// Pieces of the approaches to the plate and the retreats from it.
-    around: Vec<&'a [Piece]>,
+    around: Vec<&'a [TipPiece<'a>]>,
     /// Lower bound on the cosine of the angle between the tool and the plate's axis, from approach to retreat.
     around_cosine: f64,
     span: usize,
@@ -301,7 +300,7 @@ pub(crate) struct Polyline {
 
 impl Polyline {
     /// The tip during some pieces over a face. It should keep within `allowed_m` of the pole: where it does, that is proved.
-    pub fn new(arm: &Arm<'_>, pieces: &[Piece], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
+    pub fn new(arm: &Arm<'_>, pieces: &[TipPiece<'_>], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
         let mut line = Self {
             points: Vec::new(),
             off_m: 0.0,
@@ -312,7 +311,7 @@ impl Polyline {
             splits: SPLITS + (pieces.len() << MOST_HALVINGS),
         };
         for (i, piece) in pieces.iter().enumerate() {
-            let stretch = arm.stretch(piece);
+            let stretch = piece.stretch();
             if i == 0 {
                 line.points.push(tip_from_pole(face, &stretch, 0));
             }
@@ -334,7 +333,10 @@ impl Polyline {
             None
         };
         if let Some(halves) = halves {
-            return halves.iter().for_each(|half| self.add(arm, face, half, depth + 1));
+            return halves
+                .both()
+                .iter()
+                .for_each(|half| self.add(arm, face, half, depth + 1));
         }
         self.off_m = if off_m.is_nan() {
             f64::INFINITY
