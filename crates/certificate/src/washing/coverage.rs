@@ -6,6 +6,8 @@
 //! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
 //! would along the polyline.
 //!
+//! What is pressed is swept: where the share proved to be pressed (requirement 27) reaches the required one, it is the bound.
+//!
 //! Moments of the tip, seen along the axis of a plate, as a polyline that the tip never leaves by much.
 
 use crate::error::ProveError;
@@ -35,7 +37,7 @@ use serde::{Deserialize, Serialize};
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,
-    /// Proved lower bound of the swept share.
+    /// Proved lower bound of the swept share. It is that of the pressed share where that reaches the required one.
     pub at_least: f64,
     /// Proved upper bound of the swept share; `None` where it was not needed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -136,10 +138,11 @@ impl Washing<'_> {
             beyond_rim_allowed_m: 0.0,
             touches: Vec::new(),
         };
-        if self.plate.surface.is_flat() {
-            self.sweep(&line, &mut swept)?;
-        } else {
-            swept.at_least = self.touched_share(contact.as_ref())?;
+        let pressed = contact.map(|contact| contact.pressed.at_least);
+        match pressed.filter(|pressed| *pressed >= self.subject.limits.coverage) {
+            Some(pressed) => swept.at_least = pressed,
+            None if self.plate.surface.is_flat() => self.sweep(&line, &mut swept)?,
+            None => swept.at_least = self.touched_share(pressed.unwrap_or(0.0))?,
         }
         Ok(Wash {
             span: self.span,
@@ -177,13 +180,12 @@ impl Washing<'_> {
     }
 
     /// Returns a lower bound on the share of a face that is no disc that the sponge touches, by area, with the plate at its stated
-    /// position. Pressed area counts as touched.
-    fn touched_share(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
-        let required = self.subject.limits.coverage;
-        let pressed = contact.map_or(0.0, |contact| contact.pressed.at_least);
-        if pressed >= required || !self.meets_from_above() {
+    /// position; not less than the `pressed` one.
+    fn touched_share(&self, pressed: f64) -> Result<f64, ProveError> {
+        if !self.meets_from_above() {
             return Ok(pressed);
         }
+        let required = self.subject.limits.coverage;
         let sponge = &self.subject.job.workcell.tool.sponge;
         // Whatever its stiffness: no dose is asked for.
         let foundation = Foundation::stiff(sponge, [0.0; 2]);
