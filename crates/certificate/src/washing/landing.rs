@@ -298,6 +298,10 @@ impl<'a> Rim<'a> {
 
     /// Records the speed of a touching point at a moment, if there is one.
     pub fn see(&self, tracker: &mut BoundTracker, m: &Moment, time_s: f64) {
+        // No touching point is faster, so that none would be recorded.
+        if self.fastest(m) * (1.0 + 1e-9) <= tracker.seen {
+            return;
+        }
         let Some(r) = self.touching(m) else { return };
         let speed = (m.speed + m.turning.cross(&r)).norm();
         let mut there = *m;

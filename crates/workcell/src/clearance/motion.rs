@@ -238,7 +238,7 @@ impl<'a> PartPair<'a> {
     /// Lower bound of the distance from the moving part and a sphere around the fixed one \[m\]; exact up to rounding if the moving part is
     /// a capsule or a cylinder.
     pub fn gap_to_sphere(&self, mover: &Mover<'_>) -> f64 {
-        let there = self.fixed.rigid(mover.poses);
+        let there = self.fixed.origin(mover.poses);
         self.moving.gap_to_sphere(&mover.rigid, self.fixed, &there) - ROUNDING_M
     }
 

@@ -199,9 +199,16 @@ impl Part {
         stands.unwrap_or_else(|| poses.rigid(&self.frame))
     }
 
-    /// Lower bound of the distance to another part from its bounding sphere \[m\]; `here` and `there` are the parts' [`Part::rigid`].
-    pub fn gap_to_sphere(&self, here: &RigidTransform, other: &Self, there: &RigidTransform) -> f64 {
-        self.distance_to_point(here, &there.translation) - other.bounding
+    /// Returns the origin of the frame that the part is fixed to, base frame.
+    pub fn origin(&self, poses: &BodyPoses) -> Vector3<f64> {
+        let stands = self.standing.as_ref().map(|(stands, _)| stands.translation);
+        stands.unwrap_or_else(|| poses.rigid(&self.frame).translation)
+    }
+
+    /// Lower bound of the distance to another part from its bounding sphere \[m\]; `here` is this part's [`Part::rigid`], `there` the other
+    /// one's [`Part::origin`].
+    pub fn gap_to_sphere(&self, here: &RigidTransform, other: &Self, there: &Vector3<f64>) -> f64 {
+        self.distance_to_point(here, there) - other.bounding
     }
 
     /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and half-spaces, below 0 within the latter;
@@ -248,8 +255,8 @@ impl Part {
     /// Same as [`PlacedPart::sphere_gap`], from the parts' [`Part::rigid`].
     pub fn sphere_gap(&self, here: &RigidTransform, other: &Self, there: &RigidTransform) -> f64 {
         match (&self.core, &other.core) {
-            (Core::HalfSpace, _) => self.gap_to_sphere(here, other, there),
-            (_, Core::HalfSpace) => other.gap_to_sphere(there, self, here),
+            (Core::HalfSpace, _) => self.gap_to_sphere(here, other, &there.translation),
+            (_, Core::HalfSpace) => other.gap_to_sphere(there, self, &here.translation),
             _ => (here.translation - there.translation).norm() - self.bounding - other.bounding,
         }
     }
