@@ -43,8 +43,9 @@ impl Ball<'_> {
         let mut least = f64::INFINITY;
         for poses in self.moments {
             for pair in &parts {
-                if pair.sphere_gap(poses) < least {
-                    least = least.min(pair.measure(poses).distance_m);
+                let mover = pair.mover(poses);
+                if pair.sphere_gap(&mover) < least {
+                    least = least.min(pair.measure(&mover).distance_m);
                 }
             }
         }

@@ -19,7 +19,7 @@ use crate::error::ProveError;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::joints;
 use crate::motion::piece::{self, Piece};
-use crate::motion::tip::{Arm, Stretch};
+use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits::{self, Tips};
 use crate::prove;
 use crate::report::certificate::World;
@@ -110,13 +110,14 @@ pub fn prove_program(
     subject.limits.tilt_rad += TILT_RAD;
     subject.limits.joints.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
     let tip = Arm::new(arm, &plan.job.workcell.tool, cancel);
-    let tips = Tips::new(&tip, &subject, &pieces, Some(&schedule));
+    let along = tip.along(&pieces);
+    let tips = Tips::new(&tip, &subject, &along, Some(&schedule));
     let [position, speed, _] = joints::checks(&pieces, &subject.limits.joints, Some(&schedule));
     let rates = tips.checks(&subject, &pieces, Some(&schedule));
     let (tilt, rates): (Vec<_>, _) = rates
         .into_iter()
         .partition(|check| check.requirement == Requirement::Tilt);
-    let washes = coverage::washes(&tip, &subject, &pieces, &schedule, &tips, cancel)?;
+    let washes = coverage::washes(&tip, &subject, &along, &schedule, &tips, cancel)?;
     let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
 
     let exclusions = Exclusions::of(&subject)?;
@@ -191,7 +192,11 @@ struct StretchPair<'a> {
     plan: Stretch<'a>,
 }
 
-impl StretchPair<'_> {
+impl<'a> StretchPair<'a> {
+    const fn of([motion, plan]: [Stretch<'a>; 2]) -> Self {
+        Self { motion, plan }
+    }
+
     /// Deviation at both ends \[m\].
     fn ends_m(&self) -> [f64; 2] {
         [0, 1].map(|k| (self.motion.ends[k].position - self.plan.ends[k].position).norm())
@@ -202,11 +207,15 @@ impl StretchPair<'_> {
 /// of the motion.
 pub(crate) fn check(arm: &Arm<'_>, motion: &[Piece], schedule: &Schedule, plan: &[Piece], tolerance_m: f64) -> Check {
     let mut tracker = BoundTracker::new(tolerance_m, RESOLUTION * tolerance_m);
-    let stretches = common(arm, motion, plan);
+    let parts = common(arm, motion, plan);
+    let stretches: Vec<_> = parts
+        .iter()
+        .map(|parts| StretchPair::of(parts.each_ref().map(TipPiece::stretch)))
+        .collect();
     tracker.allow_for(stretches.len());
     for both in &stretches {
         for (k, deviation_m) in both.ends_m().into_iter().enumerate() {
-            tracker.see(deviation_m, both.motion.times()[k], &both.motion.ends[k]);
+            tracker.see(deviation_m, both.motion.times()[k], both.motion.ends[k]);
         }
     }
     stretches.iter().for_each(|both| refine(arm, both, &mut tracker, 0));
@@ -214,8 +223,8 @@ pub(crate) fn check(arm: &Arm<'_>, motion: &[Piece], schedule: &Schedule, plan: 
     tip_limits::check(Requirement::PlanDeviation, &tracker, tolerance_m, Unit::Metre, worst)
 }
 
-/// Returns the stretches of time in which each of two motions is one cubic.
-fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<StretchPair<'a>> {
+/// Returns the parts of both motions for the stretches of time in which each is one cubic.
+fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<[TipPiece<'a>; 2]> {
     let mut all = Vec::with_capacity(motion.len() + plan.len());
     let (mut i, mut j, mut from) = (0, 0, 0.0_f64);
     while let (Some(a), Some(b)) = (motion.get(i), plan.get(j)) {
@@ -224,10 +233,7 @@ fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<Stre
         // A difference of rounding between two equal ends is no stretch.
         let within = |piece: &Piece| [from, to].map(|t| (t - piece.start_s).clamp(0.0, piece.length_s));
         if to > from {
-            all.push(StretchPair {
-                motion: arm.part(a, within(a)),
-                plan: arm.part(b, within(b)),
-            });
+            all.push([a, b].map(|piece| arm.part(piece, within(piece))));
         }
         from = from.max(to);
         i += usize::from(ends[0] <= to);
@@ -244,12 +250,12 @@ fn refine(arm: &Arm<'_>, both: &StretchPair<'_>, tracker: &mut BoundTracker, dep
     if tracker.accepts(bound) || !tracker.may_split(depth) {
         return tracker.take(bound);
     }
-    let halves = arm.halves(&both.motion).zip(arm.halves(&both.plan));
-    let Some(([first, second], [plan_first, plan_second])) = halves else {
+    let Some((motion, plan)) = arm.halves(&both.motion).zip(arm.halves(&both.plan)) else {
         return tracker.take(bound);
     };
-    let halves = [(first, plan_first), (second, plan_second)].map(|(motion, plan)| StretchPair { motion, plan });
+    let (motion, plan) = (motion.both(), plan.both());
+    let halves = [0, 1].map(|k| StretchPair::of([motion[k], plan[k]]));
     let [_, middle_m] = halves[0].ends_m();
-    tracker.see(middle_m, halves[0].motion.times()[1], &halves[0].motion.ends[1]);
+    tracker.see(middle_m, halves[0].motion.times()[1], halves[0].motion.ends[1]);
     halves.iter().for_each(|half| refine(arm, half, tracker, depth + 1));
 }

@@ -5,7 +5,7 @@ use crate::clearance::pairs::{self, PairBound};
 use crate::error::ProveError;
 use crate::motion::piece::{self, Piece};
 use crate::motion::timeline::Timeline;
-use crate::motion::tip::Arm;
+use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
 use crate::motion::{joints, wrist};
 use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict, World};
@@ -102,7 +102,7 @@ pub fn prove_motion(
     let timeline = timeline(&pieces, knots.t_s.len())?;
     let model = Exclusions::of(&subject)?.model(&subject)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
-    let tips = Tips::new(&carrier, &subject, &pieces, None);
+    let tips = Tips::new(&carrier, &subject, &carrier.along(&pieces), None);
     let mut clearance = pairs::judge_all(arm, subject.limits.clearance_m, &model, &timeline, cancel)?;
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits.joints, None));
@@ -147,13 +147,14 @@ impl PlanUnderProof<'_> {
         let exclusions = Exclusions::of(subject)?;
         let model = exclusions.model(subject)?;
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
-        let tips = Tips::new(&arm, subject, pieces, schedule);
+        let along = arm.along(pieces);
+        let tips = Tips::new(&arm, subject, &along, schedule);
         let wash_paths = wash_paths::check(plan);
-        let deviations = following::checks(&arm, subject, pieces, schedule);
+        let deviations = following::checks(&arm, subject, (pieces, &along), schedule);
         // A deviation bounds the distance from the plate only where the stated path is on it.
         let path_deviation_m = deviations[0].measure.and_then(|m| m.bound);
         let path_deviation_m = path_deviation_m.filter(|_| wash_paths.status == Status::Proved);
-        let washes = self.washes(&arm, &tips, path_deviation_m)?;
+        let washes = self.washes(&arm, &along, &tips, path_deviation_m)?;
         let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
         let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         let waived = exclusions.waived_in(&model);
@@ -177,7 +178,7 @@ impl PlanUnderProof<'_> {
         ]);
         checks.extend(joints::checks(pieces, &subject.limits.joints, schedule)); // 12–14: position, speed, acceleration
         checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
-        checks.push(landing::check(&arm, subject, pieces, schedule, &tips)); // 21: contact speed
+        checks.push(landing::check(&arm, subject, (pieces, &along), schedule, &tips)); // 21: contact speed
         checks.extend(deviations); // 22, 23: path, line
         checks.push(pairs::check(subject.limits.clearance_m, &clearance)); // 24
         checks.push(reach::check(subject, &swept)); // 25
@@ -194,8 +195,14 @@ impl PlanUnderProof<'_> {
     }
 
     /// Bounds on coverage, contact and reach of each wash; none where the segments are not known.
-    fn washes(&self, arm: &Arm<'_>, tips: &Tips, path_deviation_m: Option<f64>) -> Result<Vec<Wash>, ProveError> {
-        let Self { subject, pieces, .. } = *self;
+    fn washes(
+        &self,
+        arm: &Arm<'_>,
+        pieces: &[TipPiece<'_>],
+        tips: &Tips,
+        path_deviation_m: Option<f64>,
+    ) -> Result<Vec<Wash>, ProveError> {
+        let subject = self.subject;
         let Some(schedule) = self.schedule else {
             return Ok(Vec::new());
         };

@@ -4,8 +4,8 @@
 //! displacement of the part serve for all obstacles. The bound of an obstacle is the least over all intervals. An obstacle that comes too
 //! near at a moment, or that short intervals do not settle, is left to the search over its pair.
 
+use crate::clearance::poses::ArmPoses;
 use crate::motion::timeline::{Interval, Timeline};
-use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::clearance::far::MovingPart;
@@ -17,19 +17,19 @@ const SETTLED_M: f64 = 4e-3;
 
 /// Returns the pairs of the model, by index, whose distance is never below `needed_m`, with a lower bound on the distance \[m\].
 pub(crate) fn far(
-    robot: &RobotModel,
+    poses: &ArmPoses<'_>,
     cancel: &CancelToken,
     model: &ClearanceModel,
-    timeline: &Timeline<'_>,
     pairs: &[usize],
     needed_m: f64,
 ) -> BTreeMap<usize, f64> {
+    let timeline = poses.timeline();
     let parts = model.moving_parts(pairs);
     let bounds: Vec<_> = parts
         .par_iter()
         .map(|part| {
             let mut sweep = Sweep {
-                robot,
+                poses,
                 cancel,
                 timeline,
                 part,
@@ -58,7 +58,7 @@ pub(crate) fn far(
 
 /// Sweep of a part past the obstacles.
 struct Sweep<'a> {
-    robot: &'a RobotModel,
+    poses: &'a ArmPoses<'a>,
     cancel: &'a CancelToken,
     timeline: &'a Timeline<'a>,
     part: &'a MovingPart<'a>,
@@ -71,10 +71,10 @@ impl Sweep<'_> {
     /// Bounds the distance of some obstacles over an interval.
     fn bound_obstacles(&mut self, interval: &Interval, obstacles: &[usize]) {
         let (_, q) = self.timeline.middle(interval);
-        let poses = self.robot.fk(&q);
-        let displaced_m = self.part.displaced(&poses, &self.timeline.extent(interval).drift(&q));
+        let poses = &*self.poses.middle(interval, &q);
+        let displaced_m = self.part.displaced(poses, &self.timeline.extent(interval).drift(&q));
         let mut open = Vec::new();
-        for (&obstacle, gap_m) in obstacles.iter().zip(self.part.gaps(&poses, obstacles)) {
+        for (&obstacle, gap_m) in obstacles.iter().zip(self.part.gaps(poses, obstacles)) {
             let Some(bound) = &mut self.bounds[obstacle] else {
                 continue;
             };

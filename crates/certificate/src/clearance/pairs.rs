@@ -8,6 +8,7 @@
 //! clear.
 
 use crate::clearance::far::far;
+use crate::clearance::poses::ArmPoses;
 use crate::clearance::search::{FINE_M, Goal, PairDistance, Search};
 use crate::motion::timeline::Timeline;
 use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
@@ -134,6 +135,7 @@ fn judge_tasks(
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
+    let poses = ArmPoses::new(robot, timeline);
     let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
         let goal = Goal {
@@ -141,7 +143,7 @@ fn judge_tasks(
             enough_m,
             budget,
         };
-        Search::run(robot, cancel, timeline, parts, during, goal)
+        Search::run(&poses, cancel, parts, during, goal)
     };
     let judged = |task: &Task| task.rule != PairRule::Touching && task.during.is_some();
     let searched = |task: &Task| judged(task).then(|| search(task, &model.parts_of(task.pair), None));
@@ -152,7 +154,7 @@ fn judge_tasks(
         .collect();
     let beside_obstacles: Vec<_> = tasks.iter().filter(|task| beside(task)).map(|task| task.pair).collect();
     let needed_m = far_from_m(limit_m, least_seen(&found, tasks));
-    let far = far(robot, cancel, model, timeline, &beside_obstacles, needed_m);
+    let far = far(&poses, cancel, model, &beside_obstacles, needed_m);
     found
         .par_iter_mut()
         .zip(tasks)

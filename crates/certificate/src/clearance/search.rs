@@ -6,11 +6,11 @@
 //! whole: from the shape that holds all of them, and where that is too near, part by part, the nearest first, until one is too near or all
 //! others are far enough.
 
+use crate::clearance::poses::ArmPoses;
 use crate::motion::timeline::{Interval, Timeline};
-use platewash_kinematics::{BodyPoses, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ITERATIVE_ERROR_M;
-use platewash_workcell::clearance::motion::{PartDistance, PartPair, PartPairs};
+use platewash_workcell::clearance::motion::{Mover, PartDistance, PartPair, PartPairs};
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
@@ -125,7 +125,7 @@ impl Eq for Candidate {}
 
 /// Search over one pair of bodies.
 pub(crate) struct Search<'a> {
-    robot: &'a RobotModel,
+    poses: &'a ArmPoses<'a>,
     timeline: &'a Timeline<'a>,
     parts: &'a PartPairs<'a>,
     goal: Goal,
@@ -164,10 +164,10 @@ impl Eq for QueuedPair {}
 
 /// Interval for two bodies, of which the fixed one has many parts that stand still.
 struct Stay<'a> {
-    /// Time of its middle \[s\], and the arm there and at both ends.
+    /// Time of its middle \[s\], and the moving part there and at both ends.
     time_s: f64,
-    poses: &'a BodyPoses,
-    ends: [BodyPoses; 2],
+    mover: &'a Mover<'a>,
+    ends: [Mover<'a>; 2],
     /// Greatest loss of distance compared with the middle, and of a gap compared with both ends \[m\].
     fall: f64,
     sag: f64,
@@ -177,15 +177,15 @@ impl<'a> Search<'a> {
     /// Bounds the distance of a pair of bodies, given by its pairs of parts, during the pieces. Nothing is shown where the work is
     /// cancelled.
     pub fn run(
-        robot: &'a RobotModel,
+        poses: &'a ArmPoses<'a>,
         cancel: &'a CancelToken,
-        timeline: &'a Timeline<'a>,
         parts: &'a PartPairs<'a>,
         during: &[Range<usize>],
         goal: Goal,
     ) -> PairDistance {
+        let timeline = poses.timeline();
         let mut search = Self {
-            robot,
+            poses,
             timeline,
             parts,
             goal,
@@ -262,23 +262,24 @@ impl<'a> Search<'a> {
 
     /// Returns a lower bound over an interval, and the direction that led to it. Tries spheres around the parts, then the known direction,
     /// then the nearest points, until a bound is good enough.
-    fn bound(&mut self, part: usize, pair: &PartPair<'_>, interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
+    fn bound(&mut self, part: usize, pair: &PartPair<'a>, interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
         let extent = self.timeline.extent(interval);
         let (time_s, q) = self.timeline.middle(interval);
-        let poses = self.robot.fk(&q);
+        let poses = self.poses.middle(interval, &q);
         let drift = extent.drift(&q);
-        let levers = pair.levers(&poses, &drift);
+        let mover = pair.mover(&poses);
+        let levers = pair.levers(&mover, &drift);
         let fall = levers.dot(&drift);
-        let far = pair.sphere_gap(&poses) - fall;
+        let far = pair.sphere_gap(&mover) - fall;
         if self.found.seen_m.is_finite() && self.accepts(part, far) {
             return (far, known);
         }
         let length_s = self.timeline.length_s(interval);
         let acceleration = pair.acceleration(&levers, &extent.speed, &extent.acceleration);
         let sag = 0.125 * length_s * length_s * acceleration + 0.25 * length_s * levers.dot(&extent.jumps);
-        let ends = self.timeline.ends(interval);
+        let ends = self.poses.ends(interval);
         let along = |normal| {
-            let [a, b] = ends.map(|q| pair.gap_along(normal, &self.robot.fk(&q)));
+            let [a, b] = ends.each_ref().map(|poses| pair.gap_along(normal, poses));
             a.min(b)
         };
         if known != NO_NORMAL {
@@ -288,7 +289,7 @@ impl<'a> Search<'a> {
                 return (gap - sag, known);
             }
         }
-        let measured = pair.measure(&poses);
+        let measured = pair.measure(&mover);
         if !self.parts.within(part).is_empty() {
             let whole = measured.at_least_m - fall;
             if self.accepts(part, whole) {
@@ -297,8 +298,8 @@ impl<'a> Search<'a> {
             // None of the parts is displaced or accelerated by more, so that it holds for all of them.
             let stay = Stay {
                 time_s,
-                poses: &poses,
-                ends: ends.map(|q| self.robot.fk(&q)),
+                mover: &mover,
+                ends: ends.each_ref().map(|poses| pair.mover(poses)),
                 fall,
                 sag,
             };
@@ -316,11 +317,14 @@ impl<'a> Search<'a> {
     /// Returns a lower bound over an interval on the distance of the pairs of parts that a pair holds. The nearest are examined first,
     /// until the rest is far enough or one is too near: each from the sphere around it, along the direction of the one before, then from
     /// its nearest points.
-    fn survey(&mut self, part: usize, stay: &Stay<'_>) -> f64 {
+    fn survey<'s>(&mut self, part: usize, stay: &Stay<'s>) -> f64
+    where
+        'a: 's,
+    {
         let parts = self.parts;
         let near = |inner: usize| {
             let pair = parts.get(inner);
-            let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(stay.poses));
+            let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(&pair.mover_as(stay.mover)));
             QueuedPair { gap_m, inner }
         };
         let mut open: BinaryHeap<_> = parts.within(part).map(near).collect();
@@ -336,7 +340,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             let along = |normal: [f64; 3]| {
-                let [a, b] = stay.ends.each_ref().map(|poses| pair.gap_along_in_base(normal, poses));
+                let [a, b] = (stay.ends.each_ref()).map(|end| pair.gap_along_in_base(normal, &pair.mover_as(end)));
                 a.min(b) - stay.sag
             };
             if direction != NO_NORMAL {
@@ -346,11 +350,11 @@ impl<'a> Search<'a> {
                     continue;
                 }
             }
-            let measured = pair.measure(stay.poses);
+            let measured = pair.measure(&pair.mover_as(stay.mover));
             self.see(&measured, stay.time_s);
             let mut found = measured.at_least_m - stay.fall;
             if measured.normal != NO_NORMAL && !self.accepts(part, found) {
-                direction = pair.in_base(measured.normal, stay.poses);
+                direction = pair.in_base(measured.normal, stay.mover.poses());
                 found = found.max(along(direction));
             }
             bound = bound.min(found);
@@ -368,7 +372,7 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
     use crate::motion::piece::Piece;
-    use platewash_kinematics::JointVector;
+    use platewash_kinematics::{JointVector, RobotModel};
     use platewash_workcell::clearance::ClearanceModel;
     use platewash_workcell::fixtures::{kitchen_plate, kitchen_tool, workcell};
     use platewash_workcell::piecewise::MotionPiece;
@@ -410,12 +414,12 @@ mod tests {
             let all = 0..pieces.len();
             for pair in 0..model.pair_count() {
                 let parts = model.parts_of(pair);
-                let found = Search::run(&robot, &cancel, &timeline, &parts, std::slice::from_ref(&all), goal);
+                let found = Search::run(&ArmPoses::new(&robot, &timeline), &cancel, &parts, std::slice::from_ref(&all), goal);
                 for piece in &pieces {
                     for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
                         let poses = robot.fk(&piece.position(share * piece.length_s));
                         for part in parts.parts() {
-                            let sampled_m = part.measure(&poses).distance_m;
+                            let sampled_m = part.measure(&part.mover(&poses)).distance_m;
                             prop_assert!(found.at_least_m <= sampled_m + ITERATIVE_ERROR_M, "{found:?} {sampled_m}");
                         }
                     }

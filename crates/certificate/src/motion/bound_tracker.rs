@@ -112,7 +112,7 @@ impl BoundTracker {
 
     /// Records the values at both ends of a stretch.
     pub fn see_ends(&mut self, stretch: &Stretch<'_>, value: impl Fn(&Moment) -> f64) {
-        for (moment, time_s) in stretch.ends.iter().zip(stretch.times()) {
+        for (moment, time_s) in stretch.ends.into_iter().zip(stretch.times()) {
             self.see(value(moment), time_s, moment);
         }
     }
@@ -137,7 +137,7 @@ impl BoundTracker {
         depth: u32,
     ) {
         let (value, beyond) = quantity;
-        let [from, to] = stretch.ends.each_ref().map(value);
+        let [from, to] = stretch.ends.map(value);
         let greater = if from > to || from.is_nan() { from } else { to };
         let bound = greater + beyond(stretch);
         if self.accepts(bound) || !self.may_split(depth) {
@@ -146,7 +146,9 @@ impl BoundTracker {
         let Some(halves) = arm.halves(stretch) else {
             return self.take(bound);
         };
-        self.see(value(&halves[0].ends[1]), halves[0].times()[1], &halves[0].ends[1]);
+        let halves = halves.both();
+        let middle = halves[0].ends[1];
+        self.see(value(middle), halves[0].times()[1], middle);
         for half in &halves {
             self.halve(arm, half, quantity, depth + 1);
         }

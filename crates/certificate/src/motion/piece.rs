@@ -74,7 +74,7 @@ const ROUNDING_OF_QUINTIC: f64 = 32_768.0 * f64::EPSILON;
 const HALVINGS: u32 = 32;
 
 /// Bounds on the joints over a stretch of time. For a single piece they are exact but for its rounding.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Extent {
     /// Lowest positions \[rad\].
     pub least: JointVector,
@@ -185,6 +185,22 @@ impl Piece {
         c2 * 2.0 + c3 * (6.0 * u) + (c4 * 12.0 + c5 * (20.0 * u)) * (u * u)
     }
 
+    /// Position of one joint \[rad\]: the bits of [`Piece::position`]; below its speed and acceleration alike.
+    fn position_of(&self, joint: usize, u: f64) -> f64 {
+        let [c0, c1, c2, c3, c4, c5] = self.c.each_ref().map(|c| c[joint]);
+        c0 + (c1 + (c2 + (c3 + (c4 + c5 * u) * u) * u) * u) * u
+    }
+
+    fn speed_of(&self, joint: usize, u: f64) -> f64 {
+        let [_, c1, c2, c3, c4, c5] = self.c.each_ref().map(|c| c[joint]);
+        c1 + (c2 * 2.0 + c3 * (3.0 * u) + (c4 * 4.0 + c5 * (5.0 * u)) * (u * u)) * u
+    }
+
+    fn acceleration_of(&self, joint: usize, u: f64) -> f64 {
+        let [_, _, c2, c3, c4, c5] = self.c.each_ref().map(|c| c[joint]);
+        c2 * 2.0 + c3 * (6.0 * u) + (c4 * 12.0 + c5 * (20.0 * u)) * (u * u)
+    }
+
     /// Upper bound on the third derivative of each joint over the piece \[rad/s³\]; a cubic's is constant.
     pub fn jerk(&self) -> JointVector {
         let [_, _, _, c3, c4, c5] = self.c.each_ref().map(|c| c.abs());
@@ -194,20 +210,29 @@ impl Piece {
 
     /// Upper bound on the speed of each joint from `u0` to `u1` \[rad/s\]. It is extreme at an end or where the acceleration is zero.
     pub fn greatest_speed(&self, u: [f64; 2]) -> JointVector {
-        self.greatest(u, Derivative::Acceleration, |u| self.speed(u)) + self.rounding.speed
+        let ends = u.map(|u| self.speed(u));
+        self.greatest(u, ends, Derivative::Acceleration, |joint, u| self.speed_of(joint, u)) + self.rounding.speed
     }
 
     /// Upper bound on the acceleration of each joint from `u0` to `u1` \[rad/s²\]. It is extreme at an end or where the jerk is zero.
     pub fn greatest_acceleration(&self, u: [f64; 2]) -> JointVector {
-        self.greatest(u, Derivative::Jerk, |u| self.acceleration(u)) + self.rounding.acceleration
+        let ends = u.map(|u| self.acceleration(u));
+        self.greatest(u, ends, Derivative::Jerk, |joint, u| self.acceleration_of(joint, u)) + self.rounding.acceleration
     }
 
-    /// Greatest magnitude of a quantity at `u0`, `u1` and the zeros between them of its derivative.
-    fn greatest(&self, [u0, u1]: [f64; 2], derivative: Derivative, value: impl Fn(f64) -> JointVector) -> JointVector {
-        let mut greatest = value(u0).abs().sup(&value(u1).abs());
+    /// Greatest magnitude of a quantity at `u0`, `u1` and the zeros between them of its derivative. `ends` are its values at `u0` and
+    /// `u1`, `value` is that of one joint.
+    fn greatest(
+        &self,
+        [u0, u1]: [f64; 2],
+        ends: [JointVector; 2],
+        derivative: Derivative,
+        value: impl Fn(usize, f64) -> f64,
+    ) -> JointVector {
+        let mut greatest = ends[0].abs().sup(&ends[1].abs());
         for joint in 0..AXES {
             for u in self.zeros(derivative, joint).into_iter().filter(|u| *u > u0 && *u < u1) {
-                greatest[joint] = greatest[joint].max(value(u)[joint].abs());
+                greatest[joint] = greatest[joint].max(value(joint, u).abs());
             }
         }
         greatest
@@ -226,7 +251,7 @@ impl Piece {
         for joint in 0..AXES {
             let turns = self.zeros(Derivative::Speed, joint);
             for u in turns.into_iter().filter(|u| *u > u0 && *u < u1) {
-                let q = self.position(u)[joint];
+                let q = self.position_of(joint, u);
                 extent.least[joint] = extent.least[joint].min(q);
                 extent.most[joint] = extent.most[joint].max(q);
             }

@@ -17,8 +17,9 @@ pub(crate) struct Timeline<'a> {
 pub(crate) enum Interval {
     /// Range of pieces, a group of the tree.
     Pieces { group: usize, first: usize, end: usize },
-    /// Part of a piece: start and end within it \[s\].
-    Within { piece: usize, u: [f64; 2] },
+    /// Part of a piece: start and end within it \[s\], and its place in the tree of halvings: 1 for the whole piece, 2n and 2n + 1 for the
+    /// halves of n.
+    Within { piece: usize, u: [f64; 2], node: u64 },
 }
 
 impl<'a> Timeline<'a> {
@@ -35,9 +36,12 @@ impl<'a> Timeline<'a> {
 
     fn group(&mut self, first: usize, end: usize) -> Extent {
         let here = self.groups.len();
-        let extent = self.pieces[first].extent([0.0, self.pieces[first].length_s]);
-        self.groups.push(extent);
-        if end - first > 1 {
+        if end - first == 1 {
+            let piece = &self.pieces[first];
+            self.groups.push(piece.extent([0.0, piece.length_s]));
+        } else {
+            // Its place comes before those of its halves.
+            self.groups.push(Extent::default());
             let middle = middle(first, end);
             let mut extent = self.group(first, middle).and(&self.group(middle, end));
             extent.jumps += self.pieces[middle - 1].jump_to(&self.pieces[middle]);
@@ -83,12 +87,25 @@ impl<'a> Timeline<'a> {
             }
             Interval::Pieces { first, .. } => {
                 let u = [0.0, self.pieces[first].length_s];
-                self.halves(&Interval::Within { piece: first, u })
+                self.halves(&Interval::Within {
+                    piece: first,
+                    u,
+                    node: 1,
+                })
             }
-            Interval::Within { piece, u: [from, to] } => {
+            Interval::Within {
+                piece,
+                u: [from, to],
+                node,
+            } => {
                 let middle = 0.5 * (from + to);
-                let half = |u| Interval::Within { piece, u };
-                (middle > from && middle < to).then(|| [half([from, middle]), half([middle, to])])
+                // Nothing is kept of a part so small that its number is too large.
+                let half = |u, second: u64| Interval::Within {
+                    piece,
+                    u,
+                    node: node.saturating_mul(2).saturating_add(second),
+                };
+                (middle > from && middle < to).then(|| [half([from, middle], 0), half([middle, to], 1)])
             }
         }
     }
@@ -97,7 +114,7 @@ impl<'a> Timeline<'a> {
     pub fn extent(&self, interval: &Interval) -> Extent {
         match *interval {
             Interval::Pieces { group, .. } => self.groups[group],
-            Interval::Within { piece, u } => self.pieces[piece].extent(u),
+            Interval::Within { piece, u, .. } => self.pieces[piece].extent(u),
         }
     }
 
@@ -119,7 +136,7 @@ impl<'a> Timeline<'a> {
                 let last = &self.pieces[end - 1];
                 [self.pieces[first].start_s, last.start_s + last.length_s]
             }
-            Interval::Within { piece, u } => u.map(|u| self.pieces[piece].start_s + u),
+            Interval::Within { piece, u, .. } => u.map(|u| self.pieces[piece].start_s + u),
         }
     }
 
@@ -130,7 +147,7 @@ impl<'a> Timeline<'a> {
                 let last = &self.pieces[end - 1];
                 [self.pieces[first].position(0.0), last.position(last.length_s)]
             }
-            Interval::Within { piece, u } => u.map(|u| self.pieces[piece].position(u)),
+            Interval::Within { piece, u, .. } => u.map(|u| self.pieces[piece].position(u)),
         }
     }
 
@@ -139,7 +156,9 @@ impl<'a> Timeline<'a> {
         let (piece, u) = match *interval {
             Interval::Pieces { first, end, .. } if end - first > 1 => (middle(first, end), 0.0),
             Interval::Pieces { first, .. } => (first, 0.5 * self.pieces[first].length_s),
-            Interval::Within { piece, u: [from, to] } => (piece, 0.5 * (from + to)),
+            Interval::Within {
+                piece, u: [from, to], ..
+            } => (piece, 0.5 * (from + to)),
         };
         let piece = &self.pieces[piece];
         (piece.start_s + u, piece.position(u))

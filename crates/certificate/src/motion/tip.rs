@@ -5,6 +5,9 @@
 //! For a vector f of time, ‖f(t)‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ on [a, b], h = b − a. The bounds of the derivatives of
 //! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`platewash_workcell::clearance::lever`]; a cubic has no fourth
 //! derivative.
+//!
+//! Many requirements look at the same moments: the ends of the pieces and the middles of their parts. Each is computed when it is first
+//! needed and kept ([`TipPiece`]). It depends on arm and piece alone, so that it is the same whoever asks first.
 
 use crate::motion::piece::Piece;
 use nalgebra::Vector3;
@@ -12,6 +15,7 @@ use platewash_kinematics::{AXES, Axes, Frame, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::lever::{self, Levers};
 use platewash_workcell::tool::Tool;
+use std::sync::OnceLock;
 
 /// The arm with its tip.
 #[derive(Debug)]
@@ -42,13 +46,49 @@ pub(crate) struct Moment {
     levers: Levers,
 }
 
-/// Part of a piece, with the tip's states at its ends.
+/// Greatest depth of halving of a piece down to which its parts are kept. It limits the memory.
+const KEPT_DEPTH: u32 = 6;
+
+/// Piece of a motion, or a part of one, with the tip's states that are known of it.
+#[derive(Debug)]
+pub(crate) struct TipPiece<'a> {
+    piece: &'a Piece,
+    ends: [Moment; 2],
+    part: Part,
+}
+
+/// Part of a piece, with what is known of it.
+#[derive(Debug)]
+struct Part {
+    /// Start and end within the piece \[s\].
+    u: [f64; 2],
+    depth: u32,
+    derivatives: OnceLock<Derivatives>,
+    middle: OnceLock<Box<Middle>>,
+}
+
+/// The middle of a part, and its halves.
+#[derive(Debug)]
+pub(crate) struct Middle {
+    there: Moment,
+    parts: [Part; 2],
+}
+
+/// Stretch of time within a piece, with the tip's states at its ends.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch<'a> {
     pub piece: &'a Piece,
     /// Start and end within the piece \[s\].
     pub u: [f64; 2],
-    pub ends: [Moment; 2],
+    pub ends: [&'a Moment; 2],
+    part: &'a Part,
+}
+
+/// The two halves of a stretch: of one that is kept, or of a shorter one.
+#[derive(Debug)]
+pub(crate) enum Halves<'a> {
+    Kept(Stretch<'a>, &'a Middle),
+    Passing(Stretch<'a>, Box<Middle>),
 }
 
 /// Bounds of derivatives of the tip over a stretch.
@@ -102,48 +142,99 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Returns the stretch over a whole piece.
-    pub fn stretch<'p>(&self, piece: &'p Piece) -> Stretch<'p> {
-        self.part(piece, [0.0, piece.length_s])
+    /// Returns the pieces of a motion with the tip's states at their ends.
+    pub fn along<'p>(&self, pieces: &'p [Piece]) -> Vec<TipPiece<'p>> {
+        let whole = |piece: &'p Piece| self.part(piece, [0.0, piece.length_s]);
+        pieces.iter().map(whole).collect()
     }
 
-    /// Returns the stretch over a part of a piece, from `u[0]` to `u[1]` within it \[s\].
-    pub fn part<'p>(&self, piece: &'p Piece, u: [f64; 2]) -> Stretch<'p> {
-        let ends = u.map(|u| self.at(piece, u));
-        Stretch { piece, u, ends }
+    /// Returns a part of a piece, from `u[0]` to `u[1]` within it \[s\].
+    pub fn part<'p>(&self, piece: &'p Piece, u: [f64; 2]) -> TipPiece<'p> {
+        TipPiece {
+            piece,
+            ends: u.map(|u| self.at(piece, u)),
+            part: Part::new(u, 0),
+        }
     }
 
     /// Returns the two halves of a stretch; `None` if it is too short to halve, or if the work was cancelled.
-    pub fn halves<'p>(&self, whole: &Stretch<'p>) -> Option<[Stretch<'p>; 2]> {
+    pub fn halves<'p>(&self, whole: &Stretch<'p>) -> Option<Halves<'p>> {
         let [from, to] = whole.u;
         let middle = 0.5 * (from + to);
         if !(middle > from && middle < to) || self.cancel.is_cancelled() {
             return None;
         }
-        let there = self.at(whole.piece, middle);
-        let half = |u, ends| Stretch {
-            piece: whole.piece,
-            u,
-            ends,
+        let depth = whole.part.depth + 1;
+        let compute = || {
+            Box::new(Middle {
+                there: self.at(whole.piece, middle),
+                parts: [[from, middle], [middle, to]].map(|u| Part::new(u, depth)),
+            })
         };
-        let [first, last] = whole.ends;
-        Some([half([from, middle], [first, there]), half([middle, to], [there, last])])
+        Some(if depth <= KEPT_DEPTH {
+            Halves::Kept(*whole, whole.part.middle.get_or_init(compute))
+        } else {
+            Halves::Passing(*whole, compute())
+        })
     }
 
     /// Returns bounds of derivatives that hold all over a stretch.
-    pub fn derivatives(&self, stretch: &Stretch<'_>) -> Derivatives {
-        let speed = stretch.piece.greatest_speed(stretch.u);
-        // The nearer end is half a stretch away.
-        let drift = speed * (0.5 * stretch.length_s());
-        let [from, to] = &stretch.ends;
-        Derivatives {
-            rates: [
-                speed,
-                stretch.piece.greatest_acceleration(stretch.u),
-                stretch.piece.jerk(),
-            ],
-            levers: lever::within(&from.levers.sup(&to.levers), &drift, &self.greatest),
+    pub fn derivatives<'p>(&self, stretch: &Stretch<'p>) -> &'p Derivatives {
+        stretch.part.derivatives.get_or_init(|| {
+            let speed = stretch.piece.greatest_speed(stretch.u);
+            // The nearer end is half a stretch away.
+            let drift = speed * (0.5 * stretch.length_s());
+            let [from, to] = &stretch.ends;
+            Derivatives {
+                rates: [
+                    speed,
+                    stretch.piece.greatest_acceleration(stretch.u),
+                    stretch.piece.jerk(),
+                ],
+                levers: lever::within(&from.levers.sup(&to.levers), &drift, &self.greatest),
+            }
+        })
+    }
+}
+
+impl TipPiece<'_> {
+    /// Returns the stretch over all of it.
+    pub fn stretch(&self) -> Stretch<'_> {
+        Stretch {
+            piece: self.piece,
+            u: self.part.u,
+            ends: self.ends.each_ref(),
+            part: &self.part,
         }
+    }
+}
+
+impl Part {
+    fn new(u: [f64; 2], depth: u32) -> Self {
+        Self {
+            u,
+            depth,
+            derivatives: OnceLock::new(),
+            middle: OnceLock::new(),
+        }
+    }
+}
+
+impl Halves<'_> {
+    /// Returns the first half and the second.
+    pub fn both(&self) -> [Stretch<'_>; 2] {
+        let (whole, middle): (_, &Middle) = match self {
+            Self::Kept(whole, middle) => (whole, middle),
+            Self::Passing(whole, middle) => (whole, middle),
+        };
+        let ([first, last], there) = (whole.ends, &middle.there);
+        let half = |part: usize, ends| Stretch {
+            piece: whole.piece,
+            u: middle.parts[part].u,
+            ends,
+            part: &middle.parts[part],
+        };
+        [half(0, [first, there]), half(1, [there, last])]
     }
 }
 
@@ -236,7 +327,8 @@ mod tests {
             let [before, here, after] = [u - h, u, u + h].map(|u| arm.at(&piece, u));
             prop_assert!(((after.position - before.position) / (2.0 * h) - here.speed).norm() < 1e-6);
             prop_assert!(((after.speed - before.speed) / (2.0 * h) - here.acceleration).norm() < 1e-5);
-            let bounds = arm.derivatives(&arm.stretch(&piece));
+            let whole = arm.part(&piece, [0.0, piece.length_s]);
+            let bounds = arm.derivatives(&whole.stretch());
             let third = (after.acceleration - before.acceleration) / (2.0 * h);
             let fourth = (after.acceleration - here.acceleration * 2.0 + before.acceleration) / (h * h);
             let axis = (after.axis - here.axis * 2.0 + before.axis) / (h * h);

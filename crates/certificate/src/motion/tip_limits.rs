@@ -4,7 +4,7 @@
 
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
-use crate::motion::tip::{Arm, Moment, Stretch};
+use crate::motion::tip::{Arm, Moment, Stretch, TipPiece};
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
@@ -53,7 +53,7 @@ enum TiltNormal {
 
 impl Tips {
     /// Bounds all quantities. Without a schedule the whole motion counts as not washing.
-    pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Self {
+    pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[TipPiece<'_>], schedule: Option<&Schedule>) -> Self {
         let limits = &subject.limits;
         let pair = |speed: f64, acceleration: f64| {
             [speed, acceleration].map(|limit| BoundTracker::new(limit, RESOLUTION * limit))
@@ -96,7 +96,7 @@ impl Tips {
                     if face.surface().is_flat() {
                         s.sag(bounds.second())
                     } else {
-                        s.sag(Pass::new(&face, s, &bounds).bend_of_height())
+                        s.sag(Pass::new(&face, s, bounds).bend_of_height())
                     }
                 };
                 observe(
@@ -277,7 +277,7 @@ fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
 fn tilted(
     arm: &Arm<'_>,
     mut tracker: BoundTracker,
-    pieces: &[Piece],
+    pieces: &[TipPiece<'_>],
     face: &Face<'_>,
     against: TiltNormal,
 ) -> BoundTracker {
@@ -291,7 +291,7 @@ fn tilted(
             let bend = |s: &Stretch<'_>| {
                 let bounds = arm.derivatives(s);
                 let second = bounds.second_of_axis();
-                Pass::new(face, s, &bounds).sag_of_sine(s, [turning(s, second), second])
+                Pass::new(face, s, bounds).sag_of_sine(s, [turning(s, second), second])
             };
             observe(arm, &mut tracker, &[pieces], &sine, &bend);
         }
@@ -301,11 +301,11 @@ fn tilted(
 
 /// Upper bound on the speed of the tool's axis over a stretch, whose second derivative is not above `second` \[1/s\].
 pub(crate) fn turning(stretch: &Stretch<'_>, second: f64) -> f64 {
-    let [from, to] = stretch.ends.each_ref().map(|m| m.turning.cross(&m.axis).norm());
+    let [from, to] = stretch.ends.map(|m| m.turning.cross(&m.axis).norm());
     from.max(to) + 0.5 * stretch.length_s() * second
 }
 
-fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spans: &[&[Piece]]) {
+fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spans: &[&[TipPiece<'_>]]) {
     observe(arm, speed, spans, &|m| m.speed.norm(), &|s| {
         s.sag(arm.derivatives(s).third())
     });
@@ -319,12 +319,12 @@ fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spa
 fn observe(
     arm: &Arm<'_>,
     tracker: &mut BoundTracker,
-    spans: &[&[Piece]],
+    spans: &[&[TipPiece<'_>]],
     value: &impl Fn(&Moment) -> f64,
     beyond: &impl Fn(&Stretch<'_>) -> f64,
 ) {
     let pieces = || spans.iter().flat_map(|pieces| pieces.iter());
     tracker.allow_for(pieces().count());
-    pieces().for_each(|piece| tracker.see_ends(&arm.stretch(piece), value));
-    pieces().for_each(|piece| tracker.refine(arm, &arm.stretch(piece), value, beyond));
+    pieces().for_each(|piece| tracker.see_ends(&piece.stretch(), value));
+    pieces().for_each(|piece| tracker.refine(arm, &piece.stretch(), value, beyond));
 }

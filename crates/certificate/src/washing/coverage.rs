@@ -6,11 +6,12 @@
 //! moments the tip leaves the chord by at most h²/8 · sup ‖p̈‖; less the greatest of these, the disc sweeps at least what it
 //! would along the polyline.
 //!
+//! What is pressed is swept: where the share proved to be pressed (requirement 27) reaches the required one, it is the bound.
+//!
 //! Moments of the tip, seen along the axis of a plate, as a polyline that the tip never leaves by much.
 
 use crate::error::ProveError;
-use crate::motion::piece::Piece;
-use crate::motion::tip::{Arm, Stretch};
+use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits::Tips;
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
@@ -36,7 +37,7 @@ use serde::{Deserialize, Serialize};
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,
-    /// Proved lower bound of the swept share.
+    /// Proved lower bound of the swept share. It is that of the pressed share where that reaches the required one.
     pub at_least: f64,
     /// Proved upper bound of the swept share; `None` where it was not needed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -77,7 +78,7 @@ pub(crate) struct Wash {
 pub(crate) fn washes(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    pieces: &[Piece],
+    pieces: &[TipPiece<'_>],
     schedule: &Schedule,
     tips: &Tips,
     cancel: &CancelToken,
@@ -108,9 +109,9 @@ pub(crate) fn washes(
 struct Washing<'a> {
     arm: &'a Arm<'a>,
     subject: &'a Subject<'a>,
-    pieces: &'a [Piece],
+    pieces: &'a [TipPiece<'a>],
     /// Pieces of the approaches to the plate and the retreats from it.
-    around: Vec<&'a [Piece]>,
+    around: Vec<&'a [TipPiece<'a>]>,
     /// Lower bound on the cosine of the angle between the tool and the plate's axis, from approach to retreat.
     around_cosine: f64,
     span: usize,
@@ -137,10 +138,11 @@ impl Washing<'_> {
             beyond_rim_allowed_m: 0.0,
             touches: Vec::new(),
         };
-        if self.plate.surface.is_flat() {
-            self.sweep(&line, &mut swept)?;
-        } else {
-            swept.at_least = self.touched_share(contact.as_ref())?;
+        let pressed = contact.map(|contact| contact.pressed.at_least);
+        match pressed.filter(|pressed| *pressed >= self.subject.limits.coverage) {
+            Some(pressed) => swept.at_least = pressed,
+            None if self.plate.surface.is_flat() => self.sweep(&line, &mut swept)?,
+            None => swept.at_least = self.touched_share(pressed.unwrap_or(0.0))?,
         }
         Ok(Wash {
             span: self.span,
@@ -178,13 +180,12 @@ impl Washing<'_> {
     }
 
     /// Returns a lower bound on the share of a face that is no disc that the sponge touches, by area, with the plate at its stated
-    /// position. Pressed area counts as touched.
-    fn touched_share(&self, contact: Option<&PlateContact>) -> Result<f64, ProveError> {
-        let required = self.subject.limits.coverage;
-        let pressed = contact.map_or(0.0, |contact| contact.pressed.at_least);
-        if pressed >= required || !self.meets_from_above() {
+    /// position; not less than the `pressed` one.
+    fn touched_share(&self, pressed: f64) -> Result<f64, ProveError> {
+        if !self.meets_from_above() {
             return Ok(pressed);
         }
+        let required = self.subject.limits.coverage;
         let sponge = &self.subject.job.workcell.tool.sponge;
         // Whatever its stiffness: no dose is asked for.
         let foundation = Foundation::stiff(sponge, [0.0; 2]);
@@ -301,7 +302,7 @@ pub(crate) struct Polyline {
 
 impl Polyline {
     /// The tip during some pieces over a face. It should keep within `allowed_m` of the pole: where it does, that is proved.
-    pub fn new(arm: &Arm<'_>, pieces: &[Piece], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
+    pub fn new(arm: &Arm<'_>, pieces: &[TipPiece<'_>], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
         let mut line = Self {
             points: Vec::new(),
             off_m: 0.0,
@@ -312,7 +313,7 @@ impl Polyline {
             splits: SPLITS + (pieces.len() << MOST_HALVINGS),
         };
         for (i, piece) in pieces.iter().enumerate() {
-            let stretch = arm.stretch(piece);
+            let stretch = piece.stretch();
             if i == 0 {
                 line.points.push(tip_from_pole(face, &stretch, 0));
             }
@@ -334,7 +335,10 @@ impl Polyline {
             None
         };
         if let Some(halves) = halves {
-            return halves.iter().for_each(|half| self.add(arm, face, half, depth + 1));
+            return halves
+                .both()
+                .iter()
+                .for_each(|half| self.add(arm, face, half, depth + 1));
         }
         self.off_m = if off_m.is_nan() {
             f64::INFINITY

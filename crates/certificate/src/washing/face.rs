@@ -146,7 +146,7 @@ impl Pass {
     pub fn new(face: &Face<'_>, stretch: &Stretch<'_>, bounds: &Derivatives) -> Self {
         let surface = face.surface();
         let acceleration = bounds.second();
-        let ends = stretch.ends.each_ref();
+        let ends = stretch.ends;
         let [from, to] = ends.map(|m| m.speed.norm());
         let speed = from.max(to) + stretch.sag(bounds.third()).min(0.5 * stretch.length_s() * acceleration);
         let rho = ends.map(|m| {

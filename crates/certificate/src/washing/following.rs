@@ -11,7 +11,7 @@
 
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
-use crate::motion::tip::{Arm, Moment, Stretch};
+use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits;
 use crate::report::check::{Check, Unit};
 use crate::report::requirement::Requirement;
@@ -39,7 +39,7 @@ struct Leg<'a> {
 pub(crate) fn checks(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    pieces: &[Piece],
+    (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: Option<&Schedule>,
 ) -> [Check; 2] {
     let requirements = [Requirement::PathDeviation, Requirement::LineDeviation];
@@ -56,7 +56,7 @@ pub(crate) fn checks(
             .zip(path)
             .and_then(|(plate, path)| Curve::new(plate, path, span.kind));
         match curve {
-            Some(curve) => follow(arm, &pieces[span.pieces.clone()], &curve, &mut trackers[which]),
+            Some(curve) => follow(arm, &along[span.pieces.clone()], &curve, &mut trackers[which]),
             None => no_curve[which] = true,
         }
     }
@@ -70,26 +70,26 @@ pub(crate) fn checks(
 }
 
 /// Bounds the deviation of the tip from a curve during the pieces.
-fn follow(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve<'_>, tracker: &mut BoundTracker) {
+fn follow(arm: &Arm<'_>, pieces: &[TipPiece<'_>], curve: &Curve<'_>, tracker: &mut BoundTracker) {
     tracker.allow_for(pieces.len());
-    let theta = in_order(nearest(arm, pieces, curve));
+    let theta = in_order(nearest(pieces, curve));
     let leg = |i: usize| Leg {
-        stretch: arm.stretch(&pieces[i]),
+        stretch: pieces[i].stretch(),
         theta: [theta[i], theta[i + 1]],
     };
     for leg in (0..pieces.len()).map(leg) {
         for (k, time_s) in leg.stretch.times().into_iter().enumerate() {
-            tracker.see(deviation(curve, &leg, k), time_s, &leg.stretch.ends[k]);
+            tracker.see(deviation(curve, &leg, k), time_s, leg.stretch.ends[k]);
         }
     }
     (0..pieces.len()).for_each(|i| refine(arm, curve, &leg(i), tracker, 0));
 }
 
 /// θ of the points nearest to the tip, at the first knot and behind every piece; where the curve begins and ends at the ends.
-fn nearest(arm: &Arm<'_>, pieces: &[Piece], curve: &Curve<'_>) -> Vec<f64> {
+fn nearest(pieces: &[TipPiece<'_>], curve: &Curve<'_>) -> Vec<f64> {
     let mut theta = vec![0.0];
     for (i, piece) in pieces.iter().enumerate() {
-        let there = arm.at(piece, piece.length_s).position;
+        let there = piece.stretch().ends[1].position;
         theta.push(if i + 1 == pieces.len() {
             curve.end()
         } else {
@@ -123,10 +123,11 @@ fn refine(arm: &Arm<'_>, curve: &Curve<'_>, leg: &Leg<'_>, tracker: &mut BoundTr
     if tracker.accepts(bound) || !tracker.may_split(depth) {
         return tracker.take(bound);
     }
-    let Some([first, second]) = arm.halves(&leg.stretch) else {
+    let Some(halves) = arm.halves(&leg.stretch) else {
         return tracker.take(bound);
     };
-    let there: Moment = first.ends[1];
+    let [first, second] = halves.both();
+    let there = first.ends[1];
     let middle = curve.nearest(&there.position, 0.5 * (leg.theta[0] + leg.theta[1]), leg.theta);
     let halves = [
         Leg {
@@ -138,7 +139,7 @@ fn refine(arm: &Arm<'_>, curve: &Curve<'_>, leg: &Leg<'_>, tracker: &mut BoundTr
             theta: [middle, leg.theta[1]],
         },
     ];
-    tracker.see(deviation(curve, &halves[0], 1), first.times()[1], &there);
+    tracker.see(deviation(curve, &halves[0], 1), first.times()[1], there);
     for half in &halves {
         refine(arm, curve, half, tracker, depth + 1);
     }

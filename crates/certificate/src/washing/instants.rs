@@ -11,8 +11,7 @@
 //! A point in contact is within s of the axis and compressed by no more than the free height H, so that ‖d‖² ≤ s² + H² then, and within a
 //! stretch of length h it is no farther than V h more; the plate's error of height adds to it.
 
-use crate::motion::piece::Piece;
-use crate::motion::tip::{self, Arm, Derivatives, Stretch};
+use crate::motion::tip::{self, Arm, Derivatives, Stretch, TipPiece};
 use crate::motion::tip_limits;
 use crate::washing::shares::Sags;
 use platewash_workcell::contact::{Drift, Foundation, Moment, SpongePose};
@@ -63,7 +62,12 @@ struct StretchInputs<'a> {
 
 impl Instants {
     /// Returns the moments of the pieces, for a sponge on a plate that may lie higher or lower by `error_m`.
-    pub fn new(arm: &Arm<'_>, pieces: &[Piece], plate: &Plate, (foundation, error_m): (&Foundation, f64)) -> Self {
+    pub fn new(
+        arm: &Arm<'_>,
+        pieces: &[TipPiece<'_>],
+        plate: &Plate,
+        (foundation, error_m): (&Foundation, f64),
+    ) -> Self {
         let look = StretchInputs {
             arm,
             plate,
@@ -72,7 +76,7 @@ impl Instants {
         };
         let mut all = Self::default();
         for piece in pieces {
-            let stretch = arm.stretch(piece);
+            let stretch = piece.stretch();
             if all.moments.is_empty() {
                 all.see(plate, &stretch, 0);
             }
@@ -84,9 +88,9 @@ impl Instants {
     /// Adds a stretch whose first end has been added already.
     fn add(&mut self, inputs: &StretchInputs<'_>, stretch: &Stretch<'_>, depth: u32) {
         let bounds = inputs.arm.derivatives(stretch);
-        let drift = drift(stretch, &bounds);
-        let sags = inputs.sags(stretch, &bounds, &drift);
-        let [from, to] = stretch.ends.each_ref();
+        let drift = drift(stretch, bounds);
+        let sags = inputs.sags(stretch, bounds, &drift);
+        let [from, to] = stretch.ends;
         let [step_m, sag_m] = if inputs.plate.surface.is_flat() {
             [STEP_M, SAG_M]
         } else {
@@ -100,7 +104,7 @@ impl Instants {
             .then(|| inputs.arm.halves(stretch))
             .flatten();
         if let Some(halves) = halves {
-            return halves.iter().for_each(|half| self.add(inputs, half, depth + 1));
+            return halves.both().iter().for_each(|half| self.add(inputs, half, depth + 1));
         }
         self.sags.push(sags);
         self.drifts.push(drift);
@@ -112,7 +116,7 @@ impl Instants {
     }
 
     fn see(&mut self, plate: &Plate, stretch: &Stretch<'_>, end: usize) {
-        let there = &stretch.ends[end];
+        let there = stretch.ends[end];
         let local = |v| plate.pose.inverse_transform_vector(v);
         self.moments.push(Moment {
             t_s: stretch.times()[end],
@@ -136,7 +140,7 @@ pub(crate) fn pose(plate: &Plate, there: &tip::Moment) -> SpongePose {
 pub(crate) fn drift(stretch: &Stretch<'_>, bounds: &Derivatives) -> Drift {
     let half_s = 0.5 * stretch.length_s();
     let greatest = |of: fn(&tip::Moment) -> f64| {
-        let [from, to] = stretch.ends.each_ref().map(of);
+        let [from, to] = stretch.ends.map(of);
         from.max(to)
     };
     // From the nearer end, or through both.

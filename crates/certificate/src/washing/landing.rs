@@ -27,7 +27,7 @@
 
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
-use crate::motion::tip::{Arm, Derivatives, Moment, Stretch};
+use crate::motion::tip::{Arm, Derivatives, Moment, Stretch, TipPiece};
 use crate::motion::tip_limits::{self, Tips};
 use crate::report::check::{Check, Unit, WorstCase};
 use crate::report::requirement::Requirement;
@@ -58,7 +58,7 @@ struct TouchSpeedLimit<'a> {
 pub(crate) fn check(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    pieces: &[Piece],
+    (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: Option<&Schedule>,
     tips: &Tips,
 ) -> Check {
@@ -66,7 +66,7 @@ pub(crate) fn check(
         return Check::not_judged(Requirement::ContactSpeed);
     };
     let wanted = &subject.job.requirements;
-    let judged = |limit: &TouchSpeedLimit<'_>| judge(arm, subject, pieces, schedule, tips, limit);
+    let judged = |limit: &TouchSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
     let as_washed = FarFace {
         beyond_m: 0.0,
         error_m: 0.0,
@@ -99,7 +99,7 @@ pub(crate) fn check(
 fn judge(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
-    pieces: &[Piece],
+    (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: &Schedule,
     tips: &Tips,
     touch: &TouchSpeedLimit<'_>,
@@ -119,14 +119,14 @@ fn judge(
     tracker.seen = 0.0;
     tracker.take(0.0);
     let over: Vec<_> = spans()
-        .filter_map(|(i, span)| Some((rim(i, span)?, &pieces[span.pieces.clone()])))
+        .filter_map(|(i, span)| Some((rim(i, span)?, &along[span.pieces.clone()])))
         .collect();
     for (rim, pieces) in &over {
-        record_speeds(arm, rim, pieces, &mut tracker);
+        record_speeds(rim, pieces, &mut tracker);
     }
     for (rim, pieces) in &over {
         for piece in *pieces {
-            rim.halve(arm, &arm.stretch(piece), &mut tracker, 0);
+            rim.halve(arm, &piece.stretch(), &mut tracker, 0);
         }
     }
     let worst = if tracker.seen > 0.0 {
@@ -138,9 +138,9 @@ fn judge(
 }
 
 /// Records the speed at both ends of all pieces.
-fn record_speeds(arm: &Arm<'_>, rim: &Rim<'_>, pieces: &[Piece], tracker: &mut BoundTracker) {
-    for stretch in pieces.iter().map(|piece| arm.stretch(piece)) {
-        for (moment, time_s) in stretch.ends.iter().zip(stretch.times()) {
+fn record_speeds(rim: &Rim<'_>, pieces: &[TipPiece<'_>], tracker: &mut BoundTracker) {
+    for stretch in pieces.iter().map(TipPiece::stretch) {
+        for (moment, time_s) in stretch.ends.into_iter().zip(stretch.times()) {
             rim.see(tracker, moment, time_s);
         }
     }
@@ -237,7 +237,7 @@ impl<'a> Rim<'a> {
 
     /// Checks that no part of the sponge touches anywhere in a stretch over a disc.
     fn is_clear(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> bool {
-        let [from, to] = stretch.ends.each_ref().map(|m| self.height(m));
+        let [from, to] = stretch.ends.map(|m| self.height(m));
         let lower = if from < to || from.is_nan() { from } else { to };
         let arm_m = self.far.beyond_m + self.radius_m;
         lower - stretch.sag(bounds.second() + arm_m * bounds.second_of_axis()) - ROUNDING_M > 0.0
@@ -246,13 +246,13 @@ impl<'a> Rim<'a> {
     /// Checks that a face that is no disc is out of reach all through a stretch, by the plate's enclosing cylinder.
     fn is_far(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> bool {
         let arm_m = self.reach_m + self.far.error_m;
-        let [from, to] = stretch.ends.each_ref().map(|m| {
+        let [from, to] = stretch.ends.map(|m| {
             let tip = self.plate.local(&m.position);
             (tip.z - self.highest_m).max(tip.xy().norm() - self.plate.rim_m())
         });
         // A maximum of a height and a distance: each moves no faster than the tip.
         let nearer = if from < to || from.is_nan() { from } else { to };
-        let [a, b] = stretch.ends.each_ref().map(|m| m.speed.norm());
+        let [a, b] = stretch.ends.map(|m| m.speed.norm());
         let speed = a.max(b) + stretch.sag(bounds.third());
         nearer - 0.5 * stretch.length_s() * speed - arm_m - ROUNDING_M > 0.0
     }
@@ -265,7 +265,7 @@ impl<'a> Rim<'a> {
 
     /// Upper bound on the speed of a touching point over a stretch \[m/s\].
     fn at_most(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
-        let [from, to] = stretch.ends.each_ref().map(|m| self.fastest(m));
+        let [from, to] = stretch.ends.map(|m| self.fastest(m));
         let greater = if from > to || from.is_nan() { from } else { to };
         greater + stretch.sag(bounds.third() + self.reach_m * bounds.third_of_axis())
     }
@@ -273,7 +273,7 @@ impl<'a> Rim<'a> {
     /// Upper bound on the speed of a point of the touching parts over a stretch \[m/s\], taken part by part.
     fn at_most_of(&self, parts: &Parts<'_>, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
         let reach_m = parts.columns.reach_m();
-        let ends = stretch.ends.each_ref();
+        let ends = stretch.ends;
         let mut greatest = 0.0_f64;
         let mut far_m = 0.0_f64;
         let mut along = [f64::INFINITY, f64::NEG_INFINITY];
@@ -298,6 +298,10 @@ impl<'a> Rim<'a> {
 
     /// Records the speed of a touching point at a moment, if there is one.
     pub fn see(&self, tracker: &mut BoundTracker, m: &Moment, time_s: f64) {
+        // No touching point is faster, so that none would be recorded.
+        if self.fastest(m) * (1.0 + 1e-9) <= tracker.seen {
+            return;
+        }
         let Some(r) = self.touching(m) else { return };
         let speed = (m.speed + m.turning.cross(&r)).norm();
         let mut there = *m;
@@ -343,10 +347,10 @@ impl Rim<'_> {
     pub fn halve(&self, arm: &Arm<'_>, stretch: &Stretch<'_>, tracker: &mut BoundTracker, depth: u32) {
         let bounds = arm.derivatives(stretch);
         let bound = match &self.columns {
-            None if self.is_clear(stretch, &bounds) => return,
-            Some(_) if self.is_far(stretch, &bounds) => return,
-            None => self.at_most(stretch, &bounds),
-            Some(columns) => match self.bound_on(columns, stretch, tracker, &bounds) {
+            None if self.is_clear(stretch, bounds) => return,
+            Some(_) if self.is_far(stretch, bounds) => return,
+            None => self.at_most(stretch, bounds),
+            Some(columns) => match self.bound_on(columns, stretch, tracker, bounds) {
                 None => return,
                 Some(bound) => bound,
             },
@@ -360,7 +364,8 @@ impl Rim<'_> {
         let Some(halves) = arm.halves(stretch) else {
             return tracker.take(bound);
         };
-        self.see(tracker, &halves[0].ends[1], halves[0].times()[1]);
+        let halves = halves.both();
+        self.see(tracker, halves[0].ends[1], halves[0].times()[1]);
         for half in &halves {
             self.halve(arm, half, tracker, depth + 1);
         }
@@ -378,7 +383,7 @@ impl Rim<'_> {
         if tracker.is_within_limit(rough) {
             return Some(rough);
         }
-        let [from, to] = stretch.ends.each_ref().map(|m| self.sponge_state(columns, m));
+        let [from, to] = stretch.ends.map(|m| self.sponge_state(columns, m));
         let drift = instants::drift(stretch, bounds);
         let Some(touching) = columns.0.touching(&columns.1, [&from, &to], &drift) else {
             return Some(rough);

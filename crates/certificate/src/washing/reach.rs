@@ -10,8 +10,7 @@
 //! A neighbour may be touched there and nowhere else; and by no more than its rim: not so far that the tip is over it, nor the sponge
 //! over its centre.
 
-use crate::motion::piece::Piece;
-use crate::motion::tip::Arm;
+use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
 use crate::report::check::{Check, Discrepancy, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
@@ -32,7 +31,7 @@ const LINE_HALVINGS: u32 = 12;
 /// Proved bounds of the tip on which the reach of the sponge depends.
 pub(crate) struct ReachInputs<'a> {
     pub arm: &'a Arm<'a>,
-    pub pieces: &'a [Piece],
+    pub pieces: &'a [TipPiece<'a>],
     pub schedule: &'a Schedule,
     pub tips: &'a Tips,
     /// Upper bound on the distance of the tip from its wash path \[m\]; `None` where it is not proved.

@@ -262,7 +262,7 @@ mod tests {
             let piece = Piece::new([0.0, 0.2], [q, q + step], v);
             let first = arm.at(&piece, 0.0).position;
             let plate = kitchen_plate([first.x + aside[0], first.y + aside[1]]);
-            let instants = Instants::new(&arm, std::slice::from_ref(&piece), &plate, (&FOUNDATION, 1e-3));
+            let instants = Instants::new(&arm, &arm.along(std::slice::from_ref(&piece)), &plate, (&FOUNDATION, 1e-3));
             let frame = TurningFrame::new(&plate, &instants);
             let last = instants.moments.len() - 1;
             let drift = frame.drift(0, last);
@@ -312,7 +312,12 @@ mod tests {
         let q = JointVector::from([0.2, 0.3, 0.1, 0.0, 0.6, 0.0]);
         let piece = Piece::new([0.0, 0.1], [q, q + step], [step * 10.0; 2]);
         let plate = kitchen_plate([0.0, 0.0]);
-        let instants = Instants::new(&arm, std::slice::from_ref(&piece), &plate, (&FOUNDATION, 0.0));
+        let instants = Instants::new(
+            &arm,
+            &arm.along(std::slice::from_ref(&piece)),
+            &plate,
+            (&FOUNDATION, 0.0),
+        );
         let frame = TurningFrame::new(&plate, &instants);
         let drift = frame.drift(0, instants.moments.len() - 1);
         assert!(instants.drifts[0].tip_m_s > 0.2, "{:?}", instants.drifts[0]);

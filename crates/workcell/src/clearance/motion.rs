@@ -20,7 +20,10 @@ use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
 use crate::clearance::part::{Part, PlacedPart};
 use parry3d_f64::math::Vector;
+use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, JointVector};
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// Error of a closed form or a support function \[m\].
@@ -85,6 +88,27 @@ impl<'a> PartPairs<'a> {
     pub fn parts(&self) -> impl Iterator<Item = &PartPair<'a>> {
         let innermost = self.pairs.iter().zip(&self.within);
         innermost.filter(|(_, within)| within.is_empty()).map(|(pair, _)| pair)
+    }
+}
+
+/// Moving part of a pair at one configuration.
+#[derive(Debug, Clone)]
+pub struct Mover<'a> {
+    part: &'a Part,
+    poses: &'a BodyPoses,
+    rigid: RigidTransform,
+    placed: OnceCell<PlacedPart<'a>>,
+}
+
+impl Mover<'_> {
+    /// Poses of the arm's bodies.
+    #[must_use]
+    pub fn poses(&self) -> &BodyPoses {
+        self.poses
+    }
+
+    fn placed(&self) -> &PlacedPart<'_> {
+        self.placed.get_or_init(|| self.part.place_at(&self.rigid))
     }
 }
 
@@ -180,16 +204,42 @@ impl<'a> PartPair<'a> {
         }
     }
 
+    /// Returns the moving part where it is at some poses.
+    pub fn mover<'p>(&self, poses: &'p BodyPoses) -> Mover<'p>
+    where
+        'a: 'p,
+    {
+        Mover {
+            part: self.moving,
+            poses,
+            rigid: self.moving.rigid(poses),
+            placed: OnceCell::new(),
+        }
+    }
+
+    /// Returns `mover` if it is the moving part of this pair too, otherwise that part at the same poses.
+    pub fn mover_as<'m, 'p>(&self, mover: &'m Mover<'p>) -> Cow<'m, Mover<'p>>
+    where
+        'a: 'p,
+    {
+        if std::ptr::eq(self.moving, mover.part) {
+            Cow::Borrowed(mover)
+        } else {
+            Cow::Owned(self.mover(mover.poses))
+        }
+    }
+
     /// A lower bound of the distance from spheres around the parts \[m\].
-    pub fn sphere_gap(&self, poses: &BodyPoses) -> f64 {
-        self.fixed.sphere_gap(self.moving, poses)
+    pub fn sphere_gap(&self, mover: &Mover<'_>) -> f64 {
+        self.fixed
+            .sphere_gap(&self.fixed.rigid(mover.poses), self.moving, &mover.rigid)
     }
 
     /// Lower bound of the distance from the moving part and a sphere around the fixed one \[m\]; exact up to rounding if the moving part is
     /// a capsule or a cylinder.
-    pub fn gap_to_sphere(&self, poses: &BodyPoses) -> f64 {
-        let [here, there] = [self.moving, self.fixed].map(|part| part.rigid(poses));
-        self.moving.gap_to_sphere(&here, self.fixed, &there) - ROUNDING_M
+    pub fn gap_to_sphere(&self, mover: &Mover<'_>) -> f64 {
+        let there = self.fixed.origin(mover.poses);
+        self.moving.gap_to_sphere(&mover.rigid, self.fixed, &there) - ROUNDING_M
     }
 
     /// Converts a direction from the frame of the fixed part to the base frame.
@@ -198,9 +248,9 @@ impl<'a> PartPair<'a> {
     }
 
     /// Measures the distance.
-    pub fn measure(&self, poses: &BodyPoses) -> PartDistance {
-        let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
-        let (found, at_least) = bracketed(&fixed, &moving);
+    pub fn measure(&self, mover: &Mover<'_>) -> PartDistance {
+        let (fixed, moving) = (self.fixed.place(mover.poses), mover.placed());
+        let (found, at_least) = bracketed(&fixed, moving);
         let normal = fixed.pose.rotation.inverse() * Vector::from_array(found.normal);
         PartDistance {
             distance_m: found.distance,
@@ -212,24 +262,24 @@ impl<'a> PartPair<'a> {
 
     /// Gap along a direction in the frame of the fixed part: a lower bound of the distance \[m\], rounding included.
     pub fn gap_along(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
-        self.gap_along_in_base(self.in_base(normal, poses), poses)
+        let fixed = self.fixed.place(poses);
+        let normal = fixed.pose.rotation * Vector::from_array(normal);
+        gap_between(&fixed, &self.moving.place(poses), normal)
     }
 
     /// Gap along a direction in the base frame. If the fixed part stands still, that is a direction in its frame.
-    pub fn gap_along_in_base(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
-        let (fixed, moving) = (self.fixed.place(poses), self.moving.place(poses));
-        // Over a half-space there is one direction with a gap, which is fixed to it.
-        let outwards = || moving.outwards().map(|outwards| -outwards);
-        let only = fixed.outwards().or_else(outwards);
-        let normal = only.unwrap_or_else(|| Vector::from_array(normal));
-        let from = |part: &PlacedPart<'_>, direction: Vector| part.support(direction);
-        -from(&moving, -normal) - from(&fixed, normal) - ROUNDING_M
+    pub fn gap_along_in_base(&self, normal: [f64; 3], mover: &Mover<'_>) -> f64 {
+        gap_between(
+            &self.fixed.place(mover.poses),
+            mover.placed(),
+            Vector::from_array(normal),
+        )
     }
 
-    /// Levers of the moving part while each joint is within `drift` \[rad\] of the configuration of `poses`.
-    pub fn levers(&self, poses: &BodyPoses, drift: &JointVector) -> Levers {
-        let point = poses.rigid(&self.moving.frame()).translation;
-        let here = self.moving.widened(&lever::at(poses, self.moving.body(), &point));
+    /// Levers of the moving part while each joint is within `drift` \[rad\] of the configuration of `mover`.
+    pub fn levers(&self, mover: &Mover<'_>, drift: &JointVector) -> Levers {
+        let point = mover.rigid.translation;
+        let here = self.moving.widened(&lever::at(mover.poses, self.moving.body(), &point));
         lever::within(&lever::from(&here, self.joints.start), drift, &self.greatest)
     }
 
@@ -239,6 +289,14 @@ impl<'a> PartPair<'a> {
         let first = self.joints.start;
         lever::tuples(levers, first, [acceleration]) + lever::tuples(levers, first, [speed, speed])
     }
+}
+
+/// Gap between two parts along a direction in the base frame: a lower bound of the distance \[m\], rounding included.
+fn gap_between(fixed: &PlacedPart<'_>, moving: &PlacedPart<'_>, normal: Vector) -> f64 {
+    // Over a half-space there is one direction with a gap, which is fixed to it.
+    let outwards = || moving.outwards().map(|outwards| -outwards);
+    let normal = fixed.outwards().or_else(outwards).unwrap_or(normal);
+    -moving.support(-normal) - fixed.support(normal) - ROUNDING_M
 }
 
 #[cfg(test)]
@@ -267,11 +325,12 @@ mod tests {
             let n = Vector::from_array(n).normalize().to_array();
             let pairs: Vec<_> = (0..model.pair_count()).map(|pair| model.parts_of(pair)).collect();
             for pair in pairs.iter().flat_map(PartPairs::parts) {
-                let measured = pair.measure(&middle);
-                let found = pair.measure(&there).distance_m;
-                let levers = pair.levers(&middle, &v.abs());
+                let [here, later] = [&middle, &there].map(|poses| pair.mover(poses));
+                let measured = pair.measure(&here);
+                let found = pair.measure(&later).distance_m;
+                let levers = pair.levers(&here, &v.abs());
                 prop_assert!(measured.at_least_m - levers.dot(&v.abs()) <= found + ITERATIVE_ERROR_M);
-                prop_assert!(pair.sphere_gap(&there) <= found + ITERATIVE_ERROR_M);
+                prop_assert!(pair.sphere_gap(&later) <= found + ITERATIVE_ERROR_M);
                 if measured.normal != [0.0; 3] && found > 0.0 {
                     let sag = 0.5 * pair.acceleration(&levers, &v.abs(), &JointVector::zeros());
                     let ends = [start, end].map(|poses| pair.gap_along(measured.normal, &poses));

@@ -45,9 +45,12 @@ pub(crate) struct Part {
     /// Radius of the sphere about the origin that holds the part \[m\].
     bounding: f64,
     frame: Frame,
+    /// Where the part and its core stand, base frame, if no joint moves it.
+    standing: Option<(RigidTransform, Pose)>,
 }
 
 /// Part at one configuration, base frame.
+#[derive(Debug, Clone)]
 pub(crate) struct PlacedPart<'a> {
     pub core: &'a Core,
     pub radius: f64,
@@ -61,6 +64,17 @@ impl std::fmt::Debug for Core {
             Self::Segment(half) => write!(f, "Segment({half})"),
             Self::Solid(_, extent) => write!(f, "Solid({extent:?})"),
             Self::HalfSpace => write!(f, "HalfSpace"),
+        }
+    }
+}
+
+impl Core {
+    /// Returns the pose of the core of a part at `rigid`.
+    fn placed(&self, rigid: &RigidTransform) -> Pose {
+        let pose: Pose = platewash_kinematics::Pose::from(rigid).into();
+        match self {
+            Self::Solid(_, Extent::Cylinder(..)) => pose * Pose::rotation(Vector::new(Y_TO_Z, 0.0, 0.0)),
+            _ => pose,
         }
     }
 }
@@ -118,12 +132,7 @@ impl Part {
 
     /// Returns the half-space z ≤ 0 of a frame.
     pub fn half_space(frame: Frame) -> Self {
-        Self {
-            core: Core::HalfSpace,
-            radius: 0.0,
-            bounding: f64::INFINITY,
-            frame,
-        }
+        Self::on(frame, Core::HalfSpace, 0.0, f64::INFINITY)
     }
 
     /// Returns the part grown by `margin_m` on all sides.
@@ -142,10 +151,8 @@ impl Part {
 
     /// Returns the part moved by a transform, for a body that is fixed to the base and stands elsewhere.
     pub fn moved_by(&self, transform: &RigidTransform) -> Self {
-        Self {
-            frame: Frame::base().offset(&transform.then(self.frame.on_body())),
-            ..self.clone()
-        }
+        let frame = Frame::base().offset(&transform.then(self.frame.on_body()));
+        Self::on(frame, self.core.clone(), self.radius, self.bounding)
     }
 
     /// Returns the corners of a hull or box in the frame that carries the part \[m\]; empty for others.
@@ -161,12 +168,7 @@ impl Part {
     }
 
     fn round(half_length: f64, radius: f64, frame: Frame) -> Self {
-        Self {
-            core: Core::Segment(half_length),
-            radius,
-            bounding: half_length + radius,
-            frame,
-        }
+        Self::on(frame, Core::Segment(half_length), radius, half_length + radius)
     }
 
     fn solid(shape: SharedShape, extent: Extent, frame: Frame) -> Self {
@@ -174,22 +176,39 @@ impl Part {
             Extent::Vertices(vertices) => vertices.iter().map(|v| v.length()).fold(0.0, f64::max),
             Extent::Cylinder(radius, half) => (radius * radius + half * half).sqrt(),
         };
+        Self::on(frame, Core::Solid(shape, extent), 0.0, bounding)
+    }
+
+    fn on(frame: Frame, core: Core, radius: f64, bounding: f64) -> Self {
+        let standing = (frame.body() == 0).then(|| {
+            let stands = RigidTransform::identity().then(frame.on_body());
+            (stands, core.placed(&stands))
+        });
         Self {
-            core: Core::Solid(shape, extent),
-            radius: 0.0,
+            core,
+            radius,
             bounding,
             frame,
+            standing,
         }
     }
 
     /// Returns the frame that the part is fixed to, base frame.
     pub fn rigid(&self, poses: &BodyPoses) -> RigidTransform {
-        poses.rigid(&self.frame)
+        let stands = self.standing.as_ref().map(|(stands, _)| *stands);
+        stands.unwrap_or_else(|| poses.rigid(&self.frame))
     }
 
-    /// Lower bound of the distance to another part from its bounding sphere \[m\]; `here` and `there` are the parts' [`Part::rigid`].
-    pub fn gap_to_sphere(&self, here: &RigidTransform, other: &Self, there: &RigidTransform) -> f64 {
-        self.distance_to_point(here, &there.translation) - other.bounding
+    /// Returns the origin of the frame that the part is fixed to, base frame.
+    pub fn origin(&self, poses: &BodyPoses) -> Vector3<f64> {
+        let stands = self.standing.as_ref().map(|(stands, _)| stands.translation);
+        stands.unwrap_or_else(|| poses.rigid(&self.frame).translation)
+    }
+
+    /// Lower bound of the distance to another part from its bounding sphere \[m\]; `here` is this part's [`Part::rigid`], `there` the other
+    /// one's [`Part::origin`].
+    pub fn gap_to_sphere(&self, here: &RigidTransform, other: &Self, there: &Vector3<f64>) -> f64 {
+        self.distance_to_point(here, there) - other.bounding
     }
 
     /// Distance of a point of the base frame from the part \[m\]: exact for capsules, cylinders and half-spaces, below 0 within the latter;
@@ -233,27 +252,27 @@ impl Part {
         Levers::from_fn(|i, _| if i < body { levers[i] + self.bounding } else { 0.0 })
     }
 
-    /// Same as [`PlacedPart::sphere_gap`], without placing the parts.
-    pub fn sphere_gap(&self, other: &Self, poses: &BodyPoses) -> f64 {
-        let (here, there) = (poses.rigid(&self.frame), poses.rigid(&other.frame));
+    /// Same as [`PlacedPart::sphere_gap`], from the parts' [`Part::rigid`].
+    pub fn sphere_gap(&self, here: &RigidTransform, other: &Self, there: &RigidTransform) -> f64 {
         match (&self.core, &other.core) {
-            (Core::HalfSpace, _) => self.gap_to_sphere(&here, other, &there),
-            (_, Core::HalfSpace) => other.gap_to_sphere(&there, self, &here),
+            (Core::HalfSpace, _) => self.gap_to_sphere(here, other, &there.translation),
+            (_, Core::HalfSpace) => other.gap_to_sphere(there, self, &here.translation),
             _ => (here.translation - there.translation).norm() - self.bounding - other.bounding,
         }
     }
 
     /// Places the part at the poses of the arm's bodies.
     pub fn place(&self, poses: &BodyPoses) -> PlacedPart<'_> {
-        let pose: Pose = poses.pose(&self.frame).into();
-        let pose = match &self.core {
-            Core::Solid(_, Extent::Cylinder(..)) => pose * Pose::rotation(Vector::new(Y_TO_Z, 0.0, 0.0)),
-            _ => pose,
-        };
+        self.place_at(&self.rigid(poses))
+    }
+
+    /// Places the part where its frame is at `rigid`, its [`Part::rigid`].
+    pub fn place_at(&self, rigid: &RigidTransform) -> PlacedPart<'_> {
+        let stands = self.standing.as_ref().map(|(_, pose)| *pose);
         PlacedPart {
             core: &self.core,
             radius: self.radius,
-            pose,
+            pose: stands.unwrap_or_else(|| self.core.placed(rigid)),
             bounding: self.bounding,
         }
     }

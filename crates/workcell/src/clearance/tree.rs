@@ -186,7 +186,7 @@ impl Tree {
         (measure, below): (impl Fn(&PlacedPart<'_>, &PlacedPart<'_>) -> Separation, f64),
     ) -> Option<Separation> {
         let here = other.rigid(poses);
-        let gap = |part: &Part| other.gap_to_sphere(&here, part, &part.rigid(poses));
+        let gap = |part: &Part| other.gap_to_sphere(&here, part, &part.origin(poses));
         let placed = other.place(poses);
         let mut best: Option<Separation> = None;
         let limit = |best: &Option<Separation>| best.as_ref().map_or(below, |best| best.distance.min(below));

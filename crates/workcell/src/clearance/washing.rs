@@ -102,8 +102,8 @@ impl ClearanceModel {
         let keeps = |(a, b): (usize, usize), (p, r): (usize, usize), required: f64| {
             let (part, other) = (&self.bodies[a].outer()[p], &self.bodies[b].outer()[r]);
             let (here, there) = (rigid(a, p), rigid(b, r));
-            is_enough(part.gap_to_sphere(&here, other, &there), required)
-                || is_enough(other.gap_to_sphere(&there, part, &here), required)
+            is_enough(part.gap_to_sphere(&here, other, &there.translation), required)
+                || is_enough(other.gap_to_sphere(&there, part, &here.translation), required)
                 || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
                 || self.parts_keep((a, b), (p, r), &poses, required)
         };

@@ -70,12 +70,7 @@ impl<'a> Passes<'a> {
         let far_m = surface.rim_m() + low_m.abs().max(high_m.abs());
         Self {
             surface,
-            edges: Edges {
-                foundation,
-                moments,
-                sags,
-                thresholds,
-            },
+            edges: Edges::new(foundation, (moments, sags), thresholds),
             sums: Sums::new(foundation, (moments, sags), far_m),
             step_m: longest_step(moments, foundation.radius_m),
         }
@@ -131,7 +126,7 @@ impl Passes<'_> {
         let mut touch = Touch::default();
         for &[from, to] in within {
             let first = all.len();
-            all.extend((from..=to).map(|index| cell.state_at(edges.foundation, (index, edges.moment(index)), error_m)));
+            all.extend((from..=to).map(|index| cell.state_at(edges, index)));
             self.runs(cell, all, first, &mut kept, &mut touch, spans);
         }
         let bounds = |[mut time, mut dose]: [Lower; 2]| {
@@ -194,8 +189,8 @@ impl Passes<'_> {
             let is_full = |pair: usize| self.edges.is_full(&all[near.start + pair], &all[near.start + pair + 1]);
             let mut window = (pairs == 0).then_some(0);
             let mut pair = 0;
+            let mut full = pairs > 0 && is_full(0);
             while pair < pairs {
-                let full = is_full(pair);
                 let end = (pair + 1..pairs).find(|&k| is_full(k) != full).unwrap_or(pairs);
                 let (before, after) = (window.is_some(), end < pairs);
                 if !full {
@@ -205,12 +200,12 @@ impl Passes<'_> {
                     let [run, to] =
                         [pair + usize::from(before), end - usize::from(after)].map(|k| &all[near.start + k]);
                     if run.index < to.index {
-                        kept.time_s += self.edges.moment(to.index).t_s - self.edges.moment(run.index).t_s;
+                        kept.time_s += self.edges.look(to.index).t_s - self.edges.look(run.index).t_s;
                         kept.dose += self.sums.between(run.index, to.index);
                     }
                     window = after.then(|| end - 1);
                 }
-                pair = end;
+                (pair, full) = (end, !full);
             }
             spans.extend(window.map(|start| near.start + start..near.end));
         }
@@ -230,8 +225,8 @@ impl Passes<'_> {
             return add(&self.edges.greatest_likely_gain(cell, window));
         }
         for ends in window.windows(2) {
-            let times = [&ends[0], &ends[1]].map(|seen| self.edges.moment(seen.index).t_s);
-            if times[0] >= from_s && times[1] <= to_s {
+            let [from, to] = [&ends[0], &ends[1]].map(|seen| self.edges.look(seen.index).t_s);
+            if from >= from_s && to <= to_s {
                 add(&self.edges.flat(cell, [&ends[0], &ends[1]]));
             }
         }

@@ -6,8 +6,8 @@
 //!
 //! The file also has functions that are affine over a square cell, and the share of the cell where one is below 0.
 
+use crate::washing::shares::edges::Edges;
 use nalgebra::{Vector2, Vector3};
-use platewash_workcell::contact::{Foundation, Moment, SpongePose};
 use platewash_workcell::coverage::area_of_rectangle_in_disc;
 use platewash_workcell::surface::Surface;
 
@@ -26,6 +26,8 @@ pub(crate) struct Cell {
     pub bend_m: f64,
     /// Upper bound on ‖J δ‖: r √(1 + G²) \[m\].
     pub tangent_m: f64,
+    /// True if the gradient is 0.
+    is_level: bool,
 }
 
 /// State of a cell under the sponge at a moment.
@@ -45,6 +47,10 @@ pub(crate) struct CellState {
     /// Greatest amount by which a point of the patch is farther from the axis than the middle, for every plate height within its error
     /// \[m\].
     pub farther_m: f64,
+    /// Depth of the whole cell within the sponge's rim \[m\]; negative where a part is outside.
+    pub inside_m: f64,
+    /// Compression of the whole cell above the wanted one \[m\]; negative where a part has less.
+    pub pressed_m: f64,
 }
 
 impl Cell {
@@ -58,14 +64,16 @@ impl Cell {
         let patch = surface.patch(distances([x, y], half));
         // d tan β / dρ = κ / cos³ β, and tan β / ρ across.
         let steep = patch.least_cosine();
+        let gradient = out * slope;
         Self {
             middle: [x, y],
             half,
             point: middle.push(at.height_m),
-            gradient: out * slope,
+            gradient,
             reach_m,
             bend_m: 0.5 * patch.greatest_curvature() / (steep * steep * steep) * reach_m * reach_m,
             tangent_m: reach_m * (1.0 + slope * slope).sqrt(),
+            is_level: gradient.x == 0.0 && gradient.y == 0.0,
         }
     }
 
@@ -87,23 +95,35 @@ impl Cell {
         ]
     }
 
-    /// Returns the state at a moment, with the plate higher or lower by up to `error_m`.
-    pub fn state_at(&self, foundation: &Foundation, (index, moment): (u32, &Moment), error_m: f64) -> CellState {
-        let SpongePose { tip, axis } = &moment.pose;
-        let away = self.point - tip;
+    /// Returns the state at a moment, by its index.
+    pub fn state_at(&self, edges: &Edges<'_>, index: u32) -> CellState {
+        let (foundation, wanted) = (edges.foundation, edges.thresholds);
+        let look = edges.look(index);
+        let axis = &look.axis;
+        let away = self.point - look.tip;
         let along = away.dot(axis);
         let way = away - axis * along;
-        let [gx, gy] = self.along(axis);
-        let sloping_m = (gx * gx + gy * gy).sqrt() * self.reach_m + axis.z.abs() * self.bend_m;
-        let level_m = (axis.x * axis.x + axis.y * axis.y).sqrt();
+        let off_m = way.norm();
+        let across = if self.is_level {
+            look.tilt
+        } else {
+            let [gx, gy] = self.along(axis);
+            (gx * gx + gy * gy).sqrt()
+        };
+        let sloping_m = across * self.reach_m + look.upright * self.bend_m;
+        let shallower_m = sloping_m + look.upright * wanted.height_error_m;
+        let farther_m = self.max_distance_m() + wanted.height_error_m * look.tilt;
+        let compression_m = foundation.compression_m - along;
         CellState {
             index,
-            compression_m: foundation.compression_m - along,
-            shallower_m: sloping_m + axis.z.abs() * error_m,
+            compression_m,
+            shallower_m,
             sloping_m,
             way,
-            off_m: way.norm(),
-            farther_m: self.max_distance_m() + error_m * level_m,
+            off_m,
+            farther_m,
+            inside_m: foundation.radius_m - off_m - farther_m,
+            pressed_m: compression_m - shallower_m - wanted.compression_m,
         }
     }
 
@@ -196,13 +216,20 @@ impl Lower {
         share_below_0(self.value - threshold, self.slope.map(|slope| slope.abs() * half))
     }
 
-    /// Share of a cell where even the likely upper value is below a threshold.
-    pub fn share_surely_below(&self, threshold: f64, half: f64) -> f64 {
-        let hope = Self {
+    /// Returns the likely upper bound.
+    pub fn likely(&self) -> Self {
+        Self {
             value: self.value + self.slack,
             ..*self
-        };
-        hope.share_below(threshold, half)
+        }
+    }
+
+    /// Returns the same bound with another middle, `[x, y]` away from this one.
+    pub fn seen_from(&self, [x, y]: [f64; 2]) -> Self {
+        Self {
+            value: self.value + (self.slope[0] * x + self.slope[1] * y),
+            ..*self
+        }
     }
 }
 

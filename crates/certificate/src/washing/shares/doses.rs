@@ -21,7 +21,7 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window};
 use nalgebra::{Matrix3, Vector3};
-use platewash_workcell::contact::{Foundation, Moment, at_least_0, both};
+use platewash_workcell::contact::{Foundation, Moment, SpongePose, at_least_0, both};
 use std::ops::{Add, AddAssign, Sub};
 
 /// Lower bounds of the factors of q at a moment: compression \[m\] and sliding speed \[m/s\].
@@ -36,11 +36,11 @@ struct Factors {
 
 impl Factors {
     fn towards(&self, other: &Self, share: f64) -> Self {
-        let mean = |of: fn(&Self) -> f64| of(self) + (of(other) - of(self)) * share;
+        let mean = |from: f64, to: f64| from + (to - from) * share;
         Self {
-            at_s: mean(|f| f.at_s),
-            compression_m: mean(|f| f.compression_m),
-            speed_m_s: mean(|f| f.speed_m_s),
+            at_s: mean(self.at_s, other.at_s),
+            compression_m: mean(self.compression_m, other.compression_m),
+            speed_m_s: mean(self.speed_m_s, other.speed_m_s),
             spread: self.spread,
         }
     }
@@ -71,9 +71,10 @@ impl Edges<'_> {
             if let Some((last, before)) = before {
                 let ends = self.between([last, seen], [before, here]);
                 if here.at_s > first_s {
-                    let [w, v] = [ends.map(|f| f.compression_m), ends.map(|f| f.speed_m_s)];
-                    rates[0] = rates[0].min(w[0].min(w[1]) * v[0].min(v[1]));
-                    rates[1] = rates[1].max(w[0].max(w[1]) * v[0].max(v[1]));
+                    let [a, b] = &ends;
+                    let least = a.compression_m.min(b.compression_m) * a.speed_m_s.min(b.speed_m_s);
+                    let most = a.compression_m.max(b.compression_m) * a.speed_m_s.max(b.speed_m_s);
+                    rates = [rates[0].min(least), rates[1].max(most)];
                 }
                 let share = ((at_s - before.at_s) / (here.at_s - before.at_s)).min(1.0);
                 if share > 0.0 {
@@ -110,8 +111,8 @@ impl Edges<'_> {
     /// Sliding velocity of the sponge over the middle of a cell, across the sponge's axis \[m/s\].
     fn slide(&self, cell: &Cell, state: &CellState) -> Vector3<f64> {
         let moment = self.moment(state.index);
-        let axis = &moment.pose.axis;
-        let slide = moment.speed + moment.turning.cross(&(cell.point - moment.pose.tip));
+        let SpongePose { tip, axis } = &moment.pose;
+        let slide = moment.speed + moment.turning.cross(&(cell.point - tip));
         slide - axis * slide.dot(axis)
     }
 
@@ -124,12 +125,24 @@ impl Edges<'_> {
 
     /// Returns the factors at a moment.
     fn factors(&self, cell: &Cell, state: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
-        let turning = self.moment(state.index).turning.norm();
+        self.factors_of(cell, state, &self.slide(cell, state), direction, at_s)
+    }
+
+    /// Returns the factors at a moment, from the sliding velocity.
+    fn factors_of(
+        &self,
+        cell: &Cell,
+        state: &CellState,
+        slide: &Vector3<f64>,
+        direction: &Vector3<f64>,
+        at_s: f64,
+    ) -> Factors {
+        let turning = self.look(state.index).turning;
         let away = turning * (cell.max_distance_m() + self.thresholds.height_error_m);
         Factors {
             at_s,
             compression_m: state.compression_m - state.shallower_m,
-            speed_m_s: self.slide(cell, state).dot(direction) - away,
+            speed_m_s: slide.dot(direction) - away,
             spread: [2.0 * state.sloping_m, 2.0 * turning * cell.max_distance_m()],
         }
     }
@@ -139,31 +152,29 @@ impl Edges<'_> {
     fn between(&self, seen: [&CellState; 2], ends: [Factors; 2]) -> [Factors; 2] {
         let sags = self.sags(seen[0], seen[1]);
         let slower = sags.slide_m / (ends[1].at_s - ends[0].at_s);
-        let above = |[a, b]: [f64; 2], least: f64| {
+        let above = |a: f64, b: f64, least: f64| {
             if a >= least && b >= least {
-                [a, b]
+                (a, b)
             } else {
-                [a.min(b).max(least); 2]
+                let low = a.min(b).max(least);
+                (low, low)
             }
         };
-        let w = above(
-            ends.map(|end| end.compression_m - sags.compression_m),
+        let [mut from, mut to] = ends;
+        (from.compression_m, to.compression_m) = above(
+            from.compression_m - sags.compression_m,
+            to.compression_m - sags.compression_m,
             self.thresholds.compression_m,
         );
-        let v = above(ends.map(|end| end.speed_m_s - slower), 0.0);
-        [0, 1].map(|k| Factors {
-            compression_m: w[k],
-            speed_m_s: v[k],
-            ..ends[k]
-        })
+        (from.speed_m_s, to.speed_m_s) = above(from.speed_m_s - slower, to.speed_m_s - slower, 0.0);
+        [from, to]
     }
 
     /// Returns the gain that places of a large cell are likely to get at most through a window in which not all of it is in contact. The
     /// proved gain is 0.
     pub(crate) fn greatest_likely_gain(&self, cell: &Cell, window: &[CellState]) -> Gain {
         let near = |state: &&CellState| {
-            self.pressed_m(state) + 2.0 * state.sloping_m >= 0.0
-                && self.inside_m(state) + 2.0 * cell.max_distance_m() >= 0.0
+            state.pressed_m + 2.0 * state.sloping_m >= 0.0 && state.inside_m + 2.0 * cell.max_distance_m() >= 0.0
         };
         let (Some(first), Some(last)) = (window.iter().find(near), window.iter().rfind(near)) else {
             return Gain::default();
@@ -185,13 +196,13 @@ impl Edges<'_> {
     pub(crate) fn flat(&self, cell: &Cell, ends: [&CellState; 2]) -> Gain {
         let sags = self.sags(ends[0], ends[1]);
         let least = common(
-            ends.map(|end| self.pressed_m(end) - sags.compression_m),
-            ends.map(|end| self.inside_m(end) - sags.aside_m),
+            ends.map(|end| end.pressed_m - sags.compression_m),
+            ends.map(|end| end.inside_m - sags.aside_m),
         );
         // Smaller cells help against what differs over this one alone.
         let likely = common(
-            ends.map(|end| self.pressed_m(end) - sags.compression_m + 2.0 * end.sloping_m),
-            ends.map(|end| self.inside_m(end) - sags.aside_m + 2.0 * cell.max_distance_m()),
+            ends.map(|end| end.pressed_m - sags.compression_m + 2.0 * end.sloping_m),
+            ends.map(|end| end.inside_m - sags.aside_m + 2.0 * cell.max_distance_m()),
         );
         if likely.is_none() {
             return Gain::default();
@@ -200,8 +211,11 @@ impl Edges<'_> {
         let direction = (slides[0] + slides[1])
             .try_normalize(0.0)
             .unwrap_or_else(Vector3::zeros);
-        let whole_s = self.moment(ends[1].index).t_s - self.moment(ends[0].index).t_s;
-        let factors = [0, 1].map(|k| self.factors(cell, ends[k], &direction, whole_s * k as f64));
+        let whole_s = self.look(ends[1].index).t_s - self.look(ends[0].index).t_s;
+        let factors = [
+            self.factors_of(cell, ends[0], &slides[0], &direction, 0.0),
+            self.factors_of(cell, ends[1], &slides[1], &direction, whole_s),
+        ];
         let lines = self.between(ends, factors);
         let pressure = self.pressure();
         let (mut time_s, mut dose) = (0.0, 0.0);

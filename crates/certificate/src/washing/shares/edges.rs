@@ -29,6 +29,19 @@ pub(crate) struct Edges<'a> {
     pub moments: &'a [Moment],
     pub sags: &'a [Sags],
     pub thresholds: &'a ContactThresholds,
+    looks: Vec<Look>,
+}
+
+/// Sponge at a moment, as all cells see it.
+pub(crate) struct Look {
+    pub t_s: f64,
+    pub tip: Vector3<f64>,
+    pub axis: Vector3<f64>,
+    /// Sine of the angle between the sponge's axis and the plate's, and the magnitude of its cosine.
+    pub tilt: f64,
+    pub upright: f64,
+    /// Angular speed \[rad/s\].
+    pub turning: f64,
 }
 
 /// Lower bounds of time and dose that a cell gets in a part of a window.
@@ -45,6 +58,8 @@ pub(crate) struct Gain {
 pub(crate) struct Window<'a> {
     state: &'a [CellState],
     pub reversed: bool,
+    /// Time of the first moment \[s\].
+    start_s: f64,
 }
 
 /// Times at which the places of a cell leave, counted from the first moment of a window.
@@ -70,13 +85,51 @@ struct Line<T> {
 
 impl Window<'_> {
     pub fn at(&self, k: usize) -> Option<&CellState> {
-        let last = self.state.len().checked_sub(1)?;
-        self.state.get(if self.reversed { last.checked_sub(k)? } else { k })
+        // What is before the first moment wraps round to where none is.
+        let last = self.state.len().wrapping_sub(1);
+        self.state.get(if self.reversed { last.wrapping_sub(k) } else { k })
     }
 
     /// Returns the states from the first moment to another one.
     pub fn states_until(&self, last: usize) -> impl Iterator<Item = &CellState> {
-        (0..=last).map_while(|k| self.at(k))
+        let (ahead, back) = if self.reversed {
+            let from = self.state.len().saturating_sub(last + 1);
+            (&[][..], self.state.get(from..).unwrap_or_default())
+        } else {
+            (self.state.get(..=last).unwrap_or(self.state), &[][..])
+        };
+        ahead.iter().chain(back.iter().rev())
+    }
+}
+
+impl<'a> Edges<'a> {
+    pub fn new(
+        foundation: &'a Foundation,
+        (moments, sags): (&'a [Moment], &'a [Sags]),
+        thresholds: &'a ContactThresholds,
+    ) -> Self {
+        let look = |moment: &Moment| {
+            let axis = moment.pose.axis;
+            Look {
+                t_s: moment.t_s,
+                tip: moment.pose.tip,
+                axis,
+                tilt: (axis.x * axis.x + axis.y * axis.y).sqrt(),
+                upright: axis.z.abs(),
+                turning: moment.turning.norm(),
+            }
+        };
+        Self {
+            foundation,
+            moments,
+            sags,
+            thresholds,
+            looks: moments.iter().map(look).collect(),
+        }
+    }
+
+    pub fn look(&self, index: u32) -> &Look {
+        &self.looks[index as usize]
     }
 }
 
@@ -101,17 +154,7 @@ impl Edges<'_> {
         let sags = self.sags(from, to);
         [from, to]
             .iter()
-            .all(|end| self.inside_m(end) >= sags.aside_m && self.pressed_m(end) >= sags.compression_m)
-    }
-
-    /// Depth of the whole cell within the sponge's rim \[m\]; negative where a part is outside.
-    pub fn inside_m(&self, state: &CellState) -> f64 {
-        self.foundation.radius_m - state.off_m - state.farther_m
-    }
-
-    /// Compression of the whole cell above the wanted one \[m\]; negative where a part has less.
-    pub fn pressed_m(&self, state: &CellState) -> f64 {
-        state.compression_m - state.shallower_m - self.thresholds.compression_m
+            .all(|end| end.inside_m >= sags.aside_m && end.pressed_m >= sags.compression_m)
     }
 
     /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
@@ -119,7 +162,15 @@ impl Edges<'_> {
     pub fn gain(&self, cell: &Cell, state: &[CellState]) -> [Option<Gain>; 2] {
         let leaves = state.len() > 2 && self.is_full(&state[0], &state[1]);
         let enters = state.len() > 2 && self.is_full(&state[state.len() - 2], &state[state.len() - 1]);
-        let one = |reversed| self.one_way(cell, Window { state, reversed });
+        let one = |reversed| {
+            let first = if reversed { state.last() } else { state.first() };
+            let window = Window {
+                state,
+                reversed,
+                start_s: self.look(first?.index).t_s,
+            };
+            self.one_way(cell, window)
+        };
         let (left, entered) = (
             leaves.then(|| one(false)).flatten(),
             enters.then(|| one(true)).flatten(),
@@ -139,7 +190,7 @@ impl Edges<'_> {
 
     fn one_way(&self, cell: &Cell, window: Window<'_>) -> Option<Gain> {
         let leaving = self.leaving(cell, window)?;
-        let start_s = self.moment(window.at(0)?.index).t_s;
+        let start_s = window.start_s;
         let farthest_s = leaving.at_s - leaving.sooner_s + leaving.spread_s;
         Some(Gain {
             time: Lower {
@@ -159,8 +210,7 @@ impl Edges<'_> {
 
     /// Time of a state since the first moment of a window \[s\].
     pub fn elapsed_s(&self, window: Window<'_>, state: &CellState) -> f64 {
-        let first = window.at(0).map_or(0.0, |first| self.moment(first.index).t_s);
-        (self.moment(state.index).t_s - first).abs()
+        (self.look(state.index).t_s - window.start_s).abs()
     }
 
     fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<LeavingTimes> {
@@ -174,7 +224,7 @@ impl Edges<'_> {
             if !aside && !released {
                 continue;
             }
-            let axis = self.moment(after.index).pose.axis;
+            let axis = self.look(after.index).axis;
             let share = if aside {
                 crossing(&before.way, &after.way, radius_m)
             } else {
@@ -234,7 +284,7 @@ impl Edges<'_> {
         let begins_m = (v0 - b * line.at_s).norm() + cell.tangent_m + error_m * columns[2].norm();
         let pressed = window
             .states_until(last)
-            .all(|seen| self.pressed_m(seen) >= sags.compression_m);
+            .all(|seen| seen.pressed_m >= sags.compression_m);
         (pressed && begins_m <= free_m && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
             at_s: line.at_s,
             sooner_s,
@@ -269,9 +319,7 @@ impl Edges<'_> {
         let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
         let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.max_distance_m() + error_m);
         let sooner_s = lost_m / falls * (1.0 + 1e-12);
-        let within = window
-            .states_until(last)
-            .all(|seen| self.inside_m(seen) >= sags.aside_m);
+        let within = window.states_until(last).all(|seen| seen.inside_m >= sags.aside_m);
         // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.
         (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
             at_s: line.at_s,
@@ -306,7 +354,7 @@ impl Edges<'_> {
         let mut before: Option<&CellState> = None;
         for seen in window.states_until(last) {
             off_m = off_m.max(off(seen));
-            turned = turned.max((self.moment(seen.index).pose.axis - axis).norm());
+            turned = turned.max((self.look(seen.index).axis - axis).norm());
             if let Some(before) = before {
                 let sags = self.sags(before, seen);
                 most.compression_m = most.compression_m.max(sags.compression_m);
@@ -371,13 +419,13 @@ impl Touch {
     /// Updates the state with a moment. The squared lengths of the vectors P (X + J δ + b ẑ + e ẑ − p) are at most those of P (X + J δ −
     /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
     pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, state: &CellState) {
-        let (inside_m, pressed_m) = (edges.inside_m(state), edges.pressed_m(state));
+        let (inside_m, pressed_m) = (state.inside_m, state.pressed_m);
         if inside_m >= 0.0 {
             self.compression_m = self.compression_m.max(state.compression_m - state.shallower_m);
             self.all |= pressed_m >= 0.0;
         }
         self.some |= inside_m >= -2.0 * cell.max_distance_m() && pressed_m >= -2.0 * state.sloping_m;
-        let (tangent_m, axis) = (cell.tangent_m, &edges.moment(state.index).pose.axis);
+        let (tangent_m, axis) = (cell.tangent_m, &edges.look(state.index).axis);
         let bound = if pressed_m >= 0.0 {
             let free_m = (edges.foundation.radius_m - (state.farther_m - tangent_m)).max(0.0);
             Lower {

@@ -150,6 +150,8 @@ struct Node {
     worth: [f64; 3],
     /// Amount at the worst place of the cell.
     found: [f64; 3],
+    /// Lower bounds over the cell of contact, time and dose.
+    bounds: [Lower; 3],
 }
 
 impl Node {
@@ -207,6 +209,10 @@ impl Passes<'_> {
                 if Cell::is_beyond(middle, half, self.surface.rim_m()) {
                     continue;
                 }
+                // What is known of the whole may do for its quarter.
+                if self.below(&node.bounds.map(|bound| bound.seen_from([x, y])), half) == [0.0; 3] {
+                    continue;
+                }
                 let cell = Cell::new(self.surface, middle, half);
                 let found = (&mut next.windows, &mut scratch);
                 next.nodes
@@ -224,22 +230,11 @@ impl Passes<'_> {
         known: (CellAmounts, &[[u32; 2]]),
         (windows, scratch): (&mut Vec<[u32; 2]>, &mut Scratch),
     ) -> Option<Node> {
-        let wanted = self.edges.thresholds;
-        let thresholds = [0.0, wanted.time_s, wanted.dose_pa_m];
-        // Nobody gets less than no time and no dose.
-        let asked = [true, wanted.time_s != 0.0, wanted.dose_pa_m != 0.0];
-        let share = |k: usize, of: fn(&Lower, f64, f64) -> f64, bounds: &[Lower; 3]| {
-            if asked[k] {
-                of(&bounds[k], thresholds[k], cell.half)
-            } else {
-                0.0
-            }
-        };
-        let below = |bounds: &[Lower; 3]| [0, 1, 2].map(|k| share(k, Lower::share_below, bounds));
-        let enough = |bounds: &[Lower; 3]| below(bounds) == [0.0; 3];
+        let enough = |bounds: &[Lower; 3]| self.below(bounds, cell.half) == [0.0; 3];
         let found = self.bounds(cell, known, scratch, enough)?;
-        let bounds = &found.bounds;
-        let below = below(bounds);
+        let bounds = found.bounds;
+        let below = self.below(&bounds, cell.half);
+        let surely_below = self.below(&bounds.map(|bound| bound.likely()), cell.half);
         let first = windows.len();
         windows.extend(scratch.windows());
         Some(Node {
@@ -248,12 +243,26 @@ impl Passes<'_> {
             amounts: found.amounts,
             windows: first..windows.len(),
             missing_m2: cell.greatest_areas(self.surface, below),
-            worth: [0, 1, 2].map(|k| below[k] - share(k, Lower::share_surely_below, bounds)),
+            worth: [0, 1, 2].map(|k| below[k] - surely_below[k]),
             found: [
                 found.compression_m,
                 bounds[1].least(cell.half),
                 bounds[2].least(cell.half),
             ],
+            bounds,
         })
+    }
+
+    /// Upper bounds on the shares of a cell that do not get the wanted contact, time and dose.
+    fn below(&self, bounds: &[Lower; 3], half: f64) -> [f64; 3] {
+        let wanted = self.edges.thresholds;
+        let below = |bound: &Lower, threshold: f64| bound.share_below(threshold, half);
+        // Nobody gets less than no time and no dose.
+        let asked = |bound, threshold: f64| if threshold == 0.0 { 0.0 } else { below(bound, threshold) };
+        [
+            below(&bounds[0], 0.0),
+            asked(&bounds[1], wanted.time_s),
+            asked(&bounds[2], wanted.dose_pa_m),
+        ]
     }
 }

@@ -104,7 +104,7 @@ fn the_lower_bound_holds_where_a_routine_stops_early() {
     let measured: Vec<_> = model
         .parts_of(pair)
         .parts()
-        .map(|parts| parts.measure(&poses))
+        .map(|parts| parts.measure(&parts.mover(&poses)))
         .collect();
     let at_least = measured.iter().map(|m| m.at_least_m).fold(f64::INFINITY, f64::min);
     assert!(

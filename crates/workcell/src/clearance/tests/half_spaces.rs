@@ -87,11 +87,12 @@ proptest! {
         let [start, middle, there, end] = [-1.0, 0.0, at, 1.0].map(|t| robot.fk(&(q + v * t)));
         let pairs: Vec<_> = (0..model.pair_count()).map(|pair| model.parts_of(pair)).collect();
         for pair in pairs.iter().flat_map(PartPairs::parts) {
-            let (measured, found) = (pair.measure(&middle), pair.measure(&there).distance_m);
-            let levers = pair.levers(&middle, &v.abs());
+            let [here, later] = [&middle, &there].map(|poses| pair.mover(poses));
+            let (measured, found) = (pair.measure(&here), pair.measure(&later).distance_m);
+            let levers = pair.levers(&here, &v.abs());
             prop_assert!(measured.at_least_m - levers.dot(&v.abs()) <= found + ITERATIVE_ERROR_M);
-            prop_assert!(pair.sphere_gap(&there) <= found + ITERATIVE_ERROR_M);
-            prop_assert!(pair.gap_to_sphere(&there) <= found + ITERATIVE_ERROR_M);
+            prop_assert!(pair.sphere_gap(&later) <= found + ITERATIVE_ERROR_M);
+            prop_assert!(pair.gap_to_sphere(&later) <= found + ITERATIVE_ERROR_M);
             if measured.normal != [0.0; 3] && found > 0.0 {
                 let sag = 0.5 * pair.acceleration(&levers, &v.abs(), &JointVector::zeros());
                 let ends = [start, end].map(|poses| pair.gap_along(measured.normal, &poses));

@@ -75,7 +75,7 @@ proptest! {
             keeps[1] &= found.a == "sponge" || is_clear(expected, required);
             // From the outside in, no shape is farther than what it holds.
             let pairs = model.parts_of(pair);
-            let of_parts = pairs.parts().map(|pair| pair.measure(&poses).distance_m).fold(f64::INFINITY, f64::min);
+            let of_parts = pairs.parts().map(|pair| pair.measure(&pair.mover(&poses)).distance_m).fold(f64::INFINITY, f64::min);
             prop_assert!(overlap || (of_parts - found.distance_m).abs() <= 2.0 * ITERATIVE_ERROR_M);
             holds(&pairs, &poses)?;
         }
@@ -99,7 +99,8 @@ fn holds(pairs: &PartPairs<'_>, poses: &platewash_kinematics::BodyPoses) -> Resu
     let mut open: Vec<_> = pairs.outermost().map(|pair| (pair, Vec::new())).collect();
     let mut seen = open.len();
     while let Some((pair, around)) = open.pop() {
-        let measured = pairs.get(pair).unwrap().measure(poses);
+        let parts = pairs.get(pair).unwrap();
+        let measured = parts.measure(&parts.mover(poses));
         let within = pairs.within(pair);
         if within.is_empty() {
             for outer in &around {
