@@ -37,10 +37,22 @@ pub(crate) trait Vector:
     fn if_sign_bit(self, yes: Self, no: Self) -> Self;
     /// Returns vector i of lane i of each.
     fn transposed(four: [Self; LANES]) -> [Self; LANES];
-    /// True if every lane is at most `bound`; false with NaN in a lane.
-    fn all_at_most(self, bound: f64) -> bool;
+    /// Square root, lane by lane.
+    fn sqrt(self) -> Self;
+    /// Returns the lanes without their fractions; they must fit an `i32`. The sign of zero is lost.
+    fn truncated(self) -> Self;
+    /// Returns all bits in lanes with `self <= bound` (false for NaN), none elsewhere.
+    fn at_most(self, bound: Self) -> Self;
+    /// Returns the sign bits, that of lane 0 last.
+    fn sign_bits(self) -> u8;
     /// Selects `yes` in lanes with `self > bound` (false for NaN), `no` elsewhere.
     fn if_above(self, bound: Self, yes: Self, no: Self) -> Self;
+
+    /// True if every lane is at most `bound`; false with NaN in a lane.
+    #[inline(always)]
+    fn all_at_most(self, bound: f64) -> bool {
+        self.at_most(Self::splat(bound)).sign_bits() == (1 << LANES) - 1
+    }
 
     /// Returns the same number in every lane.
     #[inline(always)]
@@ -196,8 +208,27 @@ impl Vector for PortableVector {
     }
 
     #[inline(always)]
-    fn all_at_most(self, bound: f64) -> bool {
-        self.0.iter().fold(true, |all, x| all & (*x <= bound))
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn truncated(self) -> Self {
+        Self(self.0.map(|x| f64::from(x as i32)))
+    }
+
+    #[inline(always)]
+    fn at_most(mut self, bound: Self) -> Self {
+        for l in 0..LANES {
+            self.0[l] = f64::from_bits(0_u64.wrapping_sub(u64::from(self.0[l] <= bound.0[l])));
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn sign_bits(self) -> u8 {
+        let bit = |l: usize| u8::from(self.0[l].is_sign_negative()) << l;
+        bit(0) | bit(1) | bit(2) | bit(3)
     }
 
     #[inline(always)]
@@ -214,10 +245,10 @@ mod avx2 {
     use crate::lanes::{Kernel, LANES, Vector};
     use crate::trig::{FusedMulAdd, MulAdd, SeparateMulAdd};
     use std::arch::x86_64::{
-        __m256d, _CMP_GT_OQ, _CMP_NLE_UQ, _mm256_add_pd, _mm256_and_pd, _mm256_blendv_pd, _mm256_castpd_si256,
-        _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fmsub_pd, _mm256_fnmadd_pd,
-        _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd, _mm256_slli_epi64, _mm256_sub_pd,
-        _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
+        __m256d, _CMP_GT_OQ, _CMP_LE_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_blendv_pd, _mm256_castpd_si256,
+        _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cvtepi32_pd, _mm256_cvttpd_epi32, _mm256_div_pd, _mm256_fmadd_pd,
+        _mm256_fmsub_pd, _mm256_fnmadd_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd,
+        _mm256_slli_epi64, _mm256_sqrt_pd, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
     };
     use std::marker::PhantomData;
     use std::mem::transmute;
@@ -389,10 +420,27 @@ mod avx2 {
         }
 
         #[inline(always)]
-        fn all_at_most(self, bound: f64) -> bool {
-            let bound = Self::splat(bound);
+        fn sqrt(self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_NLE_UQ>(self.0, bound.0)) == 0 }
+            Self(unsafe { _mm256_sqrt_pd(self.0) }, PhantomData)
+        }
+
+        #[inline(always)]
+        fn truncated(self) -> Self {
+            // SAFETY: needs AVX only, see `Avx2`.
+            Self(unsafe { _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(self.0)) }, PhantomData)
+        }
+
+        #[inline(always)]
+        fn at_most(self, bound: Self) -> Self {
+            // SAFETY: needs AVX only, see `Avx2`.
+            Self(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, bound.0) }, PhantomData)
+        }
+
+        #[inline(always)]
+        fn sign_bits(self) -> u8 {
+            // SAFETY: needs AVX only, see `Avx2`.
+            unsafe { _mm256_movemask_pd(self.0) as u8 }
         }
 
         #[inline(always)]
@@ -401,6 +449,52 @@ mod avx2 {
             let above = unsafe { _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, bound.0) };
             // SAFETY: the same.
             Self(unsafe { _mm256_blendv_pd(no.0, yes.0, above) }, PhantomData)
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::trig::{atan2, atan2_vector, sin_cos, sin_cos_vector};
+    use proptest::prelude::*;
+
+    /// Returns the results on every processor's instructions and on the fastest of this one.
+    pub(crate) fn portable_and_exact<K: Kernel + Clone>(kernel: &K) -> [K::Output; 2] {
+        [kernel.clone().run::<PortableVector>(), run_exact(kernel.clone())]
+    }
+
+    #[derive(Clone)]
+    struct Trigonometry([f64; LANES], [f64; LANES]);
+
+    impl Kernel for Trigonometry {
+        type Output = [[f64; LANES]; 3];
+
+        #[inline(always)]
+        fn run<V: Vector>(self) -> Self::Output {
+            let (a, b) = (V::from_array(self.0), V::from_array(self.1));
+            let (sin, cos) = sin_cos_vector(a);
+            [sin.to_array(), cos.to_array(), atan2_vector(a, b).to_array()]
+        }
+    }
+
+    fn bits(x: f64) -> u64 {
+        if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }
+    }
+
+    proptest! {
+        #[test]
+        fn lanes_have_the_bits_of_single_numbers(
+            a in prop::array::uniform4(prop_oneof![-10.0..10.0f64, -3e5..3e5f64, any::<f64>(), Just(0.0), Just(-0.0)]),
+            b in prop::array::uniform4(prop_oneof![-10.0..10.0f64, any::<f64>(), Just(0.0), Just(-0.0)]),
+        ) {
+            for [sin, cos, angle] in portable_and_exact(&Trigonometry(a, b)) {
+                for l in 0..LANES {
+                    let (s, c) = sin_cos(a[l]);
+                    let expected = [s, c, atan2(a[l], b[l])].map(bits);
+                    prop_assert_eq!([sin[l], cos[l], angle[l]].map(bits), expected);
+                }
+            }
         }
     }
 }

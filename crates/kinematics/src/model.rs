@@ -259,10 +259,12 @@ impl BodyPoses {
     }
 
     /// `T_base_frame` as matrix and vector.
-    #[inline]
     #[must_use]
     pub fn rigid(&self, frame: &Frame) -> RigidTransform {
-        self.bodies[frame.body].then(&frame.offset)
+        run_exact(Placement {
+            body: &self.bodies[frame.body],
+            frame,
+        })
     }
 
     /// `T_base_frame`.
@@ -287,6 +289,7 @@ impl RobotModel {
 }
 
 /// Forward kinematics at `q`.
+#[derive(Clone)]
 struct Forward<'a> {
     robot: &'a RobotModel,
     q: &'a JointVector,
@@ -310,6 +313,21 @@ impl Kernel for Forward<'_> {
         BodyPoses {
             bodies: [RigidTransform::identity(), first, second, third, fourth, fifth, sixth],
         }
+    }
+}
+
+/// Pose of a frame on a body.
+struct Placement<'a> {
+    body: &'a RigidTransform,
+    frame: &'a Frame,
+}
+
+impl Kernel for Placement<'_> {
+    type Output = RigidTransform;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> RigidTransform {
+        Columns::<V>::load(self.body).then(&self.frame.offset).rigid()
     }
 }
 
@@ -364,4 +382,33 @@ impl BodyPoses {
 #[must_use]
 pub fn manipulability(jacobian: &Jacobian) -> f64 {
     jacobian.determinant().abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::tests::portable_and_exact;
+    use crate::trig::sin_cos;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn poses_have_the_bits_of_the_products_one_by_one(
+            q in prop::array::uniform6(prop_oneof![-7.0..7.0f64, Just(0.0), Just(-0.0), -3e5..3e5f64]),
+        ) {
+            let robot = RobotModel::irb120().map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let mut body = RigidTransform::identity();
+            let expected = q.iter().zip(&robot.folded).map(|(q, folded)| {
+                let (s, c) = sin_cos(*q);
+                body = body.then(folded).turned_about_z(s, c);
+                body
+            });
+            let bits = |body: &RigidTransform| body.rotation.iter().chain(&body.translation).map(|x| x.to_bits()).collect();
+            let expected: Vec<Vec<u64>> = expected.map(|body| bits(&body)).collect();
+            for poses in portable_and_exact(&Forward { robot: &robot, q: &q.into() }) {
+                let found: Vec<Vec<u64>> = poses.bodies[1..].iter().map(bits).collect();
+                prop_assert_eq!(&found, &expected);
+            }
+        }
+    }
 }

@@ -77,6 +77,16 @@ impl<V: Vector> Columns<V> {
         }
     }
 
+    #[inline(always)]
+    pub fn load(from: &RigidTransform) -> Self {
+        let column = |c: [f64; 3]| V::from_array([c[0], c[1], c[2], 0.0]);
+        let [x, y, z]: [[f64; 3]; 3] = from.rotation.into();
+        Self {
+            axes: [column(x), column(y), column(z)],
+            origin: column(from.translation.into()),
+        }
+    }
+
     /// [`RigidTransform::then`], bit for bit.
     #[inline(always)]
     pub fn then(&self, next: &RigidTransform) -> Self {

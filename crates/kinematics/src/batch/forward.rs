@@ -34,14 +34,15 @@ pub(crate) fn no_lines<V: Vector>() -> [Line<V>; AXES] {
 /// Gathers at most four configurations side by side; unused lanes repeat the last one.
 #[inline(always)]
 pub(crate) fn gather<V: Vector>(configurations: &[JointVector]) -> [V; AXES] {
-    let mut rows = [[0.0; LANES]; AXES];
+    let last = configurations.len() - 1;
+    let (mut first, mut rest) = ([V::splat(0.0); LANES], [V::splat(0.0); LANES]);
     for l in 0..LANES {
-        let from = &configurations[l.min(configurations.len() - 1)];
-        for i in 0..AXES {
-            rows[i][l] = from[i];
-        }
+        let q = configurations[l.min(last)];
+        first[l] = V::from_array([q[0], q[1], q[2], q[3]]);
+        rest[l] = V::from_array([q[2], q[3], q[4], q[5]]);
     }
-    vectors(&rows)
+    let ([a, b, c, d], [_, _, e, f]) = (V::transposed(first), V::transposed(rest));
+    [a, b, c, d, e, f]
 }
 
 /// Converts arrays of lanes to vectors.

@@ -158,13 +158,16 @@ impl Kernel for Poses<'_> {
         let outputs = self.positions.chunks_mut(LANES).zip(self.rotations.chunks_mut(LANES));
         for (q, (positions, rotations)) in self.q.chunks(LANES).zip(outputs) {
             let tips: Tips<V> = frames(self.chain, &gather(q));
-            let (p, x) = (rows(&tips.p), rows(&tips.x));
-            let (y, z) = (rows(&tips.y), rows(&tips.z));
+            let ([x, y, z], zero) = ([tips.x, tips.y, tips.z], V::splat(0.0));
+            let origins = V::transposed([tips.p[0], tips.p[1], tips.p[2], zero]);
+            let upper = V::transposed([x[0], y[0], z[0], x[1]]);
+            let lower = V::transposed([y[1], z[1], x[2], y[2]]);
+            let last = z[2].to_array();
             for (l, (position, rotation)) in positions.iter_mut().zip(rotations).enumerate() {
-                *position = [p[0][l], p[1][l], p[2][l]];
-                *rotation = [
-                    x[0][l], y[0][l], z[0][l], x[1][l], y[1][l], z[1][l], x[2][l], y[2][l], z[2][l],
-                ];
+                position.copy_from_slice(&origins[l].to_array()[..3]);
+                rotation[..4].copy_from_slice(&upper[l].to_array());
+                rotation[4..8].copy_from_slice(&lower[l].to_array());
+                rotation[8] = last[l];
             }
         }
     }
@@ -184,10 +187,15 @@ impl Kernel for Matrices<'_> {
     fn run<V: Vector>(self) {
         for (q, matrices) in self.q.chunks(LANES).zip(self.matrices.chunks_mut(LANES)) {
             let tips: Tips<V> = frames(self.chain, &gather(q));
-            let columns = [&tips.x, &tips.y, &tips.z, &tips.p].map(rows);
+            let Tips { x, y, z, p } = tips;
+            let rows = [
+                V::transposed([x[0], y[0], z[0], p[0]]),
+                V::transposed([x[1], y[1], z[1], p[1]]),
+                V::transposed([x[2], y[2], z[2], p[2]]),
+            ];
             for (l, matrix) in matrices.iter_mut().enumerate() {
-                for (k, entry) in matrix[..12].iter_mut().enumerate() {
-                    *entry = columns[k % 4][k / 4][l];
+                for (k, row) in rows.iter().enumerate() {
+                    matrix[4 * k..4 * k + 4].copy_from_slice(&row[l].to_array());
                 }
                 matrix[12..].copy_from_slice(&[0.0, 0.0, 0.0, 1.0]);
             }

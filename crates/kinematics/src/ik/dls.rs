@@ -54,6 +54,7 @@ pub(crate) fn descend_below(
 }
 
 /// Descent, compiled for several instruction sets.
+#[derive(Clone)]
 struct Descending<'a> {
     coldest: f64,
     task: &'a Task<'a>,
@@ -468,6 +469,7 @@ pub(crate) struct Descent {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::tests::portable_and_exact;
     use nalgebra::Matrix6;
     use proptest::prelude::*;
 
@@ -495,6 +497,26 @@ mod tests {
             [0.1 * 0.25, 0.1]
         );
         assert_eq!(nakamura.lambda(1.0, || regular * 2.0), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn descents_have_the_same_bits_on_all_instructions(
+            q in prop::array::uniform6(-1.5..1.5f64),
+            off in prop::array::uniform6(-0.2..0.2f64),
+            free in prop::array::uniform6(prop_oneof![4 => Just(true), 1 => Just(false)]),
+        ) {
+            let robot = RobotModel::irb120().map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let q = JointVector::from(q);
+            let (frame, settings) = (robot.last_link_frame(), IkSettings::default());
+            let task = Task { robot: &robot, frame, target: robot.fk(&q).rigid(&frame), tolerance: [1e-9; 2] };
+            let start = robot.limits().clamp(&(q + JointVector::from(off)));
+            let descending = Descending { coldest: 1.0, task: &task, start, free: &free, settings: &settings };
+            let [portable, exact] = portable_and_exact(&descending);
+            prop_assert_eq!(portable.best.q, exact.best.q);
+            prop_assert_eq!(portable.best.error, exact.best.error);
+            prop_assert_eq!((portable.iterations, portable.stop), (exact.iterations, exact.stop));
+        }
     }
 
     #[test]

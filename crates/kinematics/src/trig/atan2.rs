@@ -1,7 +1,8 @@
 //! The inverse functions: one division, one short polynomial and a table of angles.
 
+use crate::lanes::Vector;
 use crate::trig::mul_add::{SeparateMulAdd, polynomial};
-use crate::trig::sin_cos::SIGN;
+use crate::trig::sin_cos::{SIGN, polynomial_of};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Bounds of the fast path: the larger of |x|, |y| at least the first, their sum at most the second, so that
@@ -120,6 +121,59 @@ fn fast_atan2(y: f64, x: f64) -> f64 {
     let (high, low) = ANGLES[usize::from(steep) + 2 * usize::from(backward)][step & 7];
     let angle = high + (t + (bend + low));
     f64::from_bits(angle.to_bits() ^ (y.to_bits() & SIGN))
+}
+
+/// Angles of the vectors (x, y) lane by lane, with the bits of [`atan2`].
+#[inline(always)]
+pub(crate) fn atan2_vector<V: Vector>(y: V, x: V) -> V {
+    let (zero, sign) = (V::splat(0.0), V::splat(-0.0));
+    let (y_sign, x_sign) = (y.and(sign), x.and(sign));
+    let (ax, ay) = (x.xor(x_sign), y.xor(y_sign));
+    let larger = ax.if_above(ay, ax, ay);
+    if !(V::splat(SMALL).at_most(larger).and((ax + ay).at_most(V::splat(LARGE)))).sign_bits() & 0b1111 != 0 {
+        return one_by_one(y, x);
+    }
+    let a = ay.if_above(ax, ax, ay);
+    let b = larger;
+    // Eight angles in a row for each pair of octants.
+    let steep = ay.if_above(ax, V::splat(8.0), zero);
+    let (mut c, mut row) = (
+        zero,
+        steep + x_sign.if_sign_bit(V::splat(16.0 + WHOLE), V::splat(WHOLE)),
+    );
+    for k in 0..STEPS.len() {
+        let from = V::splat(STEPS[k]) * b;
+        c = a.if_above(from, V::splat(TANGENTS[k + 1]), c);
+        row = row + a.if_above(from, V::splat(1.0), zero);
+    }
+    let b_high = b.and(V::splat(f64::from_bits(!0x3F)));
+    let tangent = ((a - c * b_high) - c * (b - b_high)) / (b + c * a);
+
+    let turn = ay.if_above(ax, sign, zero).xor(x_sign);
+    let t = tangent.xor(turn);
+    let z = t * t;
+    let bend = t * z * polynomial_of(&ARCTAN, z, z * z);
+    let [i, j, k, l] = row.to_array();
+    let (i, j, k, l) = (angle_in(i), angle_in(j), angle_in(k), angle_in(l));
+    let high = V::from_array([i.0, j.0, k.0, l.0]);
+    let low = V::from_array([i.1, j.1, k.1, l.1]);
+    (high + (t + (bend + low))).xor(y_sign)
+}
+
+/// Constant 2⁵²: the last bits of its sum with a small whole number are that number.
+const WHOLE: f64 = f64::from_bits((1023 + 52) << 52);
+
+/// Entry of [`ANGLES`], all rows in one, whose number is in the last bits.
+#[inline(always)]
+fn angle_in(row: f64) -> (f64, f64) {
+    ANGLES.as_flattened()[(row.to_bits() & 31) as usize]
+}
+
+/// Slow path for lanes of which one at least is extraordinary.
+#[cold]
+fn one_by_one<V: Vector>(y: V, x: V) -> V {
+    let ([a, b, c, d], [e, f, g, h]) = (y.to_array(), x.to_array());
+    V::from_array([atan2(a, e), atan2(b, f), atan2(c, g), atan2(d, h)])
 }
 
 /// Slow path for a pair that is not finite, both zero, or so large or small that the fast path would over- or underflow.

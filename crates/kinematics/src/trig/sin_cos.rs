@@ -143,7 +143,7 @@ fn first_quadrant<V: Vector>(angle: V) -> (V, V, V) {
 
 /// The polynomial of [`polynomial`] in vectors.
 #[inline(always)]
-fn polynomial_of<V: Vector>(c: &[f64; 6], z: V, z2: V) -> V {
+pub(crate) fn polynomial_of<V: Vector>(c: &[f64; 6], z: V, z2: V) -> V {
     let pair = |k: usize| z.mul_add(V::splat(c[k + 1]), V::splat(c[k]));
     z2.mul_add(z2.mul_add(pair(4), pair(2)), pair(0))
 }

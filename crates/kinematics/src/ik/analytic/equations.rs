@@ -19,7 +19,7 @@ use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// Sine of the elbow angle below which its two branches count as one.
-const ELBOWS_MEET: f64 = 1e-7;
+pub(crate) const ELBOWS_MEET: f64 = 1e-7;
 
 /// Target in the shoulder frame at q₁ = 0.
 #[derive(Clone, Copy)]

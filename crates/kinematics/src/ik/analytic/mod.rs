@@ -61,6 +61,7 @@ mod branch;
 mod equations;
 mod nearest;
 mod recognise;
+mod side_by_side;
 
 pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
 pub use crate::ik::analytic::branch::{

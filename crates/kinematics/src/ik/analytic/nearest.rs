@@ -5,7 +5,9 @@
 use crate::ik::analytic::all::{Rejection, Solutions};
 use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::equations::{Bend, Goal, Swing};
+use crate::ik::analytic::side_by_side::{Rare, SideBySide};
 use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS, check_finite};
+use crate::lanes::run_exact;
 use crate::rotation::RigidTransform;
 use crate::{JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
@@ -43,20 +45,26 @@ impl AnalyticArm {
         check_finite(target, start)?;
         let window = Window::new(limits, start);
         let goal = self.goal(target);
-        match self.search(target, &goal, &window) {
+        let side_by_side = SideBySide {
+            arm: self,
+            target,
+            goal: &goal,
+            window: &window,
+        };
+        let found = run_exact(side_by_side).unwrap_or_else(|Rare| self.search(target, &goal, &window));
+        match found {
             Some(found) => Ok(found),
             None => self.search_elsewhere(target, &goal, &window),
         }
     }
 
-    fn search(&self, target: &RigidTransform, goal: &Goal, window: &Window<'_>) -> Option<NearestConfiguration> {
-        let mut search = Search {
-            arm: self,
-            target,
-            window,
-            best: None,
-            least: f64::INFINITY,
-        };
+    pub(crate) fn search(
+        &self,
+        target: &RigidTransform,
+        goal: &Goal,
+        window: &Window<'_>,
+    ) -> Option<NearestConfiguration> {
+        let mut search = Search::new(self, target, window);
         search.shoulder(goal, Shoulder::Front);
         search.shoulder(goal, Shoulder::Back);
         search.best
@@ -78,16 +86,27 @@ impl AnalyticArm {
 
 /// The search for the nearest answer, branch by branch. A branch is left as soon as a joint is outside its limits
 /// or the joints so far are already further away than the best.
-struct Search<'a> {
+pub(crate) struct Search<'a> {
     arm: &'a AnalyticArm,
     target: &'a RigidTransform,
     window: &'a Window<'a>,
-    best: Option<NearestConfiguration>,
+    pub best: Option<NearestConfiguration>,
     /// Squared distance of the best answer \[rad²\].
-    least: f64,
+    pub least: f64,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    #[inline]
+    pub fn new(arm: &'a AnalyticArm, target: &'a RigidTransform, window: &'a Window<'a>) -> Self {
+        Self {
+            arm,
+            target,
+            window,
+            best: None,
+            least: f64::INFINITY,
+        }
+    }
+
     #[inline]
     fn shoulder(&mut self, goal: &Goal, shoulder: Shoulder) -> Option<()> {
         let swing = self.arm.swing(goal, shoulder, self.window.anchor[0]).ok()?;
@@ -124,7 +143,7 @@ impl Search<'_> {
 
     /// Takes the configuration if it is nearer than the best. One beyond a limit must be movable onto it.
     #[inline]
-    fn offer(&mut self, q: JointVector, label: Label, degenerate: Degeneracies) -> Option<()> {
+    pub fn offer(&mut self, q: JointVector, label: Label, degenerate: Degeneracies) -> Option<()> {
         if self.window.squared_distance(q.as_slice()) >= self.least {
             return None;
         }
