@@ -4,6 +4,7 @@
 //!         --only lint|rust|python|browser           one part of them
 //!         --without-browser                         all but what is looked at in a browser
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
+//!     cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 //!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 //!     cargo xtask docs                              writes the pages that are made from the program
 
@@ -11,6 +12,7 @@ mod benches;
 mod browser;
 #[cfg(test)]
 mod comments;
+mod ledger;
 mod page;
 mod python;
 mod sources;
@@ -26,6 +28,7 @@ cargo xtask test [OPTIONS]                    every test there is
     --only lint|rust|python|browser           one part of them
     --without-browser                         all but what is looked at in a browser
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
+cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 cargo xtask docs                              writes the pages that are made from the program";
 
@@ -34,6 +37,7 @@ cargo xtask docs                              writes the pages that are made fro
 enum Chore {
     Test(Option<Part>, BrowserTests),
     Bench(Vec<String>),
+    Ledger,
     Page,
     Docs,
     Help,
@@ -51,6 +55,7 @@ fn main() -> ExitCode {
     let done = match chore {
         Chore::Test(only, in_browser) => suite::run(only, in_browser),
         Chore::Bench(arguments) => benches::run(&arguments),
+        Chore::Ledger => ledger::run(),
         Chore::Page => page::make(),
         Chore::Docs => suite::docs(),
         Chore::Help => {
@@ -72,6 +77,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
     match words[..] {
         ["test", ref options @ ..] => tests(options),
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
+        ["ledger"] => Ok(Chore::Ledger),
         ["page"] => Ok(Chore::Page),
         ["docs"] => Ok(Chore::Docs),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),

@@ -20,6 +20,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
+use std::sync::OnceLock;
 
 /// Contact height on a flat face that the tilt of the tool may use up, besides the promised part \[m\]: a reserve for the error
 /// of the tip.
@@ -82,6 +83,9 @@ pub struct Patterns {
     /// The cones to plan with, the best first; at least one.
     cones: Vec<f64>,
     first: Vec<Pattern>,
+    /// Patterns of each cone but the first, and slower ones of each cone, once they were asked for.
+    wider: Vec<OnceLock<Vec<Pattern>>>,
+    slower: Vec<OnceLock<Vec<Pattern>>>,
     /// Token that ends the search for patterns; the patterns found by then are offered.
     cancel: CancelToken,
 }
@@ -95,6 +99,8 @@ impl Patterns {
         let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density);
         let usual = curves(Density::Usual).into_iter();
         let candidates = usual.map(|curve| Candidate::new(curve, surface, limits)).collect();
+        let cones = cones(terms, settings, surface);
+        let unasked = || vec![OnceLock::new(); cones.len()];
         let mut patterns = Self {
             surface: *surface,
             promise,
@@ -103,8 +109,10 @@ impl Patterns {
             candidates,
             has_contact: terms.requirements.contact.is_some(),
             dense: curves(Density::Dense),
-            cones: cones(terms, settings, surface),
             first: Vec::new(),
+            wider: unasked(),
+            slower: unasked(),
+            cones,
             cancel: cancel.clone(),
         };
         patterns.first = patterns.within(patterns.cones[0]);
@@ -118,6 +126,8 @@ impl Patterns {
             candidates: vec![Candidate::new(path.curve, &self.surface, self.limits)],
             dense: Vec::new(),
             cones: vec![path.cone_rad],
+            wider: vec![OnceLock::new()],
+            slower: vec![OnceLock::new()],
             ..self.clone()
         };
         patterns.first = patterns.within(path.cone_rad);
@@ -132,13 +142,15 @@ impl Patterns {
 
     /// Patterns of wider cones, for places that the first ones do not reach.
     pub fn wider_patterns(&self) -> impl Iterator<Item = Pattern> {
-        self.cones[1..].iter().flat_map(|cone| self.within(*cone))
+        let cones = self.cones.iter().zip(&self.wider).skip(1);
+        cones.flat_map(|(cone, known)| known.get_or_init(|| self.within(*cone)).iter().copied())
     }
 
     /// Denser and slower patterns, for plates on which the arm presses less of the face than the estimate on the bare face.
     pub fn denser(&self) -> impl Iterator<Item = Pattern> {
-        let cones = self.cones.iter().filter(|_| self.is_chosen());
-        cones.flat_map(|cone| self.slower(*cone, &Margin::WEAK_ARM))
+        let cones = self.cones.iter().zip(&self.slower).filter(|_| self.is_chosen());
+        let slower = |cone: f64| self.slower(cone, &Margin::WEAK_ARM);
+        cones.flat_map(move |(cone, known)| known.get_or_init(|| slower(*cone)).iter().copied())
     }
 
     /// The first pattern with the widest cone: a place that no tilt in it reaches is out of reach for all.

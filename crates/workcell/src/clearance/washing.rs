@@ -6,12 +6,12 @@
 //! [`Plate::may_touch_beside`]: crate::plate::Plate::may_touch_beside
 
 use crate::clearance::body::{BodyKind, place};
-use crate::clearance::distance::{Separation, bracketed, separation};
+use crate::clearance::distance::{Separation, bracketed, separation, separation_below};
 use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest};
 use crate::clearance::motion::ROUNDING_M;
 use crate::clearance::part::PlacedPart;
+use platewash_kinematics::JointVector;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{BodyPoses, JointVector};
 use std::cell::OnceCell;
 
 /// Function that computes a distance.
@@ -99,13 +99,29 @@ impl ClearanceModel {
             };
             frames[body].get_or_init(placed)[part]
         };
-        let keeps = |(a, b): (usize, usize), (p, r): (usize, usize), required: f64| {
+        // Distance of two parts \[m\], or a lower bound of it that is enough for the last level.
+        let least_m = |(a, b): (usize, usize), (p, r): (usize, usize), most: f64| {
             let (part, other) = (&self.bodies[a].outer()[p], &self.bodies[b].outer()[r]);
             let (here, there) = (rigid(a, p), rigid(b, r));
-            is_enough(part.gap_to_sphere(&here, other, &there.translation), required)
-                || is_enough(other.gap_to_sphere(&there, part, &here.translation), required)
-                || is_clear(separation(&part.place(&poses), &other.place(&poses)).distance, required)
-                || self.parts_keep((a, b), (p, r), &poses, required)
+            let gap = part.gap_to_sphere(&here, other, &there.translation);
+            if is_enough(gap, most) {
+                return gap;
+            }
+            let gap = other.gap_to_sphere(&there, part, &here.translation);
+            if is_enough(gap, most) {
+                return gap;
+            }
+            // A pair at this distance or beyond is clear.
+            let below = most.max(f64::MIN_POSITIVE);
+            let measure = |p: &PlacedPart<'_>, r: &PlacedPart<'_>| separation_below(p, r, below);
+            let outer = measure(&part.place_at(&here), &other.place_at(&there)).distance;
+            if is_clear(outer, most) {
+                return outer;
+            }
+            match self.within((a, b), (p, r), &poses, measure, below) {
+                None => outer,
+                Some(inner) => outer.max(inner.map_or(f64::INFINITY, |inner| inner.distance)),
+            }
         };
         let mut levels = required;
         for &(a, b) in &self.others {
@@ -114,7 +130,7 @@ impl ClearanceModel {
                 continue;
             }
             for parts in self.part_pairs(a, b) {
-                levels = lowered(levels, |required| keeps((a, b), parts, required));
+                levels = lowered(levels, |most| least_m((a, b), parts, most));
             }
         }
         // Obstacles always count.
@@ -124,28 +140,19 @@ impl ClearanceModel {
                 let placed = part.place(&poses);
                 for b in self.crowd.obstacles_near(leaves, &placed, |gap| is_enough(gap, most)) {
                     for r in 0..self.bodies[b].outer().len() {
-                        levels = lowered(levels, |required| keeps((*a, b), (p, r), required));
+                        levels = lowered(levels, |most| least_m((*a, b), (p, r), most));
                     }
                 }
             }
         }
         levels.len()
     }
-
-    /// True if the parts of a body with a tree are clear of a part of another one; false if neither body has one.
-    fn parts_keep(&self, bodies: (usize, usize), parts: (usize, usize), poses: &BodyPoses, required: f64) -> bool {
-        // A pair at this distance or beyond is clear.
-        let below = required.max(f64::MIN_POSITIVE);
-        let found = self.within(bodies, parts, poses, separation, below);
-        found.is_some_and(|found| found.is_none_or(|found| is_clear(found.distance, required)))
-    }
 }
 
-/// The levels of an ascending list without those at its end that are not kept.
-fn lowered(levels: &[f64], keeps: impl Fn(f64) -> bool) -> &[f64] {
-    let kept = levels
-        .iter()
-        .rposition(|level| keeps(*level))
-        .map_or(0, |last| last + 1);
-    &levels[..kept]
+/// The levels of an ascending list that a distance keeps; it is measured for the last one.
+fn lowered(levels: &[f64], distance_m: impl Fn(f64) -> f64) -> &[f64] {
+    let Some(&most) = levels.last() else { return levels };
+    let distance_m = distance_m(most);
+    let kept = levels.iter().rposition(|level| is_clear(distance_m, *level));
+    &levels[..kept.map_or(0, |last| last + 1)]
 }

@@ -83,6 +83,9 @@ proptest! {
         if all.iter().all(|pair| (pair.distance_m - required).abs() > 1e-4 && pair.distance_m.abs() > 1e-4) {
             prop_assert_eq!(model.keeps_clearance(&q, required), keeps[0]);
             prop_assert_eq!(model.keeps_washing(&q, 0, required), keeps[1]);
+            let levels = [required, required + 8e-3, required + 0.1];
+            let kept = levels.iter().take_while(|level| model.keeps_washing(&q, 0, **level)).count();
+            prop_assert_eq!(model.levels_kept(&q, Some(0), &levels), kept);
             let near: Vec<_> = all.iter().filter(|pair| !is_clear(pair.distance_m, required)).collect();
             let too_near = model.too_near(&q, &[], required);
             prop_assert_eq!(too_near.len(), near.len());

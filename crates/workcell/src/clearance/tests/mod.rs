@@ -2,7 +2,7 @@ mod bounds;
 mod half_spaces;
 mod many_parts;
 
-use crate::clearance::distance::{Separation, bracketed};
+use crate::clearance::distance::{Separation, bracketed, separation, separation_below};
 use crate::clearance::part::Part;
 use crate::clearance::*;
 use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
@@ -105,6 +105,17 @@ proptest! {
             prop_assert!(found <= sampled + ITERATIVE_ERROR_M && found >= sampled - h / 1000.0 - ITERATIVE_ERROR_M, "{found} {sampled}");
         } else {
             prop_assert!(found <= 0.0);
+        }
+        // Farther than asked for is infinite, or else as far as it is.
+        let poses = RobotModel::irb120().unwrap().fk(&JointVector::zeros());
+        for shape in [&cylinder, &cuboid, &hull] {
+            let (part, other) = (part(&capsule, &a), part(shape, &b));
+            let (moving, standing) = (part.place(&poses), other.place(&poses));
+            let whole = separation(&moving, &standing).distance;
+            for most in [1e-3, 0.1, 0.5] {
+                let found = separation_below(&moving, &standing, most).distance;
+                prop_assert!(found == whole || (found == f64::INFINITY && whole > most - ITERATIVE_ERROR_M), "{found} {whole}");
+            }
         }
         // Solid against solid: symmetric.
         let there = distance((&cylinder, &a), (&cuboid, &b));

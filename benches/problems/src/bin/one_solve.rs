@@ -1,8 +1,5 @@
 //! A number of solves for an instruction counter, after the same preparation whatever the number: the difference of two
-//! runs is what one solve costs.
-//!
-//!     valgrind --tool=callgrind target/release/one_solve warm 1
-//!     valgrind --tool=callgrind target/release/one_solve warm 2
+//! runs is what one solve costs. `cargo xtask ledger` takes it.
 //!
 //! | first word | one solve is |
 //! | --- | --- |
@@ -10,11 +7,15 @@
 //! | `path` | one more point of `IkSolver::solve_path` |
 //! | `cold` | `AnalyticArm::nearest` of a random pose from a random start |
 //! | `cold-solve` | `IkSolver::solve` of the same |
+//! | `fk-batch` | `batch::fk` of 1000 random configurations |
+//! | `ik-batch` | `batch::solve` of 1000 poses from starts at most 0.01 rad off |
 //!
 //! `cold` calls [`one_case`] for each of its cases, by which callgrind can tell them apart.
 #![allow(clippy::print_stdout)]
 
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::batch::{self, Backend};
+use platewash_kinematics::ik::{IkSettings, IkSolver};
+use platewash_kinematics::{JointVector, RobotModel, ToolFrame};
 use platewash_problems::ours::{AnalyticIk, NumericIk, Path};
 use platewash_problems::problems::{Problems, Seeds, THROUGH_M};
 use platewash_problems::solver::Solver;
@@ -23,6 +24,9 @@ use std::hint::black_box;
 
 /// Random poses, the same in every run.
 const CASES: usize = 10_000;
+
+/// Configurations or poses in a batch.
+const BATCH: usize = 1000;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
@@ -42,7 +46,29 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         "cold" => run(&mut AnalyticIk::new(&robot, &random)?, &random, count),
         "cold-solve" => run(&mut NumericIk::new(&robot, &random)?, &random, count),
-        _ => return Err("one of warm, path, cold, cold-solve, and a number".into()),
+        "fk-batch" => {
+            let Seeds::Given(configurations) = Problems::near(&robot, BATCH)?.seeds else {
+                return Err("near problems have a start each".into());
+            };
+            let frame = robot.tool_frame(ToolFrame::Tool0)?;
+            let all =
+                (0..count).map(|_| batch::fk(&robot, &frame, black_box(&configurations), Backend::Detected).len());
+            all.sum::<usize>() / BATCH
+        }
+        "ik-batch" => {
+            let near = Problems::near(&robot, BATCH)?;
+            let Seeds::Given(starts) = &near.seeds else {
+                return Err("near problems have a start each".into());
+            };
+            let solver = IkSolver::new(&robot, robot.tool_frame(ToolFrame::Tool0)?, IkSettings::default())?;
+            let mut solved = 0;
+            for _ in 0..count {
+                let answers = batch::solve(&solver, black_box(&near.targets), starts, Backend::Detected)?;
+                solved += usize::from(answers.iter().all(Result::is_ok));
+            }
+            solved
+        }
+        _ => return Err("one of warm, path, cold, cold-solve, fk-batch, ik-batch, and a number".into()),
     };
     println!("{solved} of {count} solved");
     Ok(())
