@@ -18,7 +18,7 @@ pub(crate) enum Interval {
     /// Range of pieces, a group of the tree.
     Pieces { group: usize, first: usize, end: usize },
     /// Part of a piece: start and end within it \[s\], and its place in the tree of halvings: 1 for the whole piece, 2n and 2n + 1 for the
-    /// halves of n.
+    /// halves of n; 0 for a part so small that it has no number.
     Within { piece: usize, u: [f64; 2], node: u64 },
 }
 
@@ -99,11 +99,11 @@ impl<'a> Timeline<'a> {
                 node,
             } => {
                 let middle = 0.5 * (from + to);
-                // Nothing is kept of a part so small that its number is too large.
+                let has_number = (1..1 << 62).contains(&node);
                 let half = |u, second: u64| Interval::Within {
                     piece,
                     u,
-                    node: node.saturating_mul(2).saturating_add(second),
+                    node: if has_number { 2 * node + second } else { 0 },
                 };
                 (middle > from && middle < to).then(|| [half([from, middle], 0), half([middle, to], 1)])
             }
