@@ -7,7 +7,7 @@ mod pick;
 
 pub use ik_geo::IkGeo;
 pub use k_jacobian::KJacobian;
-pub use opw::Opw;
+pub use opw::{Opw, OpwContinuing};
 pub use pick::nearest_within;
 
 use platewash_kinematics::RobotModel;
@@ -22,6 +22,7 @@ use std::error::Error;
 /// A peer that does not read the arm's description.
 pub fn warm<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
     let mut all = ours::warm(robot, problems)?;
+    all.push(Box::new(OpwContinuing::new(robot, &problems.targets)));
     all.append(&mut all_peers(robot, problems)?);
     Ok(all)
 }

@@ -61,3 +61,27 @@ impl Solver for Opw<'_> {
         nearest_within(self.robot.limits(), solutions, seed)
     }
 }
+
+/// The same crate's `inverse_continuing`, which sorts the solutions by their distance from the last answer and keeps joints that a
+/// singularity leaves free.
+pub struct OpwContinuing<'a>(Opw<'a>);
+
+impl<'a> OpwContinuing<'a> {
+    /// Prepares the solver as [`Opw::new`] does.
+    #[must_use]
+    pub fn new(robot: &'a RobotModel, targets: &[Pose]) -> Self {
+        Self(Opw::new(robot, targets))
+    }
+}
+
+impl Solver for OpwContinuing<'_> {
+    fn name(&self) -> &'static str {
+        "rs-opw-kinematics, `inverse_continuing`"
+    }
+
+    fn solve(&mut self, target: usize, seed: &JointVector) -> Option<JointVector> {
+        let Opw { robot, solver, targets } = &self.0;
+        let solutions = solver.inverse_continuing(&targets[target], &(*seed).into());
+        nearest_within(robot.limits(), solutions, seed)
+    }
+}

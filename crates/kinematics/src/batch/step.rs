@@ -84,14 +84,30 @@ pub(crate) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<
     let (mut normal, mut gradient, mut moments) = ([[zero; AXES]; AXES], [zero; AXES], [[zero; 3]; AXES]);
     for i in 0..AXES {
         moments[i] = moment(&lines[i], p);
-        let (m, z) = (&moments[i], &lines[i].axis);
-        gradient[i] = dot(m, &e.linear) + dot(z, &e.angular);
-        for k in 0..i {
-            normal[i][k] = dot(m, &moments[k]) + dot(z, &lines[k].axis);
-        }
-        normal[i][i] = dot(m, m) + (dot(z, z) + lambda);
+        gradient[i] = dot(&moments[i], &e.linear) + dot(&lines[i].axis, &e.angular);
     }
+    normal_row::<V, 0>(&mut normal, &moments, lines, lambda);
+    normal_row::<V, 1>(&mut normal, &moments, lines, lambda);
+    normal_row::<V, 2>(&mut normal, &moments, lines, lambda);
+    normal_row::<V, 3>(&mut normal, &moments, lines, lambda);
+    normal_row::<V, 4>(&mut normal, &moments, lines, lambda);
+    normal_row::<V, 5>(&mut normal, &moments, lines, lambda);
     solve(normal, gradient)
+}
+
+/// Computes row I of the normal matrix up to its diagonal. The row is a constant, as are J below, so that the compiler unrolls the loops.
+#[inline(always)]
+fn normal_row<V: Vector, const I: usize>(
+    normal: &mut [[V; AXES]; AXES],
+    moments: &[[V; 3]; AXES],
+    lines: &[Line<V>; AXES],
+    lambda: V,
+) {
+    let (m, z) = (&moments[I], &lines[I].axis);
+    for k in 0..I {
+        normal[I][k] = dot(m, &moments[k]) + dot(z, &lines[k].axis);
+    }
+    normal[I][I] = dot(m, m) + (dot(z, z) + lambda);
 }
 
 /// Returns `q + Δq`, shortened to the step bound and clamped to the limits, and the number of steps in a row that a limit cut.
@@ -125,21 +141,39 @@ fn larger<V: Vector>(a: V, b: V) -> V {
 #[inline(always)]
 fn solve<V: Vector>(mut a: [[V; AXES]; AXES], mut x: [V; AXES]) -> [V; AXES] {
     let mut inverse = x;
-    for j in 0..AXES {
-        inverse[j] = V::splat(1.0) / a[j][j];
-        for i in j + 1..AXES {
-            let scaled = a[i][j] * inverse[j];
-            for k in j + 1..=i {
-                a[i][k] = scaled.neg_mul_add(a[k][j], a[i][k]);
-            }
-            x[i] = scaled.neg_mul_add(x[j], x[i]);
-        }
-    }
-    for j in (0..AXES).rev() {
-        for i in j + 1..AXES {
-            x[j] = a[i][j].neg_mul_add(x[i], x[j]);
-        }
-        x[j] = x[j] * inverse[j];
-    }
+    eliminate::<V, 0>(&mut a, &mut x, &mut inverse);
+    eliminate::<V, 1>(&mut a, &mut x, &mut inverse);
+    eliminate::<V, 2>(&mut a, &mut x, &mut inverse);
+    eliminate::<V, 3>(&mut a, &mut x, &mut inverse);
+    eliminate::<V, 4>(&mut a, &mut x, &mut inverse);
+    eliminate::<V, 5>(&mut a, &mut x, &mut inverse);
+    substitute::<V, 5>(&a, &mut x, &inverse);
+    substitute::<V, 4>(&a, &mut x, &inverse);
+    substitute::<V, 3>(&a, &mut x, &inverse);
+    substitute::<V, 2>(&a, &mut x, &inverse);
+    substitute::<V, 1>(&a, &mut x, &inverse);
+    substitute::<V, 0>(&a, &mut x, &inverse);
     x
+}
+
+/// Eliminates unknown J from the equations after it.
+#[inline(always)]
+fn eliminate<V: Vector, const J: usize>(a: &mut [[V; AXES]; AXES], x: &mut [V; AXES], inverse: &mut [V; AXES]) {
+    inverse[J] = V::splat(1.0) / a[J][J];
+    for i in J + 1..AXES {
+        let scaled = a[i][J] * inverse[J];
+        for k in J + 1..i + 1 {
+            a[i][k] = scaled.neg_mul_add(a[k][J], a[i][k]);
+        }
+        x[i] = scaled.neg_mul_add(x[J], x[i]);
+    }
+}
+
+/// Computes unknown J from those after it.
+#[inline(always)]
+fn substitute<V: Vector, const J: usize>(a: &[[V; AXES]; AXES], x: &mut [V; AXES], inverse: &[V; AXES]) {
+    for i in J + 1..AXES {
+        x[J] = a[i][J].neg_mul_add(x[i], x[J]);
+    }
+    x[J] = x[J] * inverse[J];
 }

@@ -214,7 +214,7 @@ fn solve_spd(a: &[[f64; 2 * LANES]; N], b: [f64; N]) -> Option<[f64; N]> {
         inverse[j] = 1.0 / pivot;
         for i in j + 1..N {
             let scaled = l[j][i] * inverse[j];
-            for k in j + 1..=i {
+            for k in j + 1..i + 1 {
                 l[k][i] -= scaled * l[j][k];
             }
         }

@@ -56,18 +56,7 @@ impl Kernel for SideBySide<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) -> Self::Output {
         let arms = self.arms::<V>()?;
-        let [e11, e12, e13] = arms.wrist[0];
-        let [e21, e22, e23] = arms.wrist[1];
-        let e33 = arms.wrist[2][2];
-        let sine = (e13 * e13 + e23 * e23).sqrt();
-        if sine.at_most(V::splat(FREE_WRIST_RAD)).and(arms.reached).sign_bits() != 0 {
-            return Err(Rare);
-        }
-        let (s, c) = (e23 / sine, e13 / sine);
-        let first = atan2_vector(e23, e13);
-        let second = atan2_vector(c * e13 + s * e23, e33);
-        let third = atan2_vector(c * e21 - s * e11, c * e22 - s * e12);
-
+        let [first, second, third] = arms.turns()?;
         let [at_zero_5, at_zero_6] = [V::splat(self.arm.wrist_at_zero[0]), V::splat(self.arm.wrist_at_zero[1])];
         let (half_turn, minus) = (V::splat(PI), V::splat(-0.0));
         let mut within = Within::all();
@@ -120,6 +109,26 @@ impl Kernel for SideBySide<'_> {
             }
         }
         Ok(search.best)
+    }
+}
+
+impl<V: Vector> Arms<V> {
+    /// Returns `[q₄, q₅ + α₅, q₆ + α₆]` of the plain wrist.
+    #[inline(always)]
+    fn turns(&self) -> Result<[V; 3], Rare> {
+        let [e11, e12, e13] = self.wrist[0];
+        let [e21, e22, e23] = self.wrist[1];
+        let e33 = self.wrist[2][2];
+        let sine = (e13 * e13 + e23 * e23).sqrt();
+        if sine.at_most(V::splat(FREE_WRIST_RAD)).and(self.reached).sign_bits() != 0 {
+            return Err(Rare);
+        }
+        let (s, c) = (e23 / sine, e13 / sine);
+        Ok([
+            atan2_vector(e23, e13),
+            atan2_vector(c * e13 + s * e23, e33),
+            atan2_vector(c * e21 - s * e11, c * e22 - s * e12),
+        ])
     }
 }
 
