@@ -9,7 +9,7 @@ use crate::trajectory::{PlanSegment, Trajectory};
 use nalgebra::Vector3;
 use platewash_kinematics::words::rounded_up;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use std::fmt::{self, Write as _};
+use std::fmt;
 
 /// Greatest number of rows.
 pub const MAX_ROWS: usize = 1_000_000;
@@ -131,66 +131,57 @@ impl fmt::Display for MotionTable<'_> {
         let whole = (duration_s / self.dt_s - 1e-6).ceil();
         let times = (0..whole.max(0.0) as usize).map(|k| k as f64 * self.dt_s);
         writeln!(f, "{HEADER}")?;
+        let mut row = String::new();
         for t in times.chain([duration_s]) {
             let Some(state) = self.motion.at(t) else { continue };
             // Times that are a knot's up to rounding belong to the segment that the knot ends.
             let is_over = |s: &&PlanSegment| t <= s.t_end_s + 1e-6 * self.dt_s;
             let segment = self.segments.iter().find(is_over).or(self.segments.last());
             let at = self.robot.fk(&state.q).rigid(&self.tip).translation;
-            write_row(f, t, segment, [&state.q, &state.qd, &state.qdd], &at)?;
-            writeln!(f)?;
+            row.clear();
+            add_row(&mut row, t, segment, [&state.q, &state.qd, &state.qdd], &at);
+            row.push('\n');
+            f.write_str(&row)?;
         }
         Ok(())
     }
 }
 
-/// Writes the columns of [`HEADER`]: time \[s\], segment, joint positions, speeds and accelerations \[rad, rad/s, rad/s²\], and the
+/// Adds the columns of [`HEADER`] to a row: time \[s\], segment, joint positions, speeds and accelerations \[rad, rad/s, rad/s²\], and the
 /// tip \[m\].
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write_row(
-    f: &mut fmt::Formatter<'_>,
+pub fn add_row(
+    row: &mut String,
     t_s: f64,
     segment: Option<&PlanSegment>,
     motion: [&JointVector; 3],
     tip: &Vector3<f64>,
-) -> fmt::Result {
-    write_number(f, t_s)?;
+) {
+    add_number(row, t_s);
     match segment {
-        Some(segment) => write!(f, ",{},{}", segment.kind.name(), segment.plate)?,
-        None => f.write_str(",,")?,
+        Some(segment) => *row += &format!(",{},{}", segment.kind.name(), segment.plate),
+        None => row.push_str(",,"),
     }
-    for joints in motion {
-        write_joints(f, joints)?;
-    }
-    for value in tip {
-        f.write_char(',')?;
-        write_number(f, *value)?;
-    }
-    Ok(())
+    add_numbers(row, motion.into_iter().flatten().chain(tip));
 }
 
-/// Writes a number as `{}` does, which takes longer: the shortest decimal that reads back exactly, without an exponent.
-fn write_number(f: &mut fmt::Formatter<'_>, value: f64) -> fmt::Result {
+/// Adds numbers to a row, each after a comma.
+pub fn add_numbers<'a>(row: &mut String, values: impl IntoIterator<Item = &'a f64>) {
+    for value in values {
+        row.push(',');
+        add_number(row, *value);
+    }
+}
+
+/// Adds a number as `{}` writes it, which takes longer: the shortest decimal that reads back exactly, without an exponent.
+fn add_number(row: &mut String, value: f64) {
     let has_exponent = value != 0.0 && !(1e-4..1e15).contains(&value.abs());
     if has_exponent {
-        return write!(f, "{value}");
+        *row += &value.to_string();
+        return;
     }
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format(value);
-    f.write_str(text.strip_suffix(".0").unwrap_or(text))
-}
-
-/// Writes one number per joint, each after a comma.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write_joints(f: &mut fmt::Formatter<'_>, joints: &JointVector) -> fmt::Result {
-    joints.iter().try_for_each(|value| {
-        f.write_char(',')?;
-        write_number(f, *value)
-    })
+    row.push_str(text.strip_suffix(".0").unwrap_or(text));
 }
 
 /// Greatest absolute value of a number \[rad, rad/s, rad/s², N·m, s\]. A larger one has another unit, or is no motion.
@@ -292,14 +283,13 @@ mod tests {
         /// A number is written as the standard library writes it.
         #[test]
         fn numbers_are_plain_and_shortest(bits in any::<u64>(), near in -1000.0..1000.0_f64) {
-            struct Written(f64);
-            impl fmt::Display for Written {
-                fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                    write_number(f, self.0)
-                }
-            }
+            let written = |value: f64| {
+                let mut row = String::new();
+                add_number(&mut row, value);
+                row
+            };
             for value in [f64::from_bits(bits), near, near.round(), near * 1e-7, 0.0, -0.0, f64::NAN, f64::INFINITY] {
-                prop_assert_eq!(Written(value).to_string(), value.to_string());
+                prop_assert_eq!(written(value), value.to_string());
             }
         }
     }

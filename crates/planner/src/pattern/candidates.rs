@@ -169,7 +169,7 @@ pub(crate) struct Candidate {
 const COARSE_RAD: f64 = 0.4;
 
 /// Share of the time along a coarse polyline that is a lower bound.
-const COARSE_SHARE: f64 = 0.97;
+const COARSE_SHARE: f64 = 0.99;
 
 impl Candidate {
     /// A curve on a surface, washed as fast as the limits allow \[m/s, m/s²\].

@@ -84,7 +84,7 @@ impl fmt::Display for ExecutedTable<'_> {
             ""
         };
         writeln!(f, "{}{HEADER}{force}", csv::HEADER)?;
-        let mut next = 0.0;
+        let (mut next, mut row) = (0.0, String::new());
         for (k, sample) in samples.iter().enumerate() {
             if k != last && (k as f64) + 0.5 < next {
                 continue;
@@ -92,12 +92,17 @@ impl fmt::Display for ExecutedTable<'_> {
             next += stride;
             let at = self.robot.fk(&sample.state.q).rigid(&tip).translation;
             let motion = [&sample.state.q, &sample.state.qd, &sample.qdd];
-            csv::write_row(f, sample.t_s, self.plan.segments.get(sample.segment), motion, &at)?;
-            csv::write_joints(f, &sample.torque)?;
-            if let Some(felt) = &sample.load {
-                write!(f, ",{}", felt.force_n)?;
-            }
-            writeln!(f)?;
+            row.clear();
+            csv::add_row(
+                &mut row,
+                sample.t_s,
+                self.plan.segments.get(sample.segment),
+                motion,
+                &at,
+            );
+            csv::add_numbers(&mut row, &sample.torque);
+            csv::add_numbers(&mut row, sample.load.iter().map(|felt| &felt.force_n));
+            writeln!(f, "{row}")?;
         }
         Ok(())
     }

@@ -41,12 +41,13 @@ impl Text {
     fn number(&mut self, number: f64) {
         if number == 0.0 {
             self.0.push('0');
-        } else if (1e-4..1e15).contains(&number.abs()) {
+        } else if number.abs() < 1e15 && !(1e-6..1e-4).contains(&number.abs()) {
+            // Shortest digits; below 1e-6 with an exponent, as in ECMAScript.
             let mut buffer = zmij::Buffer::new();
             let text = buffer.format_finite(number);
             self.0.push_str(text.strip_suffix(".0").unwrap_or(text));
         } else {
-            // Very small or large: with an exponent.
+            // Where the two differ on the exponent.
             self.0 += &serde_json_canonicalizer::to_string(&number).unwrap_or_else(|_| "null".to_owned());
         }
     }
@@ -62,7 +63,8 @@ mod tests {
         #[test]
         fn the_text_is_canonical(bits in prop::array::uniform6(any::<u64>()), near in prop::array::uniform6(-10.0..10.0_f64)) {
             let any = bits.map(f64::from_bits);
-            let small = near.map(|value| value * 1e-5);
+            let small = [1e-4, 1e-5, 1e-6, 1e-7, 1e-20, 1e-310];
+            let small = std::array::from_fn(|k| near[k] * small[k]);
             let knots = Knots {
                 t_s: vec![0.0, -0.0, 1.0, near[0].round(), near[1] * 1e20, near[2] * 1e-6],
                 q_rad: [any, near, small].map(JointVector::from).to_vec(),
