@@ -69,17 +69,7 @@ impl PairDistance {
 }
 
 impl Goal {
-    /// True if a bound is good enough beside the least distance found.
-    fn accepts(&self, bound: f64, seen: f64) -> bool {
-        self.accepts_within(bound, seen, COARSE)
-    }
-
-    /// Same as [`Goal::accepts`], with the allowed gap as a part `coarse` of the least distance.
-    fn accepts_within(&self, bound: f64, seen: f64, coarse: f64) -> bool {
-        bound >= self.needed(seen, coarse)
-    }
-
-    /// Returns the least bound that is good enough.
+    /// Returns the least bound that is good enough beside the least distance found, with the allowed gap as a part `coarse` of that.
     fn needed(&self, seen: f64, coarse: f64) -> f64 {
         let broken = seen < self.limit_m - ITERATIVE_ERROR_M || seen <= 0.0;
         if broken {
@@ -173,6 +163,36 @@ struct Stay<'a> {
     sag: f64,
 }
 
+/// Pairs of parts that are still to be examined.
+struct Queue {
+    /// Those that may be too near, the nearest first.
+    open: BinaryHeap<QueuedPair>,
+    /// Least bound of those that are far enough, which need no order.
+    far: f64,
+}
+
+impl Queue {
+    fn new() -> Self {
+        Self {
+            open: BinaryHeap::new(),
+            far: f64::INFINITY,
+        }
+    }
+
+    /// Adds pairs by their spheres: those whose bound is not below `needed` are far enough.
+    fn add<'a: 's, 's>(&mut self, parts: &PartPairs<'a>, within: Range<usize>, stay: &Stay<'s>, needed: f64) {
+        for inner in within {
+            let pair = parts.get(inner);
+            let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(&pair.mover_as(stay.mover)));
+            if gap_m - stay.fall >= needed {
+                self.far = self.far.min(gap_m - stay.fall);
+            } else {
+                self.open.push(QueuedPair { gap_m, inner });
+            }
+        }
+    }
+}
+
 impl<'a> Search<'a> {
     /// Bounds the distance of a pair of bodies, given by its pairs of parts, during the pieces. Nothing is shown where the work is
     /// cancelled.
@@ -230,11 +250,14 @@ impl<'a> Search<'a> {
 
     /// True if a bound of a pair of parts is good enough.
     fn accepts(&self, part: usize, bound: f64) -> bool {
-        if self.parts.within(part).is_empty() {
-            self.goal.accepts(bound, self.found.seen_m)
-        } else {
-            self.goal.accepts_within(bound, self.found.seen_m, COARSE_OF_MANY)
-        }
+        bound >= self.needed(part)
+    }
+
+    /// Returns the least bound of a pair of parts that is good enough. It never grows, as the least distance found does not.
+    fn needed(&self, part: usize) -> f64 {
+        let is_of_many = !self.parts.within(part).is_empty();
+        let coarse = if is_of_many { COARSE_OF_MANY } else { COARSE };
+        self.goal.needed(self.found.seen_m, coarse)
     }
 
     /// Records a distance at a moment.
@@ -322,21 +345,17 @@ impl<'a> Search<'a> {
         'a: 's,
     {
         let parts = self.parts;
-        let near = |inner: usize| {
-            let pair = parts.get(inner);
-            let gap_m = pair.map_or(f64::INFINITY, |pair| pair.gap_to_sphere(&pair.mover_as(stay.mover)));
-            QueuedPair { gap_m, inner }
-        };
-        let mut open: BinaryHeap<_> = parts.within(part).map(near).collect();
+        let mut queue = Queue::new();
+        queue.add(parts, parts.within(part), stay, self.needed(part));
         let mut bound = f64::INFINITY;
         let mut direction = NO_NORMAL;
-        while let Some(QueuedPair { gap_m, inner }) = open.pop() {
+        while let Some(QueuedPair { gap_m, inner }) = queue.open.pop() {
             if self.accepts(part, gap_m - stay.fall) {
-                return bound.min(gap_m - stay.fall);
+                return bound.min(gap_m - stay.fall).min(queue.far);
             }
             let Some(pair) = parts.get(inner) else { continue };
             if !parts.within(inner).is_empty() {
-                open.extend(parts.within(inner).map(near));
+                queue.add(parts, parts.within(inner), stay, self.needed(part));
                 continue;
             }
             let along = |normal: [f64; 3]| {
@@ -360,11 +379,11 @@ impl<'a> Search<'a> {
             bound = bound.min(found);
             if !self.accepts(part, found) {
                 // The others are no nearer than this one's sphere, and halves will tell.
-                let others = open.peek().map_or(f64::INFINITY, |next| next.gap_m - stay.fall);
-                return bound.min(others);
+                let next = queue.open.peek().map_or(f64::INFINITY, |next| next.gap_m - stay.fall);
+                return bound.min(next).min(queue.far);
             }
         }
-        bound
+        bound.min(queue.far)
     }
 }
 

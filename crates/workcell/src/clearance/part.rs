@@ -315,7 +315,8 @@ impl PlacedPart<'_> {
         let beyond = match self.core {
             Core::Segment(half) => half * local.z.abs(),
             Core::Solid(_, Extent::Vertices(vertices)) => {
-                vertices.iter().map(|v| v.dot(local)).fold(f64::NEG_INFINITY, f64::max)
+                let farther = |most: f64, v: &Vector| if v.dot(local) > most { v.dot(local) } else { most };
+                vertices.iter().fold(f64::NEG_INFINITY, farther)
             }
             // The cylinder lies along y in its own frame.
             Core::Solid(_, Extent::Cylinder(radius, half)) => {
@@ -332,8 +333,9 @@ impl PlacedPart<'_> {
         let point = match self.core {
             Core::Segment(half) => Vector::new(0.0, 0.0, half.copysign(local.z)),
             Core::Solid(_, Extent::Vertices(vertices)) => {
-                let farthest = vertices.iter().max_by(|v, w| v.dot(local).total_cmp(&w.dot(local)));
-                farthest.copied().unwrap_or(Vector::ZERO)
+                let reaches = vertices.iter().map(|v| (v.dot(local), v));
+                let farthest = reaches.max_by(|(v, _), (w, _)| v.total_cmp(w));
+                farthest.map_or(Vector::ZERO, |(_, v)| *v)
             }
             // The cylinder lies along y in its own frame.
             Core::Solid(_, Extent::Cylinder(radius, half)) => {

@@ -39,6 +39,7 @@ struct Part {
 #[derive(Debug, Clone)]
 pub struct Columns {
     parts: Vec<Part>,
+    sizes: Vec<Size>,
     foundation: Foundation,
     /// Number of rings about the disc in the middle.
     rings: usize,
@@ -107,8 +108,10 @@ impl Columns {
             }
             within = parts.len() - count;
         }
+        let sizes = parts.iter().map(|part| part.size(foundation, rings)).collect();
         Self {
             parts,
+            sizes,
             foundation: *foundation,
             rings,
         }
@@ -169,7 +172,7 @@ impl Columns {
         let mut load = Load::NONE;
         for (column, size) in self.on(surface, pose).zip(self.sizes()) {
             let met = SurfaceHit::new(column.compression_m + more_m, &column.point, &column.normal, &pose.axis);
-            let part = PartBounds::over([&met; 2], &size, &Spread::NONE, |[near_m, far_m]| {
+            let part = PartBounds::over([&met; 2], size, &Spread::NONE, |[near_m, far_m]| {
                 surface.patch([near_m.max(0.0), far_m]).curvature
             });
             load.see(&part, column.area_m2, surface.rim_m());
@@ -180,24 +183,12 @@ impl Columns {
     /// Upper bound on the reach of a column's part from the column \[m\]. A part is hardly longer than it is wide.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
-        0.85 * 2.0 / (2 * self.rings + 1) as f64 * self.foundation.radius_m
+        reach_m(&self.foundation, self.rings)
     }
 
     /// Returns the sizes of the parts.
-    pub(crate) fn sizes(&self) -> impl Iterator<Item = Size> {
-        let (reach_m, radius_m) = (self.reach_m(), self.foundation.radius_m);
-        let r2 = radius_m * radius_m;
-        self.parts.iter().map(move |part| {
-            let [x, y] = part.at;
-            let square = part.square;
-            Size {
-                reach_m,
-                square_m2: square * r2,
-                area_m2: PI * r2 * part.share,
-                spread_m: square.sqrt() * radius_m,
-                arm_m: (x * x + y * y + square).sqrt() * radius_m,
-            }
-        })
+    pub(crate) fn sizes(&self) -> &[Size] {
+        &self.sizes
     }
 
     /// Returns the middles of the parts on the sponge's face, along the two unit vectors of [`Self::turned`] \[m\].
@@ -241,6 +232,25 @@ impl Load {
     }
 }
 
+/// Upper bound on the reach of a column's part from the column \[m\].
+fn reach_m(foundation: &Foundation, rings: usize) -> f64 {
+    0.85 * 2.0 / (2 * rings + 1) as f64 * foundation.radius_m
+}
+
+impl Part {
+    fn size(&self, foundation: &Foundation, rings: usize) -> Size {
+        let (radius_m, square) = (foundation.radius_m, self.square);
+        let ([x, y], r2) = (self.at, radius_m * radius_m);
+        Size {
+            reach_m: reach_m(foundation, rings),
+            square_m2: square * r2,
+            area_m2: PI * r2 * self.share,
+            spread_m: square.sqrt() * radius_m,
+            arm_m: (x * x + y * y + square).sqrt() * radius_m,
+        }
+    }
+}
+
 /// Returns two unit vectors across a unit vector and each other.
 fn across(axis: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let side = if axis.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
@@ -253,15 +263,16 @@ pub(crate) type Meets = (f64, Vector3<f64>, Vector3<f64>);
 
 /// Intersects a line along a unit vector from a point with a surface, by Newton's method on the height over the surface.
 fn meet(surface: &Surface, start: &Vector3<f64>, axis: &Vector3<f64>) -> Meets {
-    meet_from(surface, start, axis, 0.0, MEETS_M)
+    meet_from(surface, start, axis, (0.0, &mut 0), MEETS_M)
 }
 
-/// Same as [`meet`], from a guess, until a step is no longer than `settled_m`: each squares the error.
+/// Same as [`meet`], from a guess of the length and of the piece of the meridian, until a step is no longer than `settled_m`: each squares
+/// the error. `piece` becomes the one that is met.
 pub(crate) fn meet_from(
     surface: &Surface,
     start: &Vector3<f64>,
     axis: &Vector3<f64>,
-    guess_m: f64,
+    (guess_m, piece): (f64, &mut usize),
     settled_m: f64,
 ) -> Meets {
     let Surface::Profile(meridian) = surface else {
@@ -269,13 +280,12 @@ pub(crate) fn meet_from(
         let met = if along_m.is_finite() { along_m } else { f64::INFINITY };
         return (met, start + axis * along_m, Vector3::z());
     };
-    let mut piece = 0;
     let mut along_m = if guess_m.is_finite() { guess_m } else { 0.0 };
     let mut there = (*start, Vector3::z());
     for _ in 0..STEPS {
         let point = start + axis * along_m;
         let rho = point.xy().norm();
-        let at = meridian.at_radius_near(rho, &mut piece);
+        let at = meridian.at_radius_near(rho, piece);
         let out = if rho > 0.0 { point.xy() / rho } else { Vector3::x().xy() };
         let normal = Vector3::new(-at.sine * out.x, -at.sine * out.y, at.cosine);
         there = (point, normal);

@@ -13,8 +13,9 @@
 //!
 //! All quantities are in the frame of the plate, lengths in metres. `columns.rs` has the sponge's face in columns: forces, and the greatest
 //! compression; `plate_load.rs` the same over a stretch of time, `level.rs` on a flat face; `moment.rs` the contact time and dose of single
-//! points of the plate's face.
+//! points of the plate's face; `bundles.rs` passes over moments far from a point.
 
+mod bundles;
 mod columns;
 mod level;
 mod moment;
@@ -23,6 +24,7 @@ mod plate_load;
 #[cfg(test)]
 mod tests;
 
+pub use crate::contact::bundles::Bundles;
 pub use crate::contact::columns::{Column, Columns, Load};
 pub use crate::contact::level::{Level, LevelPress};
 pub use crate::contact::moment::{ContactSampler, ContactThresholds, Drift, Dwell, Moment, at_least_0, both};

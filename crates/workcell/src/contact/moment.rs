@@ -2,9 +2,10 @@
 //!
 //! The amounts that one point of a plate gets from a wash are measured here, not bounded.
 
+use crate::contact::bundles::Bundles;
 use crate::contact::{Foundation, SpongePose};
 use nalgebra::Vector3;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 
 /// Moment of a wash, in the frame of the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,12 +122,8 @@ pub struct ContactSampler<'a> {
     thresholds: &'a ContactThresholds,
     /// One for each moment.
     prepared: Vec<Prepared>,
-    /// Bundles of the sizes [`BUNDLES`]; the parts of a bundle follow it.
-    bundles: Vec<Bundle>,
+    bundles: Bundles,
 }
-
-/// Sizes of the bundles of moments, each a part of the one before.
-const BUNDLES: [usize; 3] = [64, 16, 4];
 
 /// Amounts of a moment that are the same for all points.
 #[derive(Debug, Clone, Copy)]
@@ -136,69 +133,6 @@ struct Prepared {
     moved_m: [f64; 2],
     /// Sliding speed, if the sponge does not turn \[m/s\].
     slide_m_s: Option<f64>,
-}
-
-/// Bound on the poses of some consecutive moments and of their neighbours on either side.
-#[derive(Debug, Clone)]
-struct Bundle {
-    /// Pose near all of them.
-    pose: SpongePose,
-    /// Greatest distance of a tip from that one \[m\].
-    tip_m: f64,
-    /// Greatest distance of an axis from that one; both are unit vectors.
-    axis: f64,
-    /// Moments of a bundle without parts; empty for others.
-    moments: Range<usize>,
-    /// Number of its parts, and of theirs.
-    parts: usize,
-}
-
-/// Enlargement of the bound of a bundle, far above rounding errors \[m\].
-const ROUNDING_M: f64 = 1e-9;
-
-impl Bundle {
-    /// Adds the bundles of a range of moments, and their parts.
-    fn add(all: &mut Vec<Self>, moments: &[Moment], within: Range<usize>, sizes: &[usize]) {
-        let Some((&size, parts)) = sizes.split_first() else {
-            return;
-        };
-        for start in within.clone().step_by(size) {
-            let own = start..(start + size).min(within.end);
-            let place = all.len();
-            all.push(Self::around(moments, &own));
-            Self::add(all, moments, own.clone(), parts);
-            all[place].parts = all.len() - place - 1;
-            if parts.is_empty() {
-                all[place].moments = own;
-            }
-        }
-    }
-
-    /// Bound on some moments, without parts.
-    fn around(moments: &[Moment], own: &Range<usize>) -> Self {
-        let poses = &moments[own.start.saturating_sub(1)..(own.end + 1).min(moments.len())];
-        let pose = poses[poses.len() / 2].pose;
-        let farthest = |of: fn(&SpongePose) -> Vector3<f64>| {
-            let off = poses.iter().map(|moment| (of(&moment.pose) - of(&pose)).norm());
-            off.fold(0.0, f64::max)
-        };
-        Self {
-            pose,
-            tip_m: farthest(|pose| pose.tip) + ROUNDING_M,
-            axis: farthest(|pose| pose.axis),
-            moments: 0..0,
-            parts: 0,
-        }
-    }
-
-    /// Checks that a point is farther than a radius from the axes of all moments: ‖(x − tip) × a‖ changes by no more than the tip moves,
-    /// and by ‖x − tip‖ times as much as the axis moves.
-    fn is_beyond(&self, radius_m: f64, point: &Vector3<f64>) -> bool {
-        let away = point - self.pose.tip;
-        let (along, squared) = (away.dot(&self.pose.axis), away.norm_squared());
-        let reach_m = radius_m + self.tip_m + (squared.sqrt() + self.tip_m) * self.axis;
-        squared - along * along > reach_m * reach_m
-    }
 }
 
 /// State of a point at a moment.
@@ -223,14 +157,12 @@ impl<'a> ContactSampler<'a> {
                 slide_m_s: (turning == Vector3::zeros()).then(|| moment.slide_m_s(&pose.tip)),
             }
         };
-        let mut bundles = Vec::new();
-        Bundle::add(&mut bundles, moments, 0..moments.len(), &BUNDLES);
         Self {
             foundation,
             moments,
             thresholds,
             prepared: moments.iter().map(prepared).collect(),
-            bundles,
+            bundles: Bundles::of(moments),
         }
     }
 
@@ -289,15 +221,10 @@ impl<'a> ContactSampler<'a> {
     /// is visited, too; up to the first at which it is told to stop.
     fn pass(&self, point: &Vector3<f64>, mut at: impl FnMut(Option<&Instant>, &Instant) -> ControlFlow<()>) {
         let radius_m = self.foundation.radius_m;
-        let (mut before, mut next): (Option<Instant>, usize) = (None, 0);
-        while let Some(bundle) = self.bundles.get(next) {
-            next += 1;
-            if bundle.is_beyond(radius_m, point) {
-                next += bundle.parts;
-                continue;
-            }
-            let prepared = &self.prepared[bundle.moments.clone()];
-            for (index, moment) in bundle.moments.clone().zip(prepared) {
+        let mut before: Option<Instant> = None;
+        for moments in self.bundles.near(radius_m, point) {
+            let prepared = &self.prepared[moments.clone()];
+            for (index, moment) in moments.zip(prepared) {
                 let here = self.instant(index, moment, point);
                 let next_to = before.as_ref().filter(|before| before.index + 1 == index);
                 if at(next_to, &here).is_break() {

@@ -326,7 +326,8 @@ impl<'a> Bends<'a> {
         if self.levels.is_empty() {
             return Patch::FLAT.curvature;
         }
-        let [first, last] = [near_m, far_m].map(|rho_m| (rho_m * self.per_m) as usize);
+        // An `i32` takes fewer instructions than a `usize`.
+        let [first, last] = [near_m, far_m].map(|rho_m| ((rho_m * self.per_m) as i32).max(0) as usize);
         let known = last.checked_sub(first).and_then(|more| {
             // Two runs of rings that overlap hold all of them.
             let level = (more + 1).ilog2() as usize;

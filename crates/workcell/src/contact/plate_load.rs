@@ -117,11 +117,11 @@ impl Columns {
         let across = axis.cross(side);
         let compression_m = self.foundation().compression_m;
         let mut standing = SpongeState {
-            met: Vec::with_capacity(self.sizes().size_hint().0),
+            met: Vec::with_capacity(self.sizes().len()),
             deepest_at_m: [0.0; 3],
             along_m: 0.0,
         };
-        let mut deepest_m = f64::NEG_INFINITY;
+        let (mut deepest_m, mut piece) = (f64::NEG_INFINITY, 0);
         // The planes through the places that were met: where the line begins, how far along, the normal and 1/(a·n).
         let mut planes: Vec<(Vector3<f64>, f64, Vector3<f64>, f64)> = Vec::with_capacity(standing.met.capacity());
         for ([x, y], inner) in self.middles_m().zip(self.inner()) {
@@ -131,13 +131,13 @@ impl Columns {
             let guess_m = planes.get(inner).map_or(0.0, |(from, along_m, normal, over)| {
                 along_m + (from - low).dot(normal) * over
             });
-            let meets = meet_from(surface, &low, axis, guess_m, bends.settled_m());
+            let meets = meet_from(surface, &low, axis, (guess_m, &mut piece), bends.settled_m());
             let (along_m, normal) = (meets.0, meets.2);
             let over = 1.0 / normal.dot(axis);
             planes.push((low, along_m, normal, over));
             let high = middle - Vector3::z() * error_m;
             let guess_m = along_m + 2.0 * error_m * normal.z * over;
-            let higher = meet_from(surface, &high, axis, guess_m, bends.settled_m());
+            let higher = meet_from(surface, &high, axis, (guess_m, &mut piece), bends.settled_m());
             let met = [&meets, &higher].map(|(along_m, point, normal)| {
                 standing.along_m = standing.along_m.max(along_m.abs());
                 SurfaceHit::new(compression_m - along_m, point, normal, axis)
@@ -156,7 +156,7 @@ impl Columns {
     pub fn bound_load(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Press {
         let mut press = Press::NONE;
         for (both, size) in self.over(bends, ends, drift).zip(self.sizes()) {
-            press.add(&both, &size, bends.rim_m());
+            press.add(&both, size, bends.rim_m());
         }
         press
     }
@@ -172,7 +172,7 @@ impl Columns {
             deepest_at_m: at.deepest_at_m,
         };
         for (both, size) in self.over(bends, [at; 2], &Drift::NONE).zip(self.sizes()) {
-            press.add(&both, &size, rim_m);
+            press.add(&both, size, rim_m);
             if both.near_m <= rim_m {
                 seen.volume_m3[0] += both.low.most_mean_m() * size.area_m2;
             }
@@ -215,8 +215,9 @@ impl Columns {
         let spread = Spread::new(self.foundation(), self.reach_m(), from.along_m.max(to.along_m), drift);
         let ends = from.met.iter().zip(&to.met).zip(self.sizes());
         ends.map(move |((from, to), size)| {
-            let [low, high] = [0, 1]
-                .map(|k| PartBounds::over([&from[k], &to[k]], &size, &spread, |between_m| bends.between(between_m)));
+            let bound =
+                |k: usize| PartBounds::over([&from[k], &to[k]], size, &spread, |between_m| bends.between(between_m));
+            let (low, high) = (bound(0), bound(1));
             // With the plate between its lowest and its highest a part's place is between those of both, on a straight line seen from
             // above, and no farther from one of them than half of what they are apart.
             let apart_m = apart(from).max(apart(to)) + 0.5 * (low.slid_m + high.slid_m);

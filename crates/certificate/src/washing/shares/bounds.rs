@@ -4,7 +4,7 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use crate::washing::shares::doses::{Polynomial, Sums};
 use crate::washing::shares::edges::{Edges, Gain, Touch};
-use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
+use platewash_workcell::contact::{Bundles, ContactThresholds, Foundation, Moment};
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 
@@ -26,6 +26,7 @@ pub(crate) struct CellAmounts {
 /// Reused buffers: the state of a cell at the moments, and the windows of those moments.
 #[derive(Default)]
 pub(crate) struct Scratch {
+    /// The states come first; what is behind them is left over from other cells.
     all: Vec<CellState>,
     spans: Vec<Range<usize>>,
 }
@@ -46,6 +47,8 @@ pub(crate) struct CellBounds {
     /// Lower bounds that hold for every height of the plate within its error: contact (above 0 where in contact), time \[s\], dose
     /// \[Pa·m\].
     pub bounds: [Lower; 3],
+    /// Upper bounds on the shares of the cell that do not get the wanted contact, time and dose.
+    pub below: [f64; 3],
     /// Greatest compression of the whole cell \[m\].
     pub compression_m: f64,
 }
@@ -57,6 +60,7 @@ pub(crate) struct Passes<'a> {
     pub sums: Sums,
     /// Distance beyond the sponge at which a moment still counts as near a cell \[m\]: the longest step between two moments.
     pub step_m: f64,
+    bundles: Bundles,
 }
 
 impl<'a> Passes<'a> {
@@ -73,31 +77,18 @@ impl<'a> Passes<'a> {
             edges: Edges::new(foundation, (moments, sags), thresholds),
             sums: Sums::new(foundation, (moments, sags), far_m),
             step_m: longest_step(moments, foundation.radius_m),
+            bundles: Bundles::of(moments),
         }
     }
 
-    /// Fills `windows` with the runs of moments near a cell.
+    /// Fills `windows` with ranges of moments that hold all moments near a cell.
     pub fn windows_near(&self, cell: &Cell, windows: &mut Vec<[u32; 2]>) {
-        let moments = self.edges.moments;
-        let reach_m = self.reach_m(cell);
-        let mut index = 0;
-        while let Some(moment) = moments.get(index) {
-            let away = cell.point - moment.pose.tip;
-            let along = away.dot(&moment.pose.axis);
-            let off_m = (away.norm_squared() - along * along).max(0.0).sqrt();
-            if off_m > reach_m {
-                // No moment before that one is near enough.
-                index = index
-                    .saturating_add(1)
-                    .saturating_add(((off_m - reach_m) / self.step_m) as usize);
-                continue;
-            }
-            let at = index as u32;
+        for near in self.bundles.near(self.reach_m(cell), &cell.point) {
+            let [first, end] = [near.start, near.end].map(|index| index as u32);
             match windows.last_mut() {
-                Some([_, last]) if *last + 1 == at => *last = at,
-                _ => windows.push([at; 2]),
+                Some([_, last]) if *last + 1 == first => *last = end - 1,
+                _ => windows.push([first, end - 1]),
             }
-            index += 1;
         }
     }
 
@@ -110,24 +101,25 @@ impl<'a> Passes<'a> {
 
 impl Passes<'_> {
     /// Bounds a cell through some windows of moments, on top of the amounts `kept` that are known already. Returns `None` where those
-    /// bounds are enough.
+    /// bounds are enough: where `shares_below`, the shares of the cell that they leave without the wanted amounts, are 0.
     pub(crate) fn bounds(
         &self,
         cell: &Cell,
         (mut kept, within): (CellAmounts, &[[u32; 2]]),
         scratch: &mut Scratch,
-        is_enough: impl Fn(&[Lower; 3]) -> bool,
+        shares_below: impl Fn(&[Lower; 3]) -> [f64; 3],
     ) -> Option<CellBounds> {
         let edges = &self.edges;
         let error_m = edges.thresholds.height_error_m;
-        let Scratch { all, spans } = scratch;
-        all.clear();
+        let Scratch { all: states, spans } = scratch;
         spans.clear();
+        let mut count = 0;
+        for &window in within {
+            count = self.runs(cell, window, (states, count), &mut kept, spans);
+        }
         let mut touch = Touch::default();
-        for &[from, to] in within {
-            let first = all.len();
-            all.extend((from..=to).map(|index| cell.state_at(edges, index)));
-            self.runs(cell, all, first, &mut kept, &mut touch, spans);
+        if !kept.contact {
+            states[..count].iter().for_each(|seen| touch.see(edges, cell, seen));
         }
         let bounds = |[mut time, mut dose]: [Lower; 2]| {
             time.add(&Lower::flat(kept.time_s, 0.0));
@@ -144,71 +136,101 @@ impl Passes<'_> {
             ]
         };
         // A cell that gets enough everywhere is not refined.
-        if is_enough(&bounds(Default::default())) {
+        let all = bounds(Default::default());
+        let below = shares_below(&all);
+        if below == [0.0; 3] {
             return None;
         }
-        // Hardly anything is known of a large cell while it leaves or enters: its quarters are examined instead.
-        let is_large = cell.half > LARGE * edges.foundation.radius_m && !spans.is_empty();
-        let mut gains = [Lower::flat(0.0, if is_large { f64::INFINITY } else { 0.0 }); 2];
-        for span in spans.iter().filter(|_| !is_large) {
-            self.gains(cell, all.get(span.clone()).unwrap_or_default(), &mut gains);
-        }
-        let bounds = bounds(gains);
-        (!is_enough(&bounds)).then_some(CellBounds {
+        let found = |bounds, below| CellBounds {
             amounts: kept,
             bounds,
+            below,
             compression_m: touch.compression_m,
-        })
+        };
+        if spans.is_empty() {
+            return Some(found(all, below));
+        }
+        // Hardly anything is known of a large cell while it leaves or enters: its quarters are examined instead.
+        let is_large = cell.half > LARGE * edges.foundation.radius_m;
+        let mut gains = [Lower::flat(0.0, if is_large { f64::INFINITY } else { 0.0 }); 2];
+        for span in spans.iter().filter(|_| !is_large) {
+            self.gains(cell, states.get(span.clone()).unwrap_or_default(), &mut gains);
+        }
+        let bounds = bounds(gains);
+        let below = shares_below(&bounds);
+        (below != [0.0; 3]).then(|| found(bounds, below))
     }
 
-    /// Separates the runs of moments between which all of a cell is in contact from the windows in which it is not, in consecutive moments
-    /// `seen` from `first` on. A window has one more pair of moments at either side, as the quarters of the cell leave and enter from there
-    /// on.
+    /// Adds the states at the moments of a window at which a cell may be within the sponge to the first `count` of `all`, run by run, and
+    /// returns the new count.
     fn runs(
         &self,
         cell: &Cell,
-        all: &[CellState],
-        first: usize,
+        window: [u32; 2],
+        (all, mut count): (&mut Vec<CellState>, usize),
         kept: &mut CellAmounts,
-        touch: &mut Touch,
         spans: &mut Vec<Range<usize>>,
-    ) {
-        let reach_m = self.reach_m(cell);
-        let mut from = first;
-        while from < all.len() {
-            let length = all[from..].iter().take_while(|seen| seen.off_m <= reach_m).count();
-            let near = from..from + length;
-            from = near.end + 1;
-            let Some(pairs) = length.checked_sub(1) else { continue };
-            if !kept.contact {
-                all[near.clone()]
-                    .iter()
-                    .for_each(|seen| touch.see(&self.edges, cell, seen));
-                kept.contact = touch.all;
-            }
-            let is_full = |pair: usize| self.edges.is_full(&all[near.start + pair], &all[near.start + pair + 1]);
-            let mut window = (pairs == 0).then_some(0);
-            let mut pair = 0;
-            let mut full = pairs > 0 && is_full(0);
-            while pair < pairs {
-                let end = (pair + 1..pairs).find(|&k| is_full(k) != full).unwrap_or(pairs);
-                let (before, after) = (window.is_some(), end < pairs);
-                if !full {
-                    window = window.or(Some(pair));
-                } else if !(before && after && end == pair + 1) {
-                    spans.extend(window.take().map(|start| near.start + start..near.start + pair + 2));
-                    let [run, to] =
-                        [pair + usize::from(before), end - usize::from(after)].map(|k| &all[near.start + k]);
-                    if run.index < to.index {
-                        kept.time_s += self.edges.look(to.index).t_s - self.edges.look(run.index).t_s;
-                        kept.dose += self.sums.between(run.index, to.index);
-                    }
-                    window = after.then(|| end - 1);
-                }
-                (pair, full) = (end, !full);
-            }
-            spans.extend(window.map(|start| near.start + start..near.end));
+    ) -> usize {
+        let (edges, reach_m) = (&self.edges, self.reach_m(cell));
+        let mut looks = edges.looks(window[0] as usize..window[1] as usize + 1);
+        if all.len() < count + looks.len() {
+            all.resize(count + looks.len(), CellState::default());
         }
+        while !looks.is_empty() {
+            let (mut length, mut beyond_m, mut contact, mut begins) = (0, 0.0, false, false);
+            for (look, state) in looks.iter().zip(&mut all[count..]) {
+                let off_m = cell.see(edges, look, reach_m, state);
+                let is_near = off_m <= reach_m;
+                if !is_near {
+                    beyond_m = off_m - reach_m;
+                    break;
+                }
+                // No sag is below 0.
+                let wholly = state.inside_m >= 0.0 && state.pressed_m >= 0.0;
+                state.full = wholly && begins && state.is_in(&look.sags[0]);
+                begins = wholly && state.is_in(&look.sags[1]);
+                contact |= wholly;
+                length += 1;
+            }
+            if length > 0 {
+                kept.contact |= contact;
+                self.split(&all[count..count + length], count, kept, spans);
+                count += length;
+            }
+            // No moment before that one is near enough.
+            let far = 1_usize.saturating_add((beyond_m / self.step_m) as usize);
+            looks = looks.get(length.saturating_add(far)..).unwrap_or_default();
+        }
+        count
+    }
+
+    /// Separates the runs of moments between which all of a cell is in contact from the windows in which it is not, in consecutive moments,
+    /// of which the first is the one at `start`. A window has one more pair of moments at either side, as the quarters of the cell leave and
+    /// enter from there on.
+    fn split(&self, near: &[CellState], start: usize, kept: &mut CellAmounts, spans: &mut Vec<Range<usize>>) {
+        let pairs = near.len() - 1;
+        let is_full = |pair: usize| near[pair + 1].full;
+        let mut window = (pairs == 0).then_some(0);
+        let mut pair = 0;
+        let mut full = pairs > 0 && is_full(0);
+        while pair < pairs {
+            let alike = near[pair + 2..].iter().position(|seen| seen.full != full);
+            let end = alike.map_or(pairs, |more| pair + 1 + more);
+            let (before, after) = (window.is_some(), end < pairs);
+            if !full {
+                window = window.or(Some(pair));
+            } else if !(before && after && end == pair + 1) {
+                spans.extend(window.take().map(|first| start + first..start + pair + 2));
+                let [run, to] = [pair + usize::from(before), end - usize::from(after)].map(|k| near[k].index);
+                if run < to {
+                    kept.time_s += self.edges.look(to).t_s - self.edges.look(run).t_s;
+                    kept.dose += self.sums.between(run, to);
+                }
+                window = after.then(|| end - 1);
+            }
+            (pair, full) = (end, !full);
+        }
+        spans.extend(window.map(|first| start + first..start + near.len()));
     }
 
     /// Adds the gains of a cell in a window: those where its places leave or enter, and those that all places get.
@@ -224,10 +246,13 @@ impl Passes<'_> {
         if left.or(entered).is_none() && cell.half > SMALL * self.edges.foundation.radius_m {
             return add(&self.edges.greatest_likely_gain(cell, window));
         }
+        let time = |seen: &CellState| self.edges.look(seen.index).t_s;
         for ends in window.windows(2) {
-            let [from, to] = [&ends[0], &ends[1]].map(|seen| self.edges.look(seen.index).t_s);
-            if from >= from_s && to <= to_s {
-                add(&self.edges.flat(cell, [&ends[0], &ends[1]]));
+            if left.is_some() && time(&ends[0]) < from_s || entered.is_some() && time(&ends[1]) > to_s {
+                continue;
+            }
+            if let Some(gain) = self.edges.flat(cell, [&ends[0], &ends[1]]) {
+                add(&gain);
             }
         }
     }

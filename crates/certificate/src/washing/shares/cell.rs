@@ -6,7 +6,8 @@
 //!
 //! The file also has functions that are affine over a square cell, and the share of the cell where one is below 0.
 
-use crate::washing::shares::edges::Edges;
+use crate::washing::shares::Sags;
+use crate::washing::shares::edges::{Edges, Look};
 use nalgebra::{Vector2, Vector3};
 use platewash_workcell::coverage::area_of_rectangle_in_disc;
 use platewash_workcell::surface::Surface;
@@ -31,26 +32,30 @@ pub(crate) struct Cell {
 }
 
 /// State of a cell under the sponge at a moment.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct CellState {
     pub index: u32,
+    /// True if all of the cell is in contact from the moment before to this one.
+    pub full: bool,
     /// Compression over the middle \[m\].
     pub compression_m: f64,
-    /// Greatest loss of compression over the patch, for every plate height within its error \[m\].
-    pub shallower_m: f64,
     /// Greatest loss of compression over the patch, with the plate at its stated height \[m\].
     pub sloping_m: f64,
     /// Vector from the sponge's axis to the middle, across the axis \[m\].
     pub way: Vector3<f64>,
     /// Length of `way` \[m\].
     pub off_m: f64,
-    /// Greatest amount by which a point of the patch is farther from the axis than the middle, for every plate height within its error
-    /// \[m\].
-    pub farther_m: f64,
     /// Depth of the whole cell within the sponge's rim \[m\]; negative where a part is outside.
     pub inside_m: f64,
     /// Compression of the whole cell above the wanted one \[m\]; negative where a part has less.
     pub pressed_m: f64,
+}
+
+impl CellState {
+    /// True if all of the cell is in contact by more than what is lost to the sags.
+    pub fn is_in(&self, sags: &Sags) -> bool {
+        (self.inside_m >= sags.aside_m) & (self.pressed_m >= sags.compression_m)
+    }
 }
 
 impl Cell {
@@ -95,15 +100,19 @@ impl Cell {
         ]
     }
 
-    /// Returns the state at a moment, by its index.
-    pub fn state_at(&self, edges: &Edges<'_>, index: u32) -> CellState {
-        let (foundation, wanted) = (edges.foundation, edges.thresholds);
-        let look = edges.look(index);
+    /// Writes the state at a moment, and tells the distance of the sponge's axis from the middle \[m\]. Beyond `reach_m` of it, nothing else
+    /// is computed.
+    #[inline]
+    pub fn see(&self, edges: &Edges<'_>, look: &Look, reach_m: f64, state: &mut CellState) -> f64 {
         let axis = &look.axis;
         let away = self.point - look.tip;
         let along = away.dot(axis);
         let way = away - axis * along;
-        let off_m = way.norm();
+        let off_m = way.norm_squared().sqrt();
+        let is_near = off_m <= reach_m;
+        if !is_near {
+            return off_m;
+        }
         let across = if self.is_level {
             look.tilt
         } else {
@@ -111,20 +120,21 @@ impl Cell {
             (gx * gx + gy * gy).sqrt()
         };
         let sloping_m = across * self.reach_m + look.upright * self.bend_m;
-        let shallower_m = sloping_m + look.upright * wanted.height_error_m;
-        let farther_m = self.max_distance_m() + wanted.height_error_m * look.tilt;
-        let compression_m = foundation.compression_m - along;
-        CellState {
-            index,
-            compression_m,
-            shallower_m,
-            sloping_m,
-            way,
-            off_m,
-            farther_m,
-            inside_m: foundation.radius_m - off_m - farther_m,
-            pressed_m: compression_m - shallower_m - wanted.compression_m,
-        }
+        let compression_m = edges.foundation.compression_m - along;
+        state.index = look.index;
+        state.compression_m = compression_m;
+        state.sloping_m = sloping_m;
+        state.way = way;
+        state.off_m = off_m;
+        state.inside_m = edges.foundation.radius_m - off_m - self.farther_m(look);
+        state.pressed_m = compression_m - look.shallower_m(sloping_m) - edges.thresholds.compression_m;
+        off_m
+    }
+
+    /// Greatest amount by which a point of the patch is farther from the sponge's axis than the middle, for every plate height within its
+    /// error \[m\].
+    pub fn farther_m(&self, look: &Look) -> f64 {
+        self.max_distance_m() + look.aside_m
     }
 
     /// Returns upper bounds on the area of the patch within the rim, for parts that are the given shares of it seen along the axis \[m²\].

@@ -137,11 +137,12 @@ impl Edges<'_> {
         direction: &Vector3<f64>,
         at_s: f64,
     ) -> Factors {
-        let turning = self.look(state.index).turning;
+        let look = self.look(state.index);
+        let turning = look.turning;
         let away = turning * (cell.max_distance_m() + self.thresholds.height_error_m);
         Factors {
             at_s,
-            compression_m: state.compression_m - state.shallower_m,
+            compression_m: state.compression_m - look.shallower_m(state.sloping_m),
             speed_m_s: slide.dot(direction) - away,
             spread: [2.0 * state.sloping_m, 2.0 * turning * cell.max_distance_m()],
         }
@@ -192,21 +193,24 @@ impl Edges<'_> {
         }
     }
 
-    /// Returns the time and dose that all of a cell gets between two moments, with the likely slack.
-    pub(crate) fn flat(&self, cell: &Cell, ends: [&CellState; 2]) -> Gain {
+    /// Returns the time and dose that all of a cell gets between two moments, with the likely slack; `None` if there is neither.
+    #[inline]
+    pub(crate) fn flat(&self, cell: &Cell, ends: [&CellState; 2]) -> Option<Gain> {
         let sags = self.sags(ends[0], ends[1]);
-        let least = common(
-            ends.map(|end| end.pressed_m - sags.compression_m),
-            ends.map(|end| end.inside_m - sags.aside_m),
-        );
         // Smaller cells help against what differs over this one alone.
         let likely = common(
             ends.map(|end| end.pressed_m - sags.compression_m + 2.0 * end.sloping_m),
             ends.map(|end| end.inside_m - sags.aside_m + 2.0 * cell.max_distance_m()),
         );
-        if likely.is_none() {
-            return Gain::default();
-        }
+        likely.map(|likely| self.flat_within(cell, ends, sags, likely))
+    }
+
+    /// Returns the gain of [`Self::flat`] in the part of the interval in which places of the cell are likely to be in contact.
+    fn flat_within(&self, cell: &Cell, ends: [&CellState; 2], sags: &Sags, [from, to]: [f64; 2]) -> Gain {
+        let least = common(
+            ends.map(|end| end.pressed_m - sags.compression_m),
+            ends.map(|end| end.inside_m - sags.aside_m),
+        );
         let slides = ends.map(|end| self.slide(cell, end));
         let direction = (slides[0] + slides[1])
             .try_normalize(0.0)
@@ -224,12 +228,9 @@ impl Edges<'_> {
             time_s = to.at_s - from.at_s;
             dose = pressure * time_s * mean_product(&from, &to);
         }
-        let (mut hope_s, mut hope) = (0.0, 0.0);
-        if let Some([from, to]) = likely {
-            hope_s = (to - from) * whole_s;
-            let most = |of: fn(&Factors) -> f64| of(&factors[0]).max(of(&factors[1]));
-            hope = pressure * hope_s * most(|f| f.compression_m + f.spread[0]) * most(|f| f.speed_m_s + f.spread[1]);
-        }
+        let hope_s = (to - from) * whole_s;
+        let most = |of: fn(&Factors) -> f64| of(&factors[0]).max(of(&factors[1]));
+        let hope = pressure * hope_s * most(|f| f.compression_m + f.spread[0]) * most(|f| f.speed_m_s + f.spread[1]);
         Gain {
             time: Lower::flat(time_s, hope_s - time_s),
             dose: Lower::flat(dose, hope - dose),

@@ -19,6 +19,7 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use nalgebra::Vector3;
 use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
+use std::ops::Range;
 
 /// Error of the formulas above due to rounding \[m\].
 const ROUNDING_M: f64 = 1e-12;
@@ -27,13 +28,13 @@ const ROUNDING_M: f64 = 1e-12;
 pub(crate) struct Edges<'a> {
     pub foundation: &'a Foundation,
     pub moments: &'a [Moment],
-    pub sags: &'a [Sags],
     pub thresholds: &'a ContactThresholds,
     looks: Vec<Look>,
 }
 
 /// Sponge at a moment, as all cells see it.
 pub(crate) struct Look {
+    pub index: u32,
     pub t_s: f64,
     pub tip: Vector3<f64>,
     pub axis: Vector3<f64>,
@@ -42,6 +43,18 @@ pub(crate) struct Look {
     pub upright: f64,
     /// Angular speed \[rad/s\].
     pub turning: f64,
+    /// How far the height error moves a point off the axis, and how much compression it takes \[m\].
+    pub aside_m: f64,
+    lower_m: f64,
+    /// Sags from the moment before, and up to the next one; infinite where nothing is known.
+    pub sags: [Sags; 2],
+}
+
+impl Look {
+    /// Greatest loss of compression over a patch, for every plate height within its error, from that at its stated height \[m\].
+    pub fn shallower_m(&self, sloping_m: f64) -> f64 {
+        sloping_m + self.lower_m
+    }
 }
 
 /// Lower bounds of time and dose that a cell gets in a part of a window.
@@ -108,28 +121,42 @@ impl<'a> Edges<'a> {
         (moments, sags): (&'a [Moment], &'a [Sags]),
         thresholds: &'a ContactThresholds,
     ) -> Self {
-        let look = |moment: &Moment| {
+        let unknown = Sags {
+            compression_m: f64::INFINITY,
+            aside_m: f64::INFINITY,
+            slide_m: f64::INFINITY,
+        };
+        let look = |(index, moment): (usize, &Moment)| {
             let axis = moment.pose.axis;
+            let (tilt, upright) = (length(axis.x, axis.y), axis.z.abs());
             Look {
+                index: index as u32,
                 t_s: moment.t_s,
                 tip: moment.pose.tip,
                 axis,
-                tilt: (axis.x * axis.x + axis.y * axis.y).sqrt(),
-                upright: axis.z.abs(),
+                tilt,
+                upright,
                 turning: moment.turning.norm(),
+                aside_m: thresholds.height_error_m * tilt,
+                lower_m: upright * thresholds.height_error_m,
+                sags: [index.wrapping_sub(1), index].map(|k| sags.get(k).copied().unwrap_or(unknown)),
             }
         };
         Self {
             foundation,
             moments,
-            sags,
             thresholds,
-            looks: moments.iter().map(look).collect(),
+            looks: moments.iter().enumerate().map(look).collect(),
         }
     }
 
     pub fn look(&self, index: u32) -> &Look {
         &self.looks[index as usize]
+    }
+
+    /// Returns the sponge at some moments.
+    pub fn looks(&self, moments: Range<usize>) -> &[Look] {
+        self.looks.get(moments).unwrap_or_default()
     }
 }
 
@@ -139,29 +166,15 @@ impl Edges<'_> {
     }
 
     /// Returns the sags between two neighbouring moments, in any order; infinite where nothing is known.
-    pub fn sags(&self, a: &CellState, b: &CellState) -> Sags {
-        let unknown = Sags {
-            compression_m: f64::INFINITY,
-            aside_m: f64::INFINITY,
-            slide_m: f64::INFINITY,
-        };
-        let first = a.index.min(b.index) as usize;
-        self.sags.get(first).copied().unwrap_or(unknown)
-    }
-
-    /// Checks that all of a cell is in contact from one moment to the next.
-    pub fn is_full(&self, from: &CellState, to: &CellState) -> bool {
-        let sags = self.sags(from, to);
-        [from, to]
-            .iter()
-            .all(|end| end.inside_m >= sags.aside_m && end.pressed_m >= sags.compression_m)
+    pub fn sags(&self, a: &CellState, b: &CellState) -> &Sags {
+        &self.look(a.index.min(b.index)).sags[1]
     }
 
     /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
     /// moments, and one for entering, if it is at the last two.
     pub fn gain(&self, cell: &Cell, state: &[CellState]) -> [Option<Gain>; 2] {
-        let leaves = state.len() > 2 && self.is_full(&state[0], &state[1]);
-        let enters = state.len() > 2 && self.is_full(&state[state.len() - 2], &state[state.len() - 1]);
+        let leaves = state.len() > 2 && state[1].full;
+        let enters = state.len() > 2 && state[state.len() - 1].full;
         let one = |reversed| {
             let first = if reversed { state.last() } else { state.first() };
             let window = Window {
@@ -217,13 +230,13 @@ impl Edges<'_> {
         let radius_m = self.foundation.radius_m;
         for k in 1.. {
             let (before, after) = (window.at(k - 1)?, window.at(k)?);
-            let times = [before, after].map(|seen| self.elapsed_s(window, seen));
-            let span_s = times[1] - times[0];
             let aside = after.off_m > radius_m;
             let released = after.compression_m < self.thresholds.compression_m;
             if !aside && !released {
                 continue;
             }
+            let times = [before, after].map(|seen| self.elapsed_s(window, seen));
+            let span_s = times[1] - times[0];
             let axis = self.look(after.index).axis;
             let share = if aside {
                 crossing(&before.way, &after.way, radius_m)
@@ -350,20 +363,20 @@ impl Edges<'_> {
         axis: &Vector3<f64>,
         off: impl Fn(&CellState) -> f64,
     ) -> (f64, f64, Sags) {
-        let (mut off_m, mut turned, mut most) = (0.0_f64, 0.0_f64, Sags::default());
+        let greater = |most: f64, found: f64| if found > most { found } else { most };
+        let (mut off_m, mut turned_squared, mut most) = (0.0, 0.0, Sags::default());
         let mut before: Option<&CellState> = None;
         for seen in window.states_until(last) {
-            off_m = off_m.max(off(seen));
-            turned = turned.max((self.look(seen.index).axis - axis).norm());
+            off_m = greater(off_m, off(seen));
+            turned_squared = greater(turned_squared, (self.look(seen.index).axis - axis).norm_squared());
             if let Some(before) = before {
                 let sags = self.sags(before, seen);
-                most.compression_m = most.compression_m.max(sags.compression_m);
-                most.aside_m = most.aside_m.max(sags.aside_m);
-                most.slide_m = most.slide_m.max(sags.slide_m);
+                most.compression_m = greater(most.compression_m, sags.compression_m);
+                most.aside_m = greater(most.aside_m, sags.aside_m);
             }
             before = Some(seen);
         }
-        (off_m, turned, most)
+        (off_m, turned_squared.sqrt(), most)
     }
 }
 
@@ -386,11 +399,9 @@ fn crossing(from: &Vector3<f64>, to: &Vector3<f64>, radius_m: f64) -> f64 {
     share.clamp(0.0, 1.0)
 }
 
-/// State of a cell at the moments that suit its contact best.
+/// State of a cell that is nowhere wholly in contact, at the moments that suit its contact best.
 #[derive(Default)]
 pub(crate) struct Touch {
-    /// True if all of the cell is in contact at some moment.
-    pub all: bool,
     /// True if a part of the cell may be in contact at some moment.
     some: bool,
     /// Lower bound over the cell that is not below 0 where a place is in contact.
@@ -420,14 +431,15 @@ impl Touch {
     /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
     pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, state: &CellState) {
         let (inside_m, pressed_m) = (state.inside_m, state.pressed_m);
+        let look = edges.look(state.index);
+        let shallower_m = look.shallower_m(state.sloping_m);
         if inside_m >= 0.0 {
-            self.compression_m = self.compression_m.max(state.compression_m - state.shallower_m);
-            self.all |= pressed_m >= 0.0;
+            self.compression_m = self.compression_m.max(state.compression_m - shallower_m);
         }
         self.some |= inside_m >= -2.0 * cell.max_distance_m() && pressed_m >= -2.0 * state.sloping_m;
-        let (tangent_m, axis) = (cell.tangent_m, &edges.look(state.index).axis);
+        let (tangent_m, axis) = (cell.tangent_m, &look.axis);
         let bound = if pressed_m >= 0.0 {
-            let free_m = (edges.foundation.radius_m - (state.farther_m - tangent_m)).max(0.0);
+            let free_m = (edges.foundation.radius_m - (cell.farther_m(look) - tangent_m)).max(0.0);
             Lower {
                 value: free_m * free_m - state.off_m * state.off_m - tangent_m * tangent_m,
                 slope: cell.along(&state.way).map(|v| -2.0 * v),
@@ -437,7 +449,7 @@ impl Touch {
         } else if inside_m >= 0.0 {
             let slope = cell.along(axis).map(|v| -v);
             let sloping_m = (slope[0] * slope[0] + slope[1] * slope[1]).sqrt() * cell.reach_m;
-            let lost_m = state.shallower_m - sloping_m;
+            let lost_m = shallower_m - sloping_m;
             Lower {
                 value: state.compression_m - lost_m - edges.thresholds.compression_m,
                 slope,

@@ -230,10 +230,8 @@ impl Passes<'_> {
         known: (CellAmounts, &[[u32; 2]]),
         (windows, scratch): (&mut Vec<[u32; 2]>, &mut Scratch),
     ) -> Option<Node> {
-        let enough = |bounds: &[Lower; 3]| self.below(bounds, cell.half) == [0.0; 3];
-        let found = self.bounds(cell, known, scratch, enough)?;
-        let bounds = found.bounds;
-        let below = self.below(&bounds, cell.half);
+        let found = self.bounds(cell, known, scratch, |bounds| self.below(bounds, cell.half))?;
+        let (bounds, below) = (found.bounds, found.below);
         let surely_below = self.below(&bounds.map(|bound| bound.likely()), cell.half);
         let first = windows.len();
         windows.extend(scratch.windows());
