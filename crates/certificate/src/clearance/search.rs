@@ -165,7 +165,7 @@ struct Stay<'a> {
 
 /// Pairs of parts that are still to be examined.
 struct Queue {
-    /// Those that may be too near, the nearest first.
+    /// Pairs that may be too near, the nearest first.
     open: BinaryHeap<QueuedPair>,
     /// Least bound of those that are far enough, which need no order.
     far: f64,

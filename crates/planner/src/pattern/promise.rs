@@ -37,7 +37,7 @@ const SPREAD: u32 = 97;
 /// The angle between neighbours of a sunflower's seeds, in turns.
 const GOLDEN: f64 = 0.381_966_011_250_105;
 
-/// Of so many moments of a bent face one is loaded, where there is a margin.
+/// Stride of the moments at which the load on a bent face is computed, where there is a margin.
 const LOADED: usize = 3;
 
 /// Every force is within \[N\].

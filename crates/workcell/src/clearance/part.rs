@@ -45,7 +45,7 @@ pub(crate) struct Part {
     /// Radius of the sphere about the origin that holds the part \[m\].
     bounding: f64,
     frame: Frame,
-    /// Where the part and its core stand, base frame, if no joint moves it.
+    /// Poses of the part and its core, base frame, if no joint moves it.
     standing: Option<(RigidTransform, Pose)>,
 }
 

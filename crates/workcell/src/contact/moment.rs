@@ -129,7 +129,7 @@ pub struct ContactSampler<'a> {
 #[derive(Debug, Clone, Copy)]
 struct Prepared {
     pose: SpongePose,
-    /// How far the height error moves a point off the axis, and how far it lowers the point along it \[m\].
+    /// Shifts of a point by the height error, off the axis and down along it \[m\].
     moved_m: [f64; 2],
     /// Sliding speed, if the sponge does not turn \[m/s\].
     slide_m_s: Option<f64>,

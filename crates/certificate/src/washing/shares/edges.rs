@@ -43,7 +43,7 @@ pub(crate) struct Look {
     pub upright: f64,
     /// Angular speed \[rad/s\].
     pub turning: f64,
-    /// How far the height error moves a point off the axis, and how much compression it takes \[m\].
+    /// Shift of a point off the axis by the height error, and the compression that it takes \[m\].
     pub aside_m: f64,
     lower_m: f64,
     /// Sags from the moment before, and up to the next one; infinite where nothing is known.
