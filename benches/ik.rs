@@ -9,7 +9,7 @@ use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
 use platewash::kinematics::batch;
 use platewash::{Axes, IkSettings, IkSolver, RobotModel, ToolFrame};
 use platewash_problems::ours;
-use platewash_problems::problems::{AWAY_M, COUNT, Problems, Seeds, THROUGH_M, configurations};
+use platewash_problems::problems::{AWAY_M, COUNT, Problems, THROUGH_M, configurations};
 use platewash_problems::score::Score;
 use platewash_problems::solver::Solvers;
 use rand::SeedableRng;
@@ -120,9 +120,7 @@ fn one_by_one(
 /// Times are for [`BATCH`] targets, each from a start at most 0.01 rad off, joint by joint.
 fn in_batches(criterion: &mut Criterion, robot: &RobotModel) -> Result<(), Box<dyn Error>> {
     let problems = Problems::near(robot, BATCH)?;
-    let Seeds::Given(starts) = &problems.seeds else {
-        return Err("near problems have a start each".into());
-    };
+    let starts = problems.starts()?;
     let solver = IkSolver::new(robot, robot.tool_frame(ToolFrame::Tool0)?, IkSettings::default())?;
     let mut answers = batch::solve(&solver, &problems.targets, starts, batch::Backend::Detected)?;
     let found = answers.iter().map(|answer| answer.as_ref().ok().map(|answer| answer.q));

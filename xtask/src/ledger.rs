@@ -27,7 +27,7 @@ const SOLVES: [(&str, &str); 6] = [
 ];
 
 /// Solves between the two runs whose difference is taken.
-const SOLVED: u64 = 50;
+const SOLVED: u64 = 500;
 
 /// Counts all instructions and writes the table.
 pub fn run() -> Result<()> {
@@ -52,36 +52,28 @@ fn counts() -> Result<Vec<(String, u64)>> {
     let folder = target().join("ledger");
     let (platewash, one_solve) = (target().join("release/platewash"), target().join("release/one_solve"));
     let mut rows = Vec::new();
-    let mut count = |name: String, program: &Path, words: &[&str]| {
-        let found = instructions(program, words)?;
-        println!("    {name}: {}", in_words(found));
-        rows.push((name, found));
-        Ok::<_, anyhow::Error>(())
+    let mut add = |name: String, count: u64| {
+        println!("    {name}: {}", in_words(count));
+        rows.push((name, count));
     };
     for (k, scenario) in SCENARIOS.into_iter().enumerate() {
         let out = folder.join(scenario).display().to_string();
         let (plan, common) = (format!("{out}/plan.json"), ["--threads", "1", "--quiet", "--out", &out]);
         let planning = [&["plan", "--scenario", scenario, "--seed", "1"], &common[..]].concat();
-        count(format!("`plan`, {scenario}"), &platewash, &planning)?;
-        count(
-            format!("`verify`, {scenario}"),
-            &platewash,
-            &["verify", &plan, "--threads", "1", "--quiet"],
-        )?;
+        add(format!("`plan`, {scenario}"), instructions(&platewash, &planning)?);
+        let proving = ["verify", &plan, "--threads", "1", "--quiet"];
+        add(format!("`verify`, {scenario}"), instructions(&platewash, &proving)?);
         if k == 0 {
-            count(
+            let simulating = [&["simulate", &plan], &common[..]].concat();
+            add(
                 format!("`simulate`, {scenario}"),
-                &platewash,
-                &[&["simulate", &plan], &common[..]].concat(),
-            )?;
+                instructions(&platewash, &simulating)?,
+            );
         }
     }
     for (word, name) in SOLVES {
-        let runs = [1, 1 + SOLVED].map(|solves| instructions(&one_solve, &[word, &solves.to_string()]));
-        let [one, all] = runs;
-        let found = (all? - one?) / SOLVED;
-        println!("    {name}: {}", in_words(found));
-        rows.push((name.to_owned(), found));
+        let solves = |count: u64| instructions(&one_solve, &[word, &count.to_string()]);
+        add(name.to_owned(), (solves(1 + SOLVED)? - solves(1)?) / SOLVED);
     }
     Ok(rows)
 }

@@ -8,7 +8,7 @@ use platewash_benches::plain_fk::PlainArm;
 use platewash_benches::solvers;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{RobotModel, ToolFrame, batch};
-use platewash_problems::problems::{AWAY_M, COUNT, MANY, Problems, Seeds, THROUGH_M, configurations};
+use platewash_problems::problems::{AWAY_M, COUNT, MANY, Problems, THROUGH_M, configurations};
 use platewash_problems::score::Score;
 use platewash_problems::solver::Solvers;
 use rand::SeedableRng;
@@ -107,9 +107,7 @@ fn batch_table_here(robot: &RobotModel) -> Result<String, Box<dyn Error + Send +
     let plain = PlainArm::default();
     let q = configurations(robot, BATCH, &mut Pcg64::seed_from_u64(5));
     let problems = Problems::near(robot, BATCH).map_err(|error| error.to_string())?;
-    let Seeds::Given(starts) = &problems.seeds else {
-        return Err("near problems have a start each".into());
-    };
+    let starts = problems.starts()?;
     let targets = &problems.targets;
     let solver = IkSolver::new(robot, tool0, IkSettings::default())?;
     let (mut positions, mut rotations) = (vec![[0.0; 3]; BATCH], vec![[0.0; 9]; BATCH]);

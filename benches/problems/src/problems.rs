@@ -48,6 +48,17 @@ pub enum Seeds {
 }
 
 impl Problems {
+    /// The start of each problem \[rad\].
+    ///
+    /// # Errors
+    /// For problems that start from the last answer.
+    pub fn starts(&self) -> Result<&[JointVector], &'static str> {
+        match &self.seeds {
+            Seeds::Given(starts) => Ok(starts),
+            Seeds::LastAnswer(_) => Err("the problems have no start each"),
+        }
+    }
+
     /// Warm: an Archimedean spiral of three turns over the plate, equal angles apart, tool straight down (a turn
     /// by π about y), each point from the last answer.
     ///

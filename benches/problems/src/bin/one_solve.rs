@@ -47,19 +47,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         "cold" => run(&mut AnalyticIk::new(&robot, &random)?, &random, count),
         "cold-solve" => run(&mut NumericIk::new(&robot, &random)?, &random, count),
         "fk-batch" => {
-            let Seeds::Given(configurations) = Problems::near(&robot, BATCH)?.seeds else {
-                return Err("near problems have a start each".into());
-            };
+            let near = Problems::near(&robot, BATCH)?;
+            let configurations = near.starts()?;
             let frame = robot.tool_frame(ToolFrame::Tool0)?;
-            let all =
-                (0..count).map(|_| batch::fk(&robot, &frame, black_box(&configurations), Backend::Detected).len());
+            let all = (0..count).map(|_| batch::fk(&robot, &frame, black_box(configurations), Backend::Detected).len());
             all.sum::<usize>() / BATCH
         }
         "ik-batch" => {
             let near = Problems::near(&robot, BATCH)?;
-            let Seeds::Given(starts) = &near.seeds else {
-                return Err("near problems have a start each".into());
-            };
+            let starts = near.starts()?;
             let solver = IkSolver::new(&robot, robot.tool_frame(ToolFrame::Tool0)?, IkSettings::default())?;
             let mut solved = 0;
             for _ in 0..count {
