@@ -15,7 +15,7 @@
 //! Geometric Jacobian and manipulability.
 
 use crate::geometry::{Inertial, Primitive, Shape, Visual, VisualFinding};
-use crate::lanes::{Kernel, LANES, Vector, run_exact};
+use crate::lanes::{Kernel, Vector, run_exact};
 use crate::limits::JointLimits;
 use crate::rotation::{Columns, RigidTransform};
 use crate::srdf::DisabledPairs;
@@ -300,16 +300,8 @@ impl Kernel for Forward<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) -> BodyPoses {
-        let (sines, cosines) = turns::<V>(self.q);
-        let folded = &self.robot.folded;
-        let first = Columns::<V>::identity().then_turned(&folded[0], sines[0], cosines[0]);
-        let second = first.then_turned(&folded[1], sines[1], cosines[1]);
-        let third = second.then_turned(&folded[2], sines[2], cosines[2]);
-        let fourth = third.then_turned(&folded[3], sines[3], cosines[3]);
-        let fifth = fourth.then_turned(&folded[4], sines[4], cosines[4]);
-        let sixth = fifth.then_turned(&folded[5], sines[5], cosines[5]);
-        let (first, second, third) = (first.rigid(), second.rigid(), third.rigid());
-        let (fourth, fifth, sixth) = (fourth.rigid(), fifth.rigid(), sixth.rigid());
+        let [first, second, third, fourth, fifth, sixth] =
+            moved_bodies::<V>(self.robot, self.q).map(|body| body.rigid());
         BodyPoses {
             bodies: [RigidTransform::identity(), first, second, third, fourth, fifth, sixth],
         }
@@ -331,16 +323,22 @@ impl Kernel for Placement<'_> {
     }
 }
 
-/// Sines and cosines of the joint positions; the last two are no joints'.
+/// `T_base_body` of the bodies that the joints move, at the positions `q` \[rad\].
 #[inline(always)]
-pub(crate) fn turns<V: Vector>(q: &JointVector) -> ([f64; 2 * LANES], [f64; 2 * LANES]) {
+pub(crate) fn moved_bodies<V: Vector>(robot: &RobotModel, q: &JointVector) -> [Columns<V>; AXES] {
     let (s, c) = sin_cos_vector(V::from_array([q[0], q[1], q[2], q[3]]));
+    // The last two are no joints'.
     let (t, d) = sin_cos_vector(V::from_array([q[4], q[5], 0.0, 0.0]));
-    let both = |a: V, b: V| {
-        let ([i, j, k, l], [m, n, o, p]) = (a.to_array(), b.to_array());
-        [i, j, k, l, m, n, o, p]
-    };
-    (both(s, t), both(c, d))
+    let ([s1, s2, s3, s4], [s5, s6, ..]) = (s.to_array(), t.to_array());
+    let ([c1, c2, c3, c4], [c5, c6, ..]) = (c.to_array(), d.to_array());
+    let folded = &robot.folded;
+    let first = Columns::identity().then(&folded[0]).turned_about_z(s1, c1);
+    let second = first.then(&folded[1]).turned_about_z(s2, c2);
+    let third = second.then(&folded[2]).turned_about_z(s3, c3);
+    let fourth = third.then(&folded[3]).turned_about_z(s4, c4);
+    let fifth = fourth.then(&folded[4]).turned_about_z(s5, c5);
+    let sixth = fifth.then(&folded[5]).turned_about_z(s6, c6);
+    [first, second, third, fourth, fifth, sixth]
 }
 
 /// Geometric Jacobian: maps joint speeds \[rad/s\] to the twist (linear m/s, angular rad/s) of a frame.

@@ -109,12 +109,6 @@ impl<V: Vector> Columns<V> {
         }
     }
 
-    /// [`RigidTransform::then`] and [`RigidTransform::turned_about_z`].
-    #[inline(always)]
-    pub fn then_turned(&self, next: &RigidTransform, s: f64, c: f64) -> Self {
-        self.then(next).turned_about_z(s, c)
-    }
-
     /// Returns the transform in its usual form.
     #[inline(always)]
     pub fn rigid(&self) -> RigidTransform {

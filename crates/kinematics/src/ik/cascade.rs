@@ -193,8 +193,7 @@ impl<'a> IkSolver<'a> {
         let target = AnalyticArm::body_target(&self.frame, &search.task.target)?;
         match arm.nearest(&target, seed, self.robot.limits()) {
             Ok(nearest) => {
-                let from = nearest.q;
-                let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
+                let descent = dls::descend(search.task, nearest.q, &dls::ALL_FREE, &self.settings);
                 self.note(&descent, Method::Dls, Start::Analytic, search)
             }
             Err(reason) => {
@@ -210,8 +209,7 @@ impl<'a> IkSolver<'a> {
         let mut stopped = Vec::new();
         let starts = self.starts.nearest(&search.task.target, self.settings.listed_starts);
         for (k, q) in starts.into_iter().enumerate() {
-            let from = q;
-            let descent = dls::descend(search.task, from, &dls::ALL_FREE, &self.settings);
+            let descent = dls::descend(search.task, q, &dls::ALL_FREE, &self.settings);
             if let Some(answer) = self.note(&descent, Method::Dls, Start::Listed(k), search) {
                 return Some(answer);
             }

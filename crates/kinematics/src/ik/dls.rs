@@ -10,7 +10,7 @@
 
 use crate::ik::settings::IkSettings;
 use crate::lanes::{Kernel, LANES, Vector, run_exact};
-use crate::model::{Axes, Frame, Jacobian, manipulability, turns};
+use crate::model::{Axes, Frame, Jacobian, manipulability, moved_bodies};
 use crate::rotation::{Columns, RigidTransform, rotation_vector};
 use crate::{AXES, JointVector, RobotModel};
 use nalgebra::{Matrix3, Vector6};
@@ -338,11 +338,11 @@ impl<V: Vector> JointLines<V> {
     /// Returns the pose of `frame` at `q` and the lines of the joints between it and the base.
     #[inline(always)]
     fn of(robot: &RobotModel, frame: &Frame, q: &JointVector) -> (Columns<V>, Self) {
-        let (sines, cosines) = turns::<V>(q);
+        let bodies = moved_bodies::<V>(robot, q);
         let mut body = Columns::<V>::identity();
         let (mut axes, mut points) = ([V::splat(0.0); AXES], [V::splat(0.0); AXES]);
-        for (i, folded) in robot.folded.iter().enumerate().take(frame.body()) {
-            body = body.then(folded).turned_about_z(sines[i], cosines[i]);
+        for (i, moved) in bodies.into_iter().enumerate().take(frame.body()) {
+            body = moved;
             (axes[i], points[i]) = (body.axes[2], body.origin);
         }
         let tip = body.then(&frame.offset);
