@@ -6,6 +6,7 @@
 
 use crate::number_table::{NumberTable, Row, TableError, TableShape};
 use crate::trajectory::{PlanSegment, Trajectory};
+use crate::words::push_shortest;
 use nalgebra::Vector3;
 use platewash_kinematics::words::rounded_up;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
@@ -174,14 +175,11 @@ pub fn add_numbers<'a>(row: &mut String, values: impl IntoIterator<Item = &'a f6
 
 /// Adds a number as `{}` writes it, which takes longer: the shortest decimal that reads back exactly, without an exponent.
 fn add_number(row: &mut String, value: f64) {
-    let has_exponent = value != 0.0 && !(1e-4..1e15).contains(&value.abs());
-    if has_exponent {
+    if value == 0.0 || (1e-4..1e15).contains(&value.abs()) {
+        push_shortest(row, value);
+    } else {
         *row += &value.to_string();
-        return;
     }
-    let mut buffer = zmij::Buffer::new();
-    let text = buffer.format(value);
-    row.push_str(text.strip_suffix(".0").unwrap_or(text));
 }
 
 /// Greatest absolute value of a number \[rad, rad/s, rad/s², N·m, s\]. A larger one has another unit, or is no motion.

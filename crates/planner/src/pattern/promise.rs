@@ -296,7 +296,7 @@ impl Promise {
 pub struct SampledWash {
     promise: Promise,
     surface: Surface,
-    moments: Vec<Moment>,
+    sampler: ContactSampler,
     /// Amounts at the first places, and at all of them.
     first: OnceLock<Vec<Dwell>>,
     all: OnceLock<Vec<Dwell>>,
@@ -308,7 +308,7 @@ impl SampledWash {
         Self {
             promise,
             surface,
-            moments,
+            sampler: ContactSampler::new(promise.foundation, moments, promise.thresholds),
             first: OnceLock::new(),
             all: OnceLock::new(),
         }
@@ -317,7 +317,7 @@ impl SampledWash {
     /// Returns the shortfall of the wash against its promise with a margin.
     #[must_use]
     pub fn shortfall(&self, margin: &Margin) -> Option<Shortfall> {
-        let overload = self.promise.overload(&self.surface, &self.moments, margin);
+        let overload = self.promise.overload(&self.surface, self.sampler.moments(), margin);
         overload.or_else(|| self.missing(margin))
     }
 
@@ -328,10 +328,9 @@ impl SampledWash {
 
     /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
     fn first_samples_fail(&self, margin: &Margin) -> bool {
-        let sampler = self.sampler();
         let mut kept = [FIRST; 3];
         (0..FEW).any(|k| {
-            let dwell = self.dwell(&sampler, (k * SPREAD % FIRST) * STRIDE);
+            let dwell = self.dwell((k * SPREAD % FIRST) * STRIDE);
             for (kept, keeps) in kept.iter_mut().zip(self.promise.keeps(&dwell, margin)) {
                 *kept -= u32::from(!keeps);
             }
@@ -369,32 +368,28 @@ impl SampledWash {
     /// Amounts at every eighth place: these seeds of a sunflower are spread as evenly as all.
     fn first(&self) -> &[Dwell] {
         self.first.get_or_init(|| {
-            let (sampler, places) = (self.sampler(), (0..FIRST).into_par_iter());
-            places.map(|k| self.dwell(&sampler, k * STRIDE)).collect()
+            let places = (0..FIRST).into_par_iter();
+            places.map(|k| self.dwell(k * STRIDE)).collect()
         })
     }
 
     /// Amounts at all places.
     fn all(&self) -> &[Dwell] {
         self.all.get_or_init(|| {
-            let (first, sampler) = (self.first(), self.sampler());
+            let first = self.first();
             let at = |k: u32| match k % STRIDE {
                 0 => first[(k / STRIDE) as usize],
-                _ => self.dwell(&sampler, k),
+                _ => self.dwell(k),
             };
             (0..PLACES).into_par_iter().map(at).collect()
         })
     }
 
     /// Amounts at the k-th place, up to the moment from which any margin is kept.
-    fn dwell(&self, sampler: &ContactSampler<'_>, k: u32) -> Dwell {
-        sampler.until(&place(&self.surface, k), |dwell| {
+    fn dwell(&self, k: u32) -> Dwell {
+        self.sampler.until(&place(&self.surface, k), |dwell| {
             self.promise.keeps(dwell, &Margin::WEAK_ARM) == [true; 3]
         })
-    }
-
-    fn sampler(&self) -> ContactSampler<'_> {
-        ContactSampler::new(&self.promise.foundation, &self.moments, &self.promise.thresholds)
     }
 }
 

@@ -184,10 +184,8 @@ impl Graph {
 
     /// A vertex at `q`, if it is clear; `off` is how many steps of 2° its tilt is off the preferred one.
     fn vertex(&self, task: &Task<'_>, q: JointVector, off: f64) -> Option<Vertex> {
-        let room = task.has_room(&q);
-        if !task.is_allowed_with(&q, room) {
-            return None;
-        }
+        task.check_wrist(&q).ok()?;
+        let room = task.check_room(&q).ok()?;
         let [for_tilt, for_limit, for_clearance, _] = WEIGHTS;
         let margin = task.scene.robot.limits().margins(&q).min();
         let lack = (1.0 - margin / AMPLE_MARGIN_RAD).max(0.0);

@@ -165,11 +165,6 @@ impl<'a> Task<'a> {
         self.check_wrist(q).is_ok() && self.is_clear(q)
     }
 
-    /// The same check, where it is already known if the bodies have room.
-    pub(crate) fn is_allowed_with(&self, q: &JointVector, has_room: bool) -> bool {
-        self.check_wrist(q).is_ok() && (has_room || self.check_clear(q).is_ok())
-    }
-
     /// Checks that joint 5 is far enough from 0.
     pub(crate) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
         let Some(least_rad) = self.scene.stance.wrist_rad else {
@@ -219,10 +214,15 @@ impl<'a> Task<'a> {
         }
     }
 
-    /// Checks that all pairs of bodies keep [`ROOM_M`] more than required.
-    pub(crate) fn has_room(&self, q: &JointVector) -> bool {
-        let surroundings = self.scene.surroundings;
-        surroundings.is_clear(q, self.stretch(), self.required_m() + ROOM_M)
+    /// Checks that all pairs of bodies keep their clearance at `q` \[rad\], and returns true if they keep [`ROOM_M`] more; the error names
+    /// the pair that is too near.
+    pub(crate) fn check_room(&self, q: &JointVector) -> Result<bool, Hindrance> {
+        let levels_m = [self.required_m(), self.required_m() + ROOM_M];
+        let kept = self.scene.surroundings.levels_kept(q, self.stretch(), &levels_m);
+        if kept == 0 {
+            self.check_clear(q)?;
+        }
+        Ok(kept == levels_m.len())
     }
 
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the wash path.
@@ -289,15 +289,8 @@ impl<'a> Task<'a> {
             check_step(&last.q, &q, along_m)?;
             self.check_side(&last.q, &q)?;
         }
-        if !looked_at {
-            return Ok((q, false));
-        }
-        let levels_m = [self.required_m(), self.required_m() + ROOM_M];
-        let kept = self.scene.surroundings.levels_kept(&q, self.stretch(), &levels_m);
-        if kept == 0 {
-            self.check_clear(&q)?;
-        }
-        Ok((q, kept == levels_m.len()))
+        let has_room = looked_at && self.check_room(&q)?;
+        Ok((q, has_room))
     }
 
     /// `dq/dθ` where the tip follows the profile: `J q′ = (p′, ω)`, ω by differences of the exact rotation; `None` at a

@@ -307,13 +307,12 @@ impl Stretch {
 
 /// Bodies that the arm must keep clear of.
 pub trait Surroundings: Debug + Sync {
-    /// Checks that every pair that counts keeps `required_m` at `q` \[rad\].
-    fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool;
-
     /// Number of clearances \[m\], from the first of an ascending list, that every pair that counts keeps at `q` \[rad\].
-    fn levels_kept(&self, q: &JointVector, stretch: Stretch, required_m: &[f64]) -> usize {
-        let kept = required_m.iter().take_while(|level| self.is_clear(q, stretch, **level));
-        kept.count()
+    fn levels_kept(&self, q: &JointVector, stretch: Stretch, required_m: &[f64]) -> usize;
+
+    /// Checks that every pair that counts keeps `required_m` at `q` \[rad\].
+    fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool {
+        self.levels_kept(q, stretch, &[required_m]) == 1
     }
 
     /// The nearest of the pairs that do not; `None` where there is none.
@@ -326,10 +325,6 @@ pub trait Surroundings: Debug + Sync {
 }
 
 impl Surroundings for ClearanceModel {
-    fn is_clear(&self, q: &JointVector, stretch: Stretch, required_m: f64) -> bool {
-        Surroundings::levels_kept(self, q, stretch, &[required_m]) == 1
-    }
-
     fn levels_kept(&self, q: &JointVector, stretch: Stretch, required_m: &[f64]) -> usize {
         let working_on = match stretch {
             Stretch::AtPlate(plate) => Some(plate),

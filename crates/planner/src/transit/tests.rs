@@ -26,8 +26,8 @@ impl fmt::Debug for RuleObstacles<'_> {
 }
 
 impl Surroundings for RuleObstacles<'_> {
-    fn is_clear(&self, q: &JointVector, stretch: Stretch, _: f64) -> bool {
-        (self.0)(q, stretch)
+    fn levels_kept(&self, q: &JointVector, stretch: Stretch, required_m: &[f64]) -> usize {
+        if (self.0)(q, stretch) { required_m.len() } else { 0 }
     }
 
     fn too_near(&self, _: &JointVector, _: Stretch, _: f64) -> Option<PairClearance> {

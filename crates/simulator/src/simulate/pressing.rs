@@ -150,7 +150,7 @@ impl Judge<'_> {
             time_s: required.time_s,
             dose_pa_m: required.dose_pa_m,
         };
-        let looks = ContactSampler::new(&self.foundation, &moments, &wanted);
+        let looks = ContactSampler::new(self.foundation, moments, wanted);
         let (mut whole_m2, mut kept_m2) = (0.0, [0.0; 3]);
         for (point, area_m2) in plate.surface.points(POINTS_APART_M) {
             let got = looks.at(&point);

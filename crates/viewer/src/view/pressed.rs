@@ -61,7 +61,7 @@ impl PressedRule {
                 continue;
             }
             let moments: Vec<Moment> = stretch.iter().map(|tip| moment(plate, tip)).collect();
-            let looks = ContactSampler::new(&foundation, &moments, &wanted);
+            let looks = ContactSampler::new(foundation, moments, wanted);
             raster.add_stays(|[x, y]| {
                 let height_m = plate.surface.height_m((x * x + y * y).sqrt());
                 looks.contact_intervals(&Vector3::new(x, y, height_m))

@@ -24,15 +24,8 @@ impl ClearanceModel {
         self.levels_kept(q, None, &[required_m]) == 1
     }
 
-    /// True if every pair keeps `required_m` at `q` \[rad\], except the sponge and the plates that it may touch while it works on
-    /// `working_on`; otherwise as [`ClearanceModel::keeps_clearance`].
-    #[must_use]
-    pub fn keeps_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> bool {
-        self.levels_kept(q, Some(working_on), &[required_m]) == 1
-    }
-
-    /// Number of clearances \[m\], from the first of an ascending list, that every pair keeps at `q` \[rad\]: as
-    /// [`ClearanceModel::keeps_washing`] on a plate, as [`ClearanceModel::keeps_clearance`] on none.
+    /// Number of clearances \[m\], from the first of an ascending list, that every pair keeps at `q` \[rad\], except the sponge and the plates
+    /// that it may touch while it works on `working_on`, if on any. None for NaN.
     #[must_use]
     pub fn levels_kept(&self, q: &JointVector, working_on: Option<usize>, required_m: &[f64]) -> usize {
         self.levels_kept_by(q, required_m, |a, b| {
@@ -40,7 +33,7 @@ impl ClearanceModel {
         })
     }
 
-    /// Returns the nearest of the pairs that [`ClearanceModel::keeps_washing`] finds too near; `None` if there are none.
+    /// Returns the nearest of the pairs that [`ClearanceModel::levels_kept`] finds too near while the sponge washes; `None` if there are none.
     #[must_use]
     pub fn nearest_washing(&self, q: &JointVector, working_on: usize, required_m: f64) -> Option<PairClearance> {
         let poses = self.robot.fk(q);

@@ -116,10 +116,10 @@ pub fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<[f64; 2]> {
 /// Measures the amounts that single points of a face get through some moments in order, with linear interpolation between them. The plate
 /// is at the height where a point gets the least.
 #[derive(Debug, Clone)]
-pub struct ContactSampler<'a> {
-    foundation: &'a Foundation,
-    moments: &'a [Moment],
-    thresholds: &'a ContactThresholds,
+pub struct ContactSampler {
+    foundation: Foundation,
+    moments: Vec<Moment>,
+    thresholds: ContactThresholds,
     /// One for each moment.
     prepared: Vec<Prepared>,
     bundles: Bundles,
@@ -128,7 +128,6 @@ pub struct ContactSampler<'a> {
 /// Amounts of a moment that are the same for all points.
 #[derive(Debug, Clone, Copy)]
 struct Prepared {
-    pose: SpongePose,
     /// Shifts of a point by the height error, off the axis and down along it \[m\].
     moved_m: [f64; 2],
     /// Sliding speed, if the sponge does not turn \[m/s\].
@@ -144,26 +143,31 @@ struct Instant {
     inside_m: f64,
 }
 
-impl<'a> ContactSampler<'a> {
+impl ContactSampler {
     /// Prepares the moments of a wash.
     #[must_use]
-    pub fn new(foundation: &'a Foundation, moments: &'a [Moment], thresholds: &'a ContactThresholds) -> Self {
+    pub fn new(foundation: Foundation, moments: Vec<Moment>, thresholds: ContactThresholds) -> Self {
         let prepared = |moment: &Moment| {
-            let Moment { pose, turning, .. } = *moment;
-            let share = [pose.axis.xy().norm(), pose.axis.z.abs()];
+            let SpongePose { tip, axis } = &moment.pose;
+            let share = [axis.xy().norm(), axis.z.abs()];
             Prepared {
-                pose,
                 moved_m: share.map(|share| thresholds.height_error_m * share),
-                slide_m_s: (turning == Vector3::zeros()).then(|| moment.slide_m_s(&pose.tip)),
+                slide_m_s: (moment.turning == Vector3::zeros()).then(|| moment.slide_m_s(tip)),
             }
         };
         Self {
             foundation,
+            prepared: moments.iter().map(prepared).collect(),
+            bundles: Bundles::of(&moments),
             moments,
             thresholds,
-            prepared: moments.iter().map(prepared).collect(),
-            bundles: Bundles::of(moments),
         }
+    }
+
+    /// The moments of the wash.
+    #[must_use]
+    pub fn moments(&self) -> &[Moment] {
+        &self.moments
     }
 
     /// Returns the amounts at a point \[m\], plate frame.
@@ -223,9 +227,8 @@ impl<'a> ContactSampler<'a> {
         let radius_m = self.foundation.radius_m;
         let mut before: Option<Instant> = None;
         for moments in self.bundles.near(radius_m, point) {
-            let prepared = &self.prepared[moments.clone()];
-            for (index, moment) in moments.zip(prepared) {
-                let here = self.instant(index, moment, point);
+            for index in moments {
+                let here = self.instant(index, point);
                 let next_to = before.as_ref().filter(|before| before.index + 1 == index);
                 if at(next_to, &here).is_break() {
                     return;
@@ -235,9 +238,9 @@ impl<'a> ContactSampler<'a> {
         }
     }
 
-    fn instant(&self, index: usize, moment: &Prepared, point: &Vector3<f64>) -> Instant {
-        let SpongePose { tip, axis } = &moment.pose;
-        let [aside_m, lower_m] = moment.moved_m;
+    fn instant(&self, index: usize, point: &Vector3<f64>) -> Instant {
+        let SpongePose { tip, axis } = &self.moments[index].pose;
+        let [aside_m, lower_m] = self.prepared[index].moved_m;
         let away = point - tip;
         let along = away.dot(axis);
         let aside_m = (away.norm_squared() - along * along).max(0.0).sqrt() + aside_m;

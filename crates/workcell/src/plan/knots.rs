@@ -1,6 +1,7 @@
 //! Canonical JSON (RFC 8785) of the knots of a motion.
 
 use crate::plan::Knots;
+use crate::words::push_shortest;
 use platewash_kinematics::JointVector;
 
 /// Text of the knots.
@@ -43,9 +44,7 @@ impl Text {
             self.0.push('0');
         } else if number.abs() < 1e15 && !(1e-6..1e-4).contains(&number.abs()) {
             // Shortest digits; below 1e-6 with an exponent, as in ECMAScript.
-            let mut buffer = zmij::Buffer::new();
-            let text = buffer.format_finite(number);
-            self.0.push_str(text.strip_suffix(".0").unwrap_or(text));
+            push_shortest(&mut self.0, number);
         } else {
             // Where the two differ on the exponent.
             self.0 += &serde_json_canonicalizer::to_string(&number).unwrap_or_else(|_| "null".to_owned());

@@ -170,22 +170,19 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError::Unwritable`] for contents that cannot be read back, such as a number that is not finite.
     pub fn seal(&self) -> Result<String, PlanFileError> {
-        self.check_readable()?;
-        Ok(sha256_hex(self.canonical(None)?.as_bytes()))
-    }
-
-    /// Canonical JSON of the plan with another hash.
-    fn canonical(&self, hash: Option<&str>) -> Result<String, PlanFileError> {
-        let around = Self {
-            hash: hash.map(str::to_owned),
+        let open = Self {
+            hash: None,
             ..self.without_knots()
         };
-        let text = serde_json_canonicalizer::to_string(&around).map_err(unwritable)?;
-        // Almost all of the text is numbers of the knots, which the general writer takes long for.
-        let Some((before, after)) = text.split_once(NO_KNOTS) else {
-            return serde_json_canonicalizer::to_string(self).map_err(unwritable);
-        };
-        Ok([before, &knots::canonical(&self.knots), after].concat())
+        let text = serde_json_canonicalizer::to_string(&open).map_err(unwritable)?;
+        self.check_readable(&open, &text)?;
+        Ok(sha256_hex(self.with_knots(&text).as_bytes()))
+    }
+
+    /// Canonical JSON of a plan, with these knots in place of none. Almost all of a plan's text is numbers of the knots, which the general
+    /// writer takes long for.
+    fn with_knots(&self, text: &str) -> String {
+        text.replacen(NO_KNOTS, &knots::canonical(&self.knots), 1)
     }
 
     /// The plan without its knots.
@@ -203,8 +200,8 @@ impl Plan {
         }
     }
 
-    /// Refuses contents that would change when read back.
-    fn check_readable(&self) -> Result<(), PlanFileError> {
+    /// Refuses contents that would change when read back; `text` is that of the plan `around` the knots.
+    fn check_readable(&self, around: &Self, text: &str) -> Result<(), PlanFileError> {
         let refuse = |detail: &str| {
             let detail = detail.to_owned();
             Err(PlanFileError::Unwritable { detail })
@@ -216,9 +213,7 @@ impl Plan {
             return refuse("a number of the knots is not finite");
         }
         // A number that is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
-        let around = self.without_knots();
-        let text = serde_json_canonicalizer::to_vec(&around).map_err(unwritable)?;
-        if serde_json::from_slice::<Self>(&text).map_err(unwritable)? != around {
+        if serde_json::from_str::<Self>(text).map_err(unwritable)? != *around {
             return refuse("a whole number is above 2^53 − 1, the largest that JSON says exactly");
         }
         Ok(())
@@ -235,7 +230,8 @@ impl Plan {
     /// # Errors
     /// [`PlanFileError::Unwritable`].
     pub fn to_json(&self) -> Result<String, PlanFileError> {
-        self.canonical(self.hash.as_deref())
+        let text = serde_json_canonicalizer::to_string(&self.without_knots()).map_err(unwritable)?;
+        Ok(self.with_knots(&text))
     }
 
     /// Reads the text of a plan file. Every key occurs once, none is unknown and none is missing, so that the plan read has the hash of the

@@ -280,7 +280,7 @@ proptest! {
             }
             assert_eq!(world.clearance.keeps_clearance(&q, required), !all.iter().any(near));
             all.retain(|pair| !(pair.a == "sponge" && pair.b.starts_with("plate")) && near(pair));
-            assert_eq!(world.clearance.keeps_washing(&q, 0, required), all.is_empty());
+            assert_eq!(world.clearance.levels_kept(&q, Some(0), &[required]) == 1, all.is_empty());
             let least = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
             match world.clearance.nearest_washing(&q, 0, required) {
                 Some(pair) => assert_eq!(pair.distance_m, least),

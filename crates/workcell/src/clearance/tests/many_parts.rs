@@ -82,9 +82,10 @@ proptest! {
         // Where it is not a matter of rounding.
         if all.iter().all(|pair| (pair.distance_m - required).abs() > 1e-4 && pair.distance_m.abs() > 1e-4) {
             prop_assert_eq!(model.keeps_clearance(&q, required), keeps[0]);
-            prop_assert_eq!(model.keeps_washing(&q, 0, required), keeps[1]);
+            let keeps_washing = |required| model.levels_kept(&q, Some(0), &[required]) == 1;
+            prop_assert_eq!(keeps_washing(required), keeps[1]);
             let levels = [required, required + 8e-3, required + 0.1];
-            let kept = levels.iter().take_while(|level| model.keeps_washing(&q, 0, **level)).count();
+            let kept = levels.iter().take_while(|level| keeps_washing(**level)).count();
             prop_assert_eq!(model.levels_kept(&q, Some(0), &levels), kept);
             let near: Vec<_> = all.iter().filter(|pair| !is_clear(pair.distance_m, required)).collect();
             let too_near = model.too_near(&q, &[], required);
@@ -145,6 +146,6 @@ fn nan_is_never_clear_of_many_parts() {
     let world = workcell(&robot, kitchen_tool());
     let model = ClearanceModel::new(&robot, &world, &plates(1, 0.03)).unwrap();
     let q = JointVector::new(f64::NAN, 0.0, 0.0, 0.0, 0.0, 0.0);
-    assert!(!model.keeps_clearance(&q, 0.0) && !model.keeps_washing(&q, 0, 0.0));
+    assert!(!model.keeps_clearance(&q, 0.0) && model.levels_kept(&q, Some(0), &[0.0]) == 0);
     assert!(model.nearest_washing(&q, 0, 0.01).is_some());
 }

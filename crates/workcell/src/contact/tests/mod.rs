@@ -65,7 +65,7 @@ fn the_contact_intervals_of_a_point_add_up_to_its_contact_time() {
         time_s: 0.0,
         dose_pa_m: 0.0,
     };
-    let looks = ContactSampler::new(&foundation, &moments, &wanted);
+    let looks = ContactSampler::new(foundation, moments, wanted);
     for (x, count) in [(0.1, 2), (0.03, 2), (0.199, 1), (0.3, 0)] {
         let point = Vector3::new(x, 0.01, 0.0);
         let stays = looks.contact_intervals(&point);
@@ -82,7 +82,7 @@ fn the_contact_intervals_of_a_point_add_up_to_its_contact_time() {
     let [from, _] = looks.contact_intervals(&Vector3::new(0.1, 0.01, 0.0))[0];
     let chord_m = (0.025f64.powi(2) - 0.01f64.powi(2)).sqrt();
     assert!((from - (0.1 - chord_m) / 0.1).abs() < 2e-2, "{from}");
-    let none = ContactSampler::new(&foundation, &[], &wanted);
+    let none = ContactSampler::new(foundation, Vec::new(), wanted);
     assert!(
         none.contact_intervals(&Vector3::new(f64::NAN, 0.0, 0.0)).is_empty()
             && looks.contact_intervals(&Vector3::repeat(f64::NAN)).is_empty()

@@ -135,7 +135,7 @@ fn measured_points_get_at_least_the_bounds_of_their_cell() {
             slide_m: 1e-2 * lost,
         };
         let least = proved(&surface, &foundation, (&moments, &vec![sags; 400]), &wanted);
-        let looks = ContactSampler::new(&foundation, &moments, &wanted);
+        let looks = ContactSampler::new(foundation, moments.clone(), wanted);
         for _ in 0..20 {
             let point = place(random, &surface);
             let got = looks.at(&point);
@@ -167,7 +167,7 @@ fn bounds_of_small_cells_are_close_to_measured_points() {
         let moments = motion(random, 2000);
         let surface = little(random, 1e-5);
         let least = proved(&surface, &foundation, (&moments, &vec![Sags::default(); 2000]), &wanted);
-        let got = ContactSampler::new(&foundation, &moments, &wanted).at(&Vector3::zeros());
+        let got = ContactSampler::new(foundation, moments.clone(), wanted).at(&Vector3::zeros());
         let most = |of: fn(&Moment) -> f64| moments.iter().map(of).fold(0.0, f64::max);
         let [fastest, turning] = [most(|moment| moment.speed.norm()), most(|moment| moment.turning.norm())];
         let greatest_pa = foundation.stiffness_pa[0] / foundation.free_height_m * got.compression_m.max(0.0);
