@@ -1,26 +1,49 @@
-//! The tests that look at pages in a browser: `tests/browser`.
+//! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
-use anyhow::Result;
-use platewash_bundler::{Node, Packages, Workshop, root, target};
+use anyhow::{Context, Result};
+use platewash_bundler::{Node, Packages, Step, Workshop, root, target};
+use std::fs;
+use std::path::PathBuf;
 
-/// Runs them with the release build of the command, which has the page in it.
-///
-/// Their packages carry a browser for Linux on x86-64; elsewhere they take an installed one.
+/// Runs the tests with the release build of the command, which has the page in it.
 pub fn tests() -> Result<()> {
+    let (node, workshop) = workshop()?;
+    let line = ["run", "--silent", "test"];
+    in_browser(node.npm("tests in a browser", workshop.folder(), &line)).run()
+}
+
+/// Saves pictures of the pages of some shipped scenarios, or of all, in `target/screenshots`.
+pub fn screenshots(scenarios: &[String]) -> Result<()> {
+    Step::cargo("command", &["build", "--release", "-p", "platewash"]).run()?;
+    let (node, workshop) = workshop()?;
+    let out = target().join("screenshots");
+    if out.exists() {
+        fs::remove_dir_all(&out).with_context(|| out.display().to_string())?;
+    }
+    let out = out.display().to_string();
+    let line = [
+        &["run", "--silent", "screenshots", "--", &out][..],
+        &scenarios.iter().map(String::as_str).collect::<Vec<_>>(),
+    ]
+    .concat();
+    in_browser(node.npm("pictures of pages", workshop.folder(), &line)).run()
+}
+
+/// Node, and the sources and packages of what looks at pages.
+///
+/// The packages carry a browser for Linux on x86-64; elsewhere an installed one is taken.
+fn workshop() -> Result<(Node, Workshop)> {
     let node = Node::found(Packages::All)?;
-    let workshop = Workshop::new(
-        "the tests in a browser",
-        &root().join("tests/browser"),
-        target().join("browser"),
-    )?;
+    let sources = root().join("tests/browser");
+    let workshop = Workshop::new("the tests in a browser", &sources, target().join("browser"))?;
     workshop.fetch(&node, Packages::All)?;
-    let command = target()
+    Ok((node, workshop))
+}
+
+/// Names the release build of the command and the project's folder to a step.
+fn in_browser(step: Step) -> Step {
+    let command: PathBuf = target()
         .join("release")
         .join(format!("platewash{}", std::env::consts::EXE_SUFFIX));
-    let line = ["run", "--silent", "test"];
-    let tests = node.npm("tests in a browser", workshop.folder(), &line);
-    tests
-        .with("PLATEWASH_BIN", command)
-        .with("PLATEWASH_ROOT", root())
-        .run()
+    step.with("PLATEWASH_BIN", command).with("PLATEWASH_ROOT", root())
 }

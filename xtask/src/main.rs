@@ -6,6 +6,7 @@
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 //!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
+//!     cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; 'edit' is a live cell
 //!     cargo xtask docs                              writes the pages that are made from the program
 
 mod benches;
@@ -29,6 +30,7 @@ cargo xtask test [OPTIONS]                    every test there is
     --without-browser                         all but what is looked at in a browser
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
+cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; 'edit' is a live cell
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 cargo xtask docs                              writes the pages that are made from the program";
 
@@ -38,6 +40,7 @@ enum Chore {
     Test(Option<Part>, BrowserTests),
     Bench(Vec<String>),
     Ledger,
+    Screenshots(Vec<String>),
     Page,
     Docs,
     Help,
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
         Chore::Test(only, in_browser) => suite::run(only, in_browser),
         Chore::Bench(arguments) => benches::run(&arguments),
         Chore::Ledger => ledger::run(),
+        Chore::Screenshots(scenarios) => browser::screenshots(&scenarios),
         Chore::Page => page::make(),
         Chore::Docs => suite::docs(),
         Chore::Help => {
@@ -78,6 +82,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["test", ref options @ ..] => tests(options),
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
         ["ledger"] => Ok(Chore::Ledger),
+        ["screenshots", ..] => Ok(Chore::Screenshots(arguments[1..].to_vec())),
         ["page"] => Ok(Chore::Page),
         ["docs"] => Ok(Chore::Docs),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
@@ -119,6 +124,10 @@ mod tests {
             Some(Chore::Test(Some(Part::Browser), BrowserTests::LeftOut))
         );
         assert_eq!(parsed("bench ik_warm"), Some(Chore::Bench(vec!["ik_warm".to_owned()])));
+        assert_eq!(
+            parsed("screenshots rack"),
+            Some(Chore::Screenshots(vec!["rack".to_owned()]))
+        );
         assert_eq!(parsed("page"), Some(Chore::Page));
         assert_eq!(parsed("docs"), Some(Chore::Docs));
         assert_eq!(parsed(""), Some(Chore::Help));

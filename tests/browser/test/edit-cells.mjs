@@ -45,6 +45,38 @@ test("a plate with a section is moved by its section, its holder with it, and un
   quiet();
 });
 
+test("a button adds an obstacle, and undoing takes it away", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t), ["--scenario", "kitchen"]);
+  const before = await scenario(page);
+  await page.getByRole("button", { name: "Add obstacle" }).click();
+  await settled(page);
+  assert.equal((await verdict(page)).kind, "proved");
+  assert.match(await scenario(page), /\[\[obstacle\]\]\nname = "box 1"\nshape = "box"/);
+  const [x, y, z] = await placeOf(page, "box 1");
+  assert.ok(Math.abs(z - 0.1) < 2e-3, "it stands on the floor");
+  for (const [px, py] of await centres(page)) assert.ok(Math.hypot(px - x, py - y) > 0.145 + 0.04);
+  await page.evaluate(() => window.platewash.edit.undo());
+  await settled(page);
+  assert.equal(await scenario(page), before);
+  quiet();
+});
+
+test("all tabs fit beside the scene, and every plate lies between toolbar and readout", async (t) => {
+  const { page } = await edit(t, await folder(t), ["--scenario", "rack"], { size: { width: 1280, height: 800 } });
+  const tabs = await page.locator(".tabs").evaluate(({ scrollWidth, clientWidth }) => ({ scrollWidth, clientWidth }));
+  assert.ok(tabs.scrollWidth <= tabs.clientWidth, JSON.stringify(tabs));
+  const top = await page.locator(".toolbar").evaluate((element) => element.getBoundingClientRect().bottom);
+  const bottom = await page.locator(".readout").evaluate((element) => element.getBoundingClientRect().top);
+  const places = await page.evaluate(() => window.platewash.view.plates.map(({ pose }) => pose.position_m));
+  for (const place of places) {
+    const [, y] = await onScreen(page, place);
+    assert.ok(y > top && y < bottom, `${y} of ${top} to ${bottom}`);
+  }
+  await page.setViewportSize({ width: 390, height: 844 });
+  const height = await page.locator("canvas.scene").evaluate((element) => element.clientHeight);
+  assert.ok(height >= 844 / 2 - 1, `${height}`);
+});
+
 test("an obstacle is moved once it is clicked, and refused where it stands in a plate", async (t) => {
   const { page, quiet } = await edit(t, await folder(t), ["--scenario", "sink"]);
   const before = await scenario(page);

@@ -173,9 +173,31 @@ test("a change of a key is shown with its refusal, and the plan of before stays 
   assert.equal((await verdict(page)).kind, "refused");
   assert.match((await verdict(page)).words, /robot\.start_deg/);
   assert.ok(await page.evaluate(() => window.platewash.view.motion !== null));
+  // Nothing looks proved: the badge, the rows, cycle and hash, and the film that would show the plan of before.
+  assert.match(await page.locator("#header .badge").innerText(), /refused/i);
+  assert.deepEqual(await page.locator("#header .facts dt").allInnerTexts(), ["last valid cycle", "last valid hash"]);
+  assert.deepEqual(await page.locator(".row .status").allInnerTexts(), ["Not planned"]);
+  await page.evaluate(() => window.platewash.play());
+  assert.equal(await page.evaluate(() => window.platewash.isPlaying()), false);
+  assert.equal(await page.locator(".play-button").isDisabled(), true);
   await page.evaluate(() => window.platewash.edit.undo());
   await settled(page);
   assert.equal((await verdict(page)).kind, "proved");
+  assert.deepEqual(await page.locator("#header .facts dt").allInnerTexts(), ["cycle", "hash"]);
+  assert.equal(await page.locator(".play-button").isDisabled(), false);
+  quiet();
+});
+
+test("what is typed and not applied does not stand beside a verdict", async (t) => {
+  const { page, quiet } = await one(t);
+  const badge = page.locator("#header .badge").first();
+  assert.match(await badge.innerText(), /proved/i);
+  await page.getByRole("tab", { name: "Settings" }).click();
+  const speed = page.locator('[data-key="wash.speed_m_s"] input');
+  await speed.fill("0.2");
+  await badge.getByText("Not applied").waitFor({ timeout: 5000 });
+  await speed.press("Escape");
+  await badge.getByText("Proved").waitFor({ timeout: 5000 });
   quiet();
 });
 

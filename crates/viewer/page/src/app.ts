@@ -80,7 +80,7 @@ export class App {
       follow: view.execution === null ? null : (motion) => this.#controls.follow(motion),
     });
     this.#help = new Help(film, edit === null ? [] : PLATE_KEYS);
-    this.#header = new Header(view, [this.#theme.button, this.#help.button()]);
+    this.#header = new Header(view, [this.#theme.button, this.#help.button()], () => this.#panels.show("about"));
     this.#transport = film ? this.#makeTransport() : null;
     this.#requirements = new Requirements(view, (check) => this.#choose(check));
     this.#plots = new Plots(this.#player, () => this.#theme.palette, (t) => this.#controls.seek(t));
@@ -144,8 +144,18 @@ export class App {
       edit: (actions) => scene?.edit(actions) ?? null,
       size: () => [canvas.clientWidth, canvas.clientHeight],
       replace: (next) => this.replace(next),
-      say: (said) => this.#header.say(said),
+      say: (said, stale) => {
+        this.#header.say(said, stale);
+        this.#hold(stale);
+      },
     });
+  }
+
+  /** While something is changed that the plan does not have, its film stands still. */
+  #hold(stale: boolean): void {
+    document.documentElement.toggleAttribute("data-stale", stale);
+    this.#controls.hold(stale);
+    this.#transport?.hold(stale);
   }
 
   #makeTransport(): Transport {
@@ -163,7 +173,7 @@ export class App {
   #makePanels(film: boolean): Panel[] {
     const panels: (Panel | null)[] = [
       film ? null : { id: "joints", title: "Joints", content: configuration(this.#player.view) },
-      film ? { id: "requirements", title: "Requirements", content: this.#requirements.element } : null,
+      film ? { id: "requirements", title: this.#editor === null ? "Requirements" : "Proof", content: this.#requirements.element } : null,
       film ? { id: "plots", title: "Plots", content: this.#plots.element, onShow: () => this.#plots.show() } : null,
       this.#player.view.coverage.length > 0 || this.#editor !== null
         ? { id: "plates", title: "Plates", content: this.#plates.element, onShow: () => this.#plates.show() }

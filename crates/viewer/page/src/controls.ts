@@ -20,6 +20,9 @@ export class Controls {
   readonly #player: Player;
   readonly #now: () => number;
   readonly #listener: ControlsListener;
+  #held = false;
+  /** Whether the film ran when it was held. */
+  #resumes = false;
 
   constructor(player: Player, now: () => number, listener: ControlsListener) {
     this.#player = player;
@@ -31,12 +34,23 @@ export class Controls {
     return this.#player.clock.playing || (this.#player.live && this.#player.newest);
   }
 
+  /** Lets the film stand still, or go on if it ran before. */
+  hold(on: boolean): void {
+    if (on === this.#held) return;
+    this.#held = on;
+    if (on) {
+      this.#resumes = this.playing;
+      if (this.#resumes) this.pause();
+    } else if (this.#resumes) this.play();
+  }
+
   toggle(): void {
     if (this.playing) this.pause();
     else this.play();
   }
 
   play(): void {
+    if (this.#held) return;
     this.#player.play(this.#now());
     this.#listener.moved();
     this.#listener.changed();

@@ -55,6 +55,16 @@ export interface Heading {
 
 export type Status = "proved" | "violated" | "not_proved" | "waived";
 
+/** A bound and its limit, SI units. */
+export interface Measure {
+  /** Null where nothing finite is proved. */
+  bound: number | null;
+  limit: number;
+  /** Side of the limit on which the bound has to be. */
+  sense: "at_most" | "at_least" | "above";
+  unit: string;
+}
+
 /** A requirement and what came of it. */
 export interface Check {
   /** The requirement's name in the certificate's file. */
@@ -62,6 +72,8 @@ export interface Check {
   /** In words. */
   words: string;
   status: Status;
+  /** Left out where there is nothing to measure. */
+  measure?: Measure;
   /** Bound, seen and limit with units; the discrepancies; empty where there is nothing to add. */
   detail: string;
   /** Where it is worst: when, and in the world frame [m]. What does not apply is left out. */

@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Centre } from "../src/scene/handles.ts";
-import { LOST, newCell, PLAN, PREVIEW, PROOF, turns } from "./fake-cell.ts";
+import { blamedBodies, isStale, plateState } from "../src/edit/answers.ts";
+import { CELL, LOST, newCell, PLAN, PREVIEW, PROOF, turns } from "./fake-cell.ts";
 
 const AT = (x: number): Centre[] => [[x, 0], [0.4, 0]];
 
@@ -16,7 +17,7 @@ test("a scenario is looked at, planned and proved", async () => {
   assert.equal(cell.state, "planning");
   asked.say(PREVIEW);
   assert.equal(cell.standing.kind, "preview");
-  assert.match(cell.standing.words, /plate_1 may not be washable/);
+  assert.match(cell.standing.words, /plate 2 may not be washable/);
   asked.say(PLAN);
   assert.deepEqual([cell.state, cell.standing], ["proving", { kind: "planned", words: "planned" }]);
   assert.equal(cell.seen.preview, null);
@@ -312,4 +313,30 @@ test("timings are those of the question", async () => {
   const [timing] = cell.timings;
   assert.deepEqual([timing!.asked, timing!.scenario, timing!.plan, timing!.proof], [10, 15, 20, null]);
   assert.deepEqual(timing!.ms, { edit: 1, plan: 5 });
+});
+
+test("a section is added behind the text and what is not written out yet stays", () => {
+  const { cell, channel } = newCell();
+  cell.start();
+  cell.change([{ key: "seed", value: 2 }], "Change seed");
+  cell.append("[[obstacle]]\nname = \"box 1\"\n", "Add box 1");
+  const { text, edits } = channel.last("proof").question;
+  assert.deepEqual([text, edits], ["name = \"a\"\n\n[[obstacle]]\nname = \"box 1\"\n", [{ key: "seed", value: 2 }]]);
+  cell.undo();
+  assert.equal(cell.text, "name = \"a\"");
+});
+
+test("where a change is refused every plate's row says so, and the reason's body is named", async () => {
+  const { cell, channel } = newCell();
+  cell.start();
+  const post = { name: "post" };
+  const drawn = { ...CELL, surroundings: { obstacles: [{ name: "floor" }, post, { name: "post 2" }] }, moves: { bodies: [{ key: null }, { key: "obstacle[0].at_m" }, { key: "obstacle[1].at_m" }] } };
+  channel.last("proof").say(drawn, { kind: "unplanned", headline: "INFEASIBLE: link_1 touches post; so", reason: "", proved: true, plates: [], ms: {} });
+  await channel.last("proof").end();
+  assert.equal(isStale(cell.standing), true);
+  assert.deepEqual([0, 1].map((plate) => plateState(cell.answers, plate).word), ["Not planned", "Not planned"]);
+  assert.deepEqual(blamedBodies(cell.answers, cell.answers.cell!), [1]);
+  const refused = { kind: "refused", words: "no", key: "obstacle[1].size_m", line: null, ms: {} } as const;
+  assert.deepEqual(blamedBodies({ ...cell.answers, unplanned: null, refused }, cell.answers.cell!), [2]);
+  assert.equal(plateState({ ...cell.answers, unplanned: null, refused }, 0).word, "Not planned");
 });

@@ -66,7 +66,7 @@ export class Asking {
   }
 }
 
-export const CELL = { kind: "cell", arm: null, arm_id: "a", plates: [{ name: "plate_0" }, { name: "plate_1" }], listed: false, findings: [], ms: {} };
+export const CELL = { kind: "cell", arm: null, arm_id: "a", plates: [{ name: "plate 1" }, { name: "plate 2" }], surroundings: { obstacles: [], base_circle_m: null, polygon_m: null }, listed: false, findings: [], ms: {} };
 export const PLAN = { kind: "plan", headline: "planned", ms: { plan: 5 } };
 export const PROOF = { kind: "proof", headline: "PROVED", certificate: { passes: true }, proved: [], ms: {} };
 export const PREVIEW = { kind: "preview", plates: [{ plate: 1, chance: "unwashable", words: "" }], ms: {} };

@@ -100,7 +100,7 @@ export function standing(answers: Answers): Standing {
 
 function previewWords(preview: Of<"preview">, { cell }: Answers): string {
   const names = (chance: string): string[] =>
-    preview.plates.filter((one) => one.chance === chance).map(({ plate }) => cell?.plates[plate]?.name ?? `plate ${plate}`);
+    preview.plates.filter((one) => one.chance === chance).map(({ plate }) => cell?.plates[plate]?.name ?? `plate ${plate + 1}`);
   const [no, open] = [names("unwashable"), names("unclear")];
   if (no.length > 0) return `A guess before planning: ${listed(no)} may not be washable there.`;
   if (open.length > 0) return `A guess before planning: whether ${listed(open)} can be washed is unclear.`;
@@ -118,6 +118,33 @@ export function activity(answers: Answers): Activity {
   return answers.preview === null && answers.cell === null ? "previewing" : "planning";
 }
 
+/** What is said while something is being typed. */
+export const NOT_APPLIED: Verdict = { tone: "none", word: "Not applied", sentence: "What is typed is not applied yet. Press Enter, or Ctrl+Enter in the text; Escape gives it up." };
+
+/** Whether there is a change that no plan has, and none is on its way. */
+export function isStale({ kind }: Standing): boolean {
+  return kind === "refused" || kind === "unplanned" || kind === "failed" || kind === "lost";
+}
+
+/** Bodies among those that stand around that the reason for no plan names, or that a refused key is of. */
+export function blamedBodies({ refused, unplanned }: Answers, { surroundings, moves }: CellDrawn): number[] {
+  const words = [unplanned?.headline ?? "", ...(unplanned?.plates.flatMap(({ words, causes }) => [words, ...causes]) ?? [])].join("\n");
+  const section = /^obstacle\[\d+\]/.exec(refused?.key ?? "")?.[0];
+  return surroundings.obstacles.flatMap(({ name }, body) => {
+    const isOf = section !== undefined && moves.bodies[body]?.key?.startsWith(`${section}.`) === true;
+    return isOf || names(words, name) ? [body] : [];
+  });
+}
+
+/** Whether words name a thing, and not one whose name is longer. */
+function names(words: string, name: string): boolean {
+  const isPart = (letter: string | undefined): boolean => letter !== undefined && /[\w]/.test(letter);
+  for (let at = words.indexOf(name); name !== "" && at >= 0; at = words.indexOf(name, at + 1)) {
+    if (!isPart(words[at - 1]) && !isPart(words[at + name.length])) return true;
+  }
+  return false;
+}
+
 /** Never better than what was answered; a proof speaks for itself. */
 export function editVerdict({ kind, words }: Standing, answers: Answers, view: View): Verdict {
   switch (kind) {
@@ -129,9 +156,7 @@ export function editVerdict({ kind, words }: Standing, answers: Answers, view: V
     case "preview":
       return { tone: "none", word: "Preview", sentence: words };
     case "unplanned":
-      return answers.unplanned?.proved === true
-        ? { tone: "violated", word: "Cannot be washed", sentence: words }
-        : { tone: "not_proved", word: "No plan found", sentence: words };
+      return unplannedVerdict(answers, words);
     case "refused":
       return { tone: "violated", word: "Refused", sentence: `${words.replace(/[.!?]?$/, ".")} What is shown is of before.` };
     case "lost":
@@ -139,6 +164,16 @@ export function editVerdict({ kind, words }: Standing, answers: Answers, view: V
     case "failed":
       return { tone: "violated", word: "Failed", sentence: words };
   }
+}
+
+/** Plates by name where some are to blame, whose rows give the reasons; otherwise the reason. */
+function unplannedVerdict({ unplanned, cell }: Answers, words: string): Verdict {
+  const known = unplanned?.proved === true;
+  const plates = unplanned?.plates.map(({ plate }) => cell?.plates[plate]?.name ?? `plate ${plate + 1}`) ?? [];
+  const tone = known ? "violated" : "not_proved";
+  if (plates.length === 0) return { tone, word: known ? "Cannot be planned" : "No plan found", sentence: words.replace(/^[A-Z ]+: /, "") };
+  const sentence = known ? `${listed(plates)} cannot be washed there.` : `no way was found to wash ${listed(plates)}.`;
+  return { tone, word: known ? "Cannot be washed" : "No plan found", sentence };
 }
 
 /** What is known of a plate, in a word and a tone. */
@@ -157,10 +192,11 @@ export interface PlateState {
 const OPEN: PlateState = { tone: "none", word: "Being looked at", words: "", causes: [], nearest_m: undefined, searched_m: 0 };
 
 export function plateState(answers: Answers, plate: number): PlateState {
-  const { unplanned, places, proof, plan, preview } = answers;
+  const { unplanned, places, proof, plan, preview, refused, failed } = answers;
+  if (refused !== null || failed !== null) return { ...OPEN, tone: "not_proved", word: "Not planned" };
   if (unplanned !== null) {
     const one = unplanned.plates.find((row) => row.plate === plate);
-    if (one === undefined) return { ...OPEN, word: "Waits for another plate" };
+    if (one === undefined) return { ...OPEN, tone: "not_proved", word: "Not planned" };
     const place = places.find((row) => row.plate === plate);
     return {
       tone: one.proved ? "violated" : "not_proved",

@@ -147,7 +147,6 @@ export class CellPanel {
   readonly #rows: Row[] = [];
   readonly #all: HTMLButtonElement;
   readonly #findings = el("ul", { class: "plain findings" });
-  readonly #standing = el("p", { class: "edit-standing" });
   readonly #mapWords = el("span", { set: { role: "status" } });
   readonly #map: HTMLElement;
   readonly #hint = el("p", { class: "summary" });
@@ -161,10 +160,11 @@ export class CellPanel {
       if (event.key !== "Enter" && actions.key(event)) event.preventDefault();
     });
     const add = button({ class: "button text-button" }, () => commands.add(), "Add plate");
+    const obstacle = button({ class: "button text-button", title: "Add a box that stands around; its size is in the text" }, () => commands.addObstacle(), "Add obstacle");
     const hide = button({ class: "button text-button", title: "Hide the map (Escape)" }, () => actions.clearMap(), "Hide the map");
     this.#map = el("div", { class: "map-words" }, this.#mapWords, hide);
     this.#map.hidden = true;
-    this.element = el("div", { class: "cell-panel" }, this.#standing, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, this.#all), this.#hint);
+    this.element = el("div", { class: "cell-panel" }, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, obstacle, this.#all), this.#hint);
   }
 
   show(cell: Cell, selected: Selection, mapWords: string | null): void {
@@ -173,12 +173,7 @@ export class CellPanel {
     if (now.every((one, k) => one === this.#shown[k])) return;
     this.#shown = now;
     const names = seen.drawn?.plates ?? [];
-    this.#showRows(centres.map((centre, k) => ({ name: names[k]?.name ?? `plate_${k}`, centre, state: plateState(answers, k) })), selected);
-    // The header has room for a line only.
-    const { kind, words } = cell.standing;
-    const bad = kind === "refused" || kind === "failed" || kind === "lost" || kind === "unplanned" || kind === "not proved";
-    this.#standing.hidden = !bad;
-    this.#standing.replaceChildren(isolated(bad ? words : ""));
+    this.#showRows(centres.map((centre, k) => ({ name: names[k]?.name ?? `plate ${k + 1}`, centre, state: plateState(answers, k) })), selected);
     this.#all.setAttribute("aria-pressed", String(selected === "all"));
     this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, isolated(words))));
     this.#map.hidden = mapWords === null;

@@ -152,6 +152,15 @@ export class Cell {
     if (this.#history.commit({ text, edits: [] }, label)) this.#elsewhere();
   }
 
+  /** Adds lines at the end of the text. */
+  append(lines: string, label: string): void {
+    this.#endDrag();
+    this.#burst = null;
+    const { text, edits } = this.#history.version;
+    const end = text.includes("\r\n") ? "\r\n" : "\n";
+    if (this.#history.commit({ text: `${text.trimEnd()}${end}${end}${lines.replaceAll("\n", end)}`, edits }, label)) this.#ask();
+  }
+
   /** Goes a step back; false where there is none. */
   undo(): boolean {
     this.cancelDrag();

@@ -1,11 +1,16 @@
 /** Commands of a live cell: what pointers, keys and buttons do to its plates. */
 import type { EditActions, Editing, Selection } from "../scene/editing.ts";
-import type { Centre, Phase } from "../scene/handles.ts";
+import { marksHeight } from "../scene/floor.ts";
+import { type Centre, type Phase, stepped } from "../scene/handles.ts";
 import { announce } from "../shell/dom.ts";
 import type { View } from "../view.ts";
+import type { CellDrawn } from "./answers.ts";
 import type { Cell } from "./cell.ts";
 import { onFloor, plateIndices, roomFor, shifted, turned } from "./placing.ts";
 import type { ToolbarActions } from "./toolbar.ts";
+
+/** Edges of a box that is added [m]. */
+const BOX_M = [0.08, 0.08, 0.2] as const;
 
 export class Commands implements EditActions {
   readonly #cell: Cell;
@@ -97,7 +102,7 @@ export class Commands implements EditActions {
     const nearest = this.#cell.answers.places.find((place) => place.plate === plate)?.nearest_m;
     if (!nearest) return;
     this.place(plate, nearest, "Take the nearest place of");
-    announce(`plate ${plate} put at ${nearest.map((c) => c.toFixed(3)).join(", ")} m`);
+    announce(`${this.#plateName(plate)} put at ${nearest.map((c) => c.toFixed(3)).join(", ")} m`);
   }
 
   place(plate: number, centre: Centre, verb = "Move"): void {
@@ -113,7 +118,7 @@ export class Commands implements EditActions {
     const from = typeof this.#selected === "number" ? this.#selected : step === 1 ? -1 : 0;
     const next = (from + step + count) % count;
     this.select(next);
-    announce(`plate ${next} selected`);
+    announce(`${this.#plateName(next)} selected`);
   }
 
   /** Shifts what is selected to the right and upwards on the screen. */
@@ -144,11 +149,28 @@ export class Commands implements EditActions {
   add(): void {
     const { drawn } = this.#cell.seen;
     if (drawn === null || !this.#isFree(this.#cell.centres.length + 1)) return;
-    const keepOff = (drawn.surroundings.base_circle_m ?? 0.2) + 0.01;
-    const room = roomFor(this.#cell.centres, Math.max(0.001, ...drawn.radius_m), this.#axis(), keepOff);
+    const room = this.#roomIn(drawn);
     this.#cell.place([...this.#cell.centres, room], "Add a plate");
     this.select(this.#cell.centres.length - 1);
-    announce(`plate ${this.#cell.centres.length - 1} added at ${room.map((c) => c.toFixed(3)).join(", ")} m`);
+    announce(`plate ${this.#cell.centres.length} added at ${room.map((c) => c.toFixed(3)).join(", ")} m`);
+  }
+
+  /** Adds a box that stands where the plates do, beside them. */
+  addObstacle(): void {
+    const { drawn } = this.#cell.seen;
+    if (drawn === null) return;
+    const { obstacles } = drawn.surroundings;
+    const room = this.#roomIn(drawn, obstacles.map(({ pose: { position_m: [x, y] } }): Centre => [x, y]));
+    const name = Array.from(obstacles, (_, k) => `box ${k + 1}`).find((free) => !obstacles.some((one) => one.name === free)) ?? `box ${obstacles.length + 1}`;
+    const at = [...room, stepped(marksHeight(drawn) + BOX_M[2] / 2, 1e3)];
+    this.#cell.append(`[[obstacle]]\nname = "${name}"\nshape = "box"\nsize_m = [${BOX_M.join(", ")}]\nat_m = [${at.join(", ")}]\n`, `Add ${name}`);
+    announce(`${name} added at ${at.map((c) => c.toFixed(3)).join(", ")} m`);
+  }
+
+  /** A free place near the arm, beside all plates and other places. */
+  #roomIn(drawn: CellDrawn, others: readonly Centre[] = []): Centre {
+    const keepOff = (drawn.surroundings.base_circle_m ?? 0.2) + 0.01;
+    return roomFor([...this.#cell.centres, ...others], Math.max(0.001, ...drawn.radius_m), this.#axis(), keepOff);
   }
 
   remove(plate: Selection): void {
@@ -159,7 +181,7 @@ export class Commands implements EditActions {
     const label = this.#label("Remove", [plate]);
     this.select(this.#selected === "all" ? "all" : null);
     this.#cell.place(centres, label);
-    announce(`plate ${plate} removed; ${centres.length} left, numbered anew`);
+    announce(`plate ${plate + 1} removed; ${centres.length} left, numbered anew`);
   }
 
   #nameOf(body: number): string {
@@ -185,7 +207,11 @@ export class Commands implements EditActions {
   #label(verb: string, plates: readonly number[]): string {
     const [only] = plates;
     if (plates.length !== 1 || only === undefined) return `${verb} ${plates.length} plates`;
-    return `${verb} ${this.#cell.seen.drawn?.plates[only]?.name ?? `plate_${only}`}`;
+    return `${verb} ${this.#plateName(only)}`;
+  }
+
+  #plateName(plate: number): string {
+    return this.#cell.seen.drawn?.plates[plate]?.name ?? `plate ${plate + 1}`;
   }
 }
 

@@ -4,7 +4,7 @@ import { announce, byId } from "../shell/dom.ts";
 import type { Panel } from "../shell/panels.ts";
 import type { Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
-import { editVerdict } from "./answers.ts";
+import { editVerdict, isStale, NOT_APPLIED } from "./answers.ts";
 import { BROWSER_TIME } from "./asker.ts";
 import { CellPanel } from "./cell-panel.ts";
 import { Cell } from "./cell.ts";
@@ -51,7 +51,8 @@ export interface EditorHost {
   /** Of the scene's canvas [CSS px]. */
   size(): [number, number];
   replace(view: View): void;
-  say(verdict: Verdict): void;
+  /** `stale`: something is changed that the plan does not have. */
+  say(verdict: Verdict, stale: boolean): void;
 }
 
 /** How long a verdict stands before it is read out [ms]. */
@@ -129,6 +130,7 @@ export class Editor {
     document.documentElement.dataset["editing"] = "";
     this.#scene = this.#host.edit(this.#commands);
     byId("panels").prepend(this.#toolbar.element);
+    for (const type of ["input", "change", "focusout", "keyup"]) byId("panels").addEventListener(type, () => this.#touch());
     listenToEditKeys(canvas, {
       undo: () => this.#travel("Undone"),
       redo: () => this.#travel("Done again"),
@@ -241,9 +243,11 @@ export class Editor {
 
   #show(): void {
     const [cell, disk] = [this.#cell, this.#disk];
+    document.documentElement.toggleAttribute("data-dragging", cell.dragging);
     const { answers, standing, seen } = cell;
     const unsaved = this.#file !== null && disk.unsaved;
-    this.#host.say(editVerdict(standing, answers, this.#shown.view));
+    const typing = byId("panels").querySelector('[data-dirty="true"]') !== null;
+    this.#host.say(typing ? NOT_APPLIED : editVerdict(standing, answers, this.#shown.view), typing || isStale(standing));
     const { undoes, redoes } = cell.history;
     this.#toolbar.show({ undoes, redoes, activity: cell.state, file: this.#file, unsaved, saving: disk.saving, notice: this.#notice.words });
     this.#cellPanel.show(cell, this.#commands.selected, this.#map.words);

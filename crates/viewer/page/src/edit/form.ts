@@ -138,7 +138,7 @@ export class KeyRow {
       input.focus();
       this.#onValue(key.path, null);
     }, "reset");
-    const name = key.path.slice(key.path.lastIndexOf(".") + 1);
+    const name = FIRST.includes(key.path) ? key.path : key.path.slice(key.path.lastIndexOf(".") + 1);
     const given = key.default === null ? "" : `; ${valueText(key.default)} where it is not stated`;
     this.element = el(
       "div",
@@ -230,8 +230,9 @@ function stem(word: string): string {
   return word.length > 5 ? word.replace(/(ing|ed|es|s)$/, "") : word;
 }
 
-/** Sections that are open from the start. */
-const OPEN: ReadonlySet<string> = new Set(["", "job", "tool", "layout", "wash"]);
+/** Keys that people change most: they are in front of all sections. */
+const FIRST = ["wash.speed_m_s", "wash.lift_m", "wash.clearance_m", "wash.tilt_max_deg", "tool.sponge_radius_m", "tool.sponge_compression_m", "seed"];
+const FIRST_NAME = "Most changed";
 
 interface Section {
   element: HTMLDetailsElement;
@@ -250,17 +251,18 @@ export class Form {
   readonly element: HTMLElement;
   readonly #rows: KeyRow[];
   readonly #sections: Section[];
-  readonly #search = el("input", { class: "key-search", set: { type: "search", placeholder: "Search keys", "aria-label": "Search keys", autocomplete: "off", spellcheck: "false" } });
+  readonly #search = el("input", { class: "key-search", set: { type: "search", placeholder: "Search all settings by name or meaning", "aria-label": "Search keys", autocomplete: "off", spellcheck: "false" } });
   readonly #none = el("p", { class: "summary", set: { role: "status" } });
   #shown: FormShown | null = null;
 
   constructor(keys: readonly Key[], onValue: (key: string, value: Value | null) => void) {
     this.#rows = keys.map((key) => new KeyRow(key, onValue));
-    const sections = new Map<string, KeyRow[]>();
+    const sections = new Map<string, KeyRow[]>([[FIRST_NAME, []]]);
     for (const row of this.#rows) {
-      const name = row.key.path.slice(0, Math.max(0, row.key.path.lastIndexOf(".")));
+      const name = FIRST.includes(row.key.path) ? FIRST_NAME : row.key.path.slice(0, Math.max(0, row.key.path.lastIndexOf(".")));
       sections.set(name, [...(sections.get(name) ?? []), row]);
     }
+    sections.get(FIRST_NAME)?.sort((a, b) => FIRST.indexOf(a.key.path) - FIRST.indexOf(b.key.path));
     this.#sections = [...sections].map(([name, rows]) => section(name, rows));
     this.#search.addEventListener("input", () => this.#filter());
     this.#none.hidden = true;
@@ -305,9 +307,10 @@ export class Form {
 }
 
 function section(name: string, rows: KeyRow[]): Section {
-  const open = OPEN.has(name);
-  const title = el("summary", {}, name === "" ? "Top level" : name);
-  const fields = el("fieldset", {}, el("legend", { class: "spoken" }, name === "" ? "Top level" : name), ...rows.map(({ element }) => element));
+  const open = name === FIRST_NAME;
+  const words = name === "" ? "Top level" : name;
+  const title = el("summary", {}, words, open ? null : el("span", { class: "key-count" }, String(rows.length)));
+  const fields = el("fieldset", {}, el("legend", { class: "spoken" }, words), ...rows.map(({ element }) => element));
   const made: Section = { element: el("details", { class: "key-section" }, title, fields), rows, open };
   made.element.open = open;
   title.addEventListener("click", () => {

@@ -2,7 +2,7 @@
 import type { Editing } from "../scene/editing.ts";
 import type { Centre } from "../scene/handles.ts";
 import type { View } from "../view.ts";
-import type { Answers, CellDrawn, PlanLine, ProofLine } from "./answers.ts";
+import { type Answers, blamedBodies, type CellDrawn, type PlanLine, type ProofLine } from "./answers.ts";
 import type { Cell } from "./cell.ts";
 
 /** Makes views out of answers. The same answers give the same view, and the same arm the same object. */
@@ -70,6 +70,7 @@ export class CellShown {
   #chances: Answers["preview"] | null = null;
   #unplanned: Answers["unplanned"] = null;
   #places: Answers["places"] = [];
+  #blamed = "";
 
   constructor(first: View, scene: () => Editing | null, replace: (view: View) => void) {
     this.#view = first;
@@ -138,6 +139,11 @@ export class CellShown {
       this.#scene()?.offending(unplanned?.plates.map(({ plate, free_m, dead_m }) => ({ plate, free_m, dead_m })) ?? []);
       if (unplanned !== null) this.#scene()?.chances(unplanned.plates.map(({ plate, proved }) => ({ plate, chance: proved ? "unwashable" : "unclear" })));
       else if (seen.preview === null) this.#scene()?.chances([]);
+    }
+    const blamed = dragging || this.#cell === null ? NONE : blamedBodies(answers, this.#cell);
+    if (String(blamed) !== this.#blamed) {
+      this.#blamed = String(blamed);
+      this.#scene()?.refuse(blamed);
     }
     const places = unplanned === null ? NONE : answers.places;
     if (places === this.#places) return;

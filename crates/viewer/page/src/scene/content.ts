@@ -1,6 +1,7 @@
 /** All that is drawn of a document, and how another one takes its place: what says the same stays, the rest is made anew. */
-import { Group, type Object3D } from "three";
+import { Group, type Object3D, Vector3 } from "three";
 import { decodeCoverage } from "../coverage.ts";
+import { plateNumber } from "../format.ts";
 import { Kinematics } from "../motion.ts";
 import type { View } from "../view.ts";
 import { ArmGraph, CommandedTip, FrameAxes } from "./arm.ts";
@@ -11,6 +12,7 @@ import type { Palette } from "./palette.ts";
 import { Paths } from "./paths.ts";
 import { Plates } from "./plates.ts";
 import { ProofBodies } from "./proof.ts";
+import { PlateNumbers } from "./signs.ts";
 import type { Studio } from "./stage.ts";
 import { ToolGraph } from "./tool.ts";
 import { type Extent, extentOf } from "./views.ts";
@@ -96,6 +98,7 @@ const NOTHING: Kept = {
 export class Content {
   readonly root = new Group();
   readonly plates: Plates;
+  readonly numbers = new PlateNumbers();
   readonly #axes = new FrameAxes();
   readonly #studio: Studio;
   readonly #retired: Retired;
@@ -136,6 +139,7 @@ export class Content {
     }
     if (!kept.plates) {
       this.plates.replace(view.plates);
+      this.numbers.replace(this.plates.objects.map((one, k) => ({ ...one, number: plateNumber(view.plates, k) })), new Vector3(...view.arm.mount.position_m));
       this.tool.setPlates(view.plates);
     }
     if (!kept.planned) this.plates.cover("planned", view.coverage.map(decodeCoverage));

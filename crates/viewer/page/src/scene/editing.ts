@@ -73,6 +73,7 @@ export class Editing {
   /** The body that is selected among those that stand around, and where one is shown elsewhere. */
   #body: number | null = null;
   #put: { body: number; centre_m: Centre } | null = null;
+  #refused: readonly number[] = [];
 
   constructor(surface: Surface, actions: EditActions) {
     this.#surface = surface;
@@ -100,6 +101,7 @@ export class Editing {
     if (typeof this.#selection === "number" && this.#selection >= count) this.#selection = null;
     if (this.#body !== null && this.#surface.content.obstacles.placeOf(this.#body) === null) this.#body = null;
     this.#surface.content.obstacles.select(this.#body);
+    this.#surface.content.obstacles.refuse(this.#refused);
     this.#hovered = null;
     this.#preview = null;
     if (!this.dragging) this.#put = null;
@@ -122,6 +124,13 @@ export class Editing {
   selectBody(body: number | null): void {
     this.#body = body;
     this.#surface.content.obstacles.select(body);
+    this.#surface.changed(false);
+  }
+
+  /** Draws bodies that stand around as refused, and no others. */
+  refuse(bodies: readonly number[]): void {
+    this.#refused = bodies;
+    this.#surface.content.obstacles.refuse(bodies);
     this.#surface.changed(false);
   }
 

@@ -13,11 +13,11 @@ import type { CoverageKind } from "./plates.ts";
 import { ClearanceLine } from "./proof.ts";
 import { Mark } from "./signs.ts";
 import { Stage, Studio } from "./stage.ts";
-import { type Preset, Views } from "./views.ts";
+import { type Preset, type Room, Views } from "./views.ts";
 
 export type { Layer } from "./content.ts";
 export { SceneError } from "./stage.ts";
-export { PRESETS, type Preset } from "./views.ts";
+export { PRESETS, type Preset, type Room } from "./views.ts";
 
 /** A moment. */
 export interface Shown {
@@ -59,6 +59,7 @@ export class Scene {
   readonly #quick = matchMedia("(prefers-reduced-motion: reduce)");
   #theme: Theme;
   #size = { width: 1, height: 1, dpr: 1 };
+  #room: Room = { top: 0, bottom: 1 };
   #shown: Shown | null = null;
   #nearest: ClearanceNow | null = null;
   #editing: Editing | null = null;
@@ -224,6 +225,7 @@ export class Scene {
     const [halfHeight, pixel] = [this.#halfHeight, (2 * this.#halfHeight) / this.#size.height];
     this.#clearance.face(this.#camera, this.#scratch, halfHeight / 0.268);
     this.#mark.setScale(pixel);
+    this.#content.numbers.setScale(pixel);
     this.#editing?.face(this.#camera, this.#scratch, halfHeight / 0.268, pixel);
     const distance = this.#camera.position.distanceTo(this.#controls.target);
     this.#content.paths.setScale(this.#size.height / (2 * distance * halfHeight));
@@ -259,13 +261,12 @@ export class Scene {
     return (this.#dirty || late || owed) && !this.#lost;
   }
 
-  /** Fits the drawing to its canvas, CSS pixels and device pixels a CSS pixel. */
-  resize(width: number, height: number, dpr: number): void {
+  /** Fits the drawing to its canvas, CSS pixels and device pixels a CSS pixel; `room` is what nothing covers of it. */
+  resize(width: number, height: number, dpr: number, room = this.#room): void {
     this.#size = { width: Math.max(1, width), height: Math.max(1, height), dpr };
+    this.#room = room;
     this.#stage.resize(width, height, dpr);
-    this.#camera.aspect = this.#size.width / this.#size.height;
-    this.#camera.updateProjectionMatrix();
-    this.#views.refit();
+    this.#views.resize(this.#size.width, this.#size.height, room);
     this.#dirty = true;
   }
 

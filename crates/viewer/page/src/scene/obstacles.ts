@@ -16,7 +16,6 @@ function isFloor(body: Body): boolean {
 /** The obstacles but the floor. */
 export class Obstacles {
   readonly root = new Group();
-  readonly #plain: MeshStandardMaterial[] = [];
   /** What is drawn of each body; nothing of the floor. */
   readonly #meshes: (Mesh | null)[];
   /** Where each body is. */
@@ -24,6 +23,8 @@ export class Obstacles {
   readonly #caster = new Raycaster();
   readonly #held = new Color();
   #selected: number | null = null;
+  #refused: readonly number[] = [];
+  readonly #colours = { plain: new Color(), refused: new Color() };
 
   constructor(bodies: readonly Body[], studio: Studio) {
     this.#poses = bodies.map(({ pose }) => matrixOf(pose));
@@ -31,7 +32,6 @@ export class Obstacles {
       if (isFloor(body)) return null;
       const flat = body.shape === "half_space";
       const material = studio.material({ roughness: 0.7, ...(flat ? { transparent: true, opacity: 0.25, depthWrite: false, side: DoubleSide } : {}) });
-      this.#plain.push(material);
       const mesh = fix(new Mesh(geometryOf(body.shape, "rounded"), material), body.pose);
       mesh.castShadow = !flat;
       mesh.receiveShadow = true;
@@ -73,6 +73,12 @@ export class Obstacles {
     });
   }
 
+  /** Draws bodies as refused, and no others. */
+  refuse(bodies: readonly number[]): void {
+    this.#refused = bodies;
+    this.#meshes.forEach((mesh, k) => (mesh?.material as MeshStandardMaterial | undefined)?.color.copy(this.#colours[bodies.includes(k) ? "refused" : "plain"]));
+  }
+
   /** A box about all obstacles with an end, empty without any. */
   bounds(): Box3 {
     const box = new Box3();
@@ -81,7 +87,9 @@ export class Obstacles {
   }
 
   setPalette(palette: Palette): void {
-    for (const material of this.#plain) material.color.set(palette.obstacle);
+    this.#colours.plain.set(palette.obstacle);
+    this.#colours.refused.set(palette.sign.unwashable);
+    this.refuse(this.#refused);
     this.#held.set(palette.selected);
     this.select(this.#selected);
   }

@@ -1,6 +1,7 @@
 /** Plates: porcelain, with the coverage on the face. */
-import { type BufferGeometry, Color, DataTexture, FloatType, Group, LinearFilter, Matrix4, Mesh, type MeshStandardMaterial, RGBAFormat, RGFormat, SRGBColorSpace } from "three";
+import { type BufferGeometry, Color, DataTexture, FloatType, Group, LinearFilter, Matrix4, Mesh, type MeshStandardMaterial, type Object3D, RGBAFormat, RGFormat, SRGBColorSpace } from "three";
 import { colormap, type Coverage, dwellScale } from "../coverage.ts";
+import { matrixOf } from "../motion.ts";
 import type { Plate } from "../view.ts";
 import { fix, type Retired } from "./graph.ts";
 import type { Solid } from "./handles.ts";
@@ -95,6 +96,11 @@ export class Plates {
       this.#shapes.delete(key);
     }
     this.#kind = null;
+  }
+
+  /** What draws each plate, and the plate as the document has it. */
+  get objects(): (Solid & { object: Object3D })[] {
+    return this.#drawn.map(({ plate, mesh }) => ({ object: mesh, ...solidOf(plate, matrixOf(plate.pose)) }));
   }
 
   /** Shapes are freed apart, as plates share them. */

@@ -1,5 +1,5 @@
 /** Signs of one size on the screen, before everything else: over plates a cross or a question mark, and the mark at a place to look at. */
-import { CanvasTexture, Group, Sprite, SpriteMaterial, type Vector3Tuple } from "three";
+import { CanvasTexture, Group, type Matrix4, type Object3D, Sprite, SpriteMaterial, type Vector3, type Vector3Tuple } from "three";
 import type { Solid } from "./handles.ts";
 import type { Palette } from "./palette.ts";
 
@@ -43,11 +43,11 @@ function target(context: CanvasRenderingContext2D): void {
   circle(context, 6, 12, "white");
 }
 
-/** A white letter on a disc. */
-function letter(context: CanvasRenderingContext2D, text: string, colour: string): void {
+/** White letters on a disc, so large as a share of it. */
+function letter(context: CanvasRenderingContext2D, text: string, colour: string, size = 0.62): void {
   circle(context, 0.42 * PIXELS, 8, "white", colour);
   context.fillStyle = "white";
-  context.font = `bold ${0.62 * PIXELS}px sans-serif`;
+  context.font = `bold ${size * PIXELS}px sans-serif`;
   context.textAlign = "center";
   const { actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } = context.measureText(text);
   context.fillText(text, 0, (up - down) / 2);
@@ -79,6 +79,54 @@ export class Mark {
   setScale(pixel: number): void {
     this.sprite.scale.setScalar(MARK_PX * pixel);
   }
+}
+
+/** Of a plate's number [CSS px], and how far outside the rim it is [m]. */
+const NUMBER_PX = 19;
+const OUTSIDE_M = 0.016;
+/** Numbers that are drawn: with more plates nobody reads them. */
+const MOST_NUMBERS = 99;
+const NUMBER_COLOUR = "#3a4651";
+
+/** Plates' numbers at their rims. */
+export class PlateNumbers {
+  readonly #materials = new Map<string, SpriteMaterial>();
+  #sprites: Sprite[] = [];
+
+  /** Puts numbers beside plates, each within the object that draws its plate. `base` is where the arm stands, world frame. */
+  replace(plates: readonly { number: string; object: Object3D; pose: Matrix4; rim_m: number }[], base: Vector3): void {
+    for (const sprite of this.#sprites) sprite.removeFromParent();
+    this.#sprites = plates.length > MOST_NUMBERS ? [] : plates.map(({ number, object, pose, rim_m }) => {
+      const sprite = new Sprite(this.#materialOf(number));
+      sprite.renderOrder = 7;
+      sprite.position.copy(outwards(pose, base).multiplyScalar(rim_m + OUTSIDE_M));
+      object.add(sprite);
+      return sprite;
+    });
+  }
+
+  #materialOf(number: string): SpriteMaterial {
+    const known = this.#materials.get(number) ?? new SpriteMaterial({
+      map: picture((context) => letter(context, number, NUMBER_COLOUR, number.length > 1 ? 0.46 : 0.62)),
+      sizeAttenuation: false,
+      toneMapped: false,
+    });
+    this.#materials.set(number, known);
+    return known;
+  }
+
+  /** Keeps their size where a CSS pixel is so much of the picture at distance 1. No allocation. */
+  setScale(pixel: number): void {
+    for (const sprite of this.#sprites) sprite.scale.setScalar(NUMBER_PX * pixel);
+  }
+}
+
+/** The direction along a face, plate frame, that leads away from the base; upwards on a face that looks at the base. */
+function outwards(pose: Matrix4, base: Vector3): Vector3 {
+  const inverse = pose.clone().invert();
+  const along = base.clone().applyMatrix4(inverse).negate().setZ(0);
+  if (along.length() < 0.05) along.set(0, 0, 1).transformDirection(inverse).setZ(0);
+  return along.length() < 1e-6 ? along.set(1, 0, 0) : along.normalize();
 }
 
 /** Signs over plates of which something is said. */

@@ -4,7 +4,7 @@ import type { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js
 import { Kinematics, matrixOf } from "../motion.ts";
 import { floats } from "../numbers.ts";
 import type { View } from "../view.ts";
-import { PATCH_M, patchAt } from "./floor.ts";
+import { patchAt } from "./floor.ts";
 
 /** How thick an arm is reckoned about the frames of its joints [m]. */
 const THICK_M = 0.09;
@@ -18,7 +18,20 @@ export interface Extent {
   points: Vector3[];
   box: Box3;
   sphere: Sphere;
+  /** How far the overview is turned about the vertical [rad]. */
+  facing: number;
 }
+
+const UP = new Vector3(0, 0, 1);
+
+/** The part of the canvas that nothing covers, as shares of it from its upper left corner. */
+export interface Room {
+  top: number;
+  bottom: number;
+}
+
+/** How far beyond the rim a plate's number reaches [m]. */
+const BEYOND_M = 0.03;
 
 function platePoints(view: View): Vector3[] {
   return view.plates.flatMap((plate) => {
@@ -26,7 +39,8 @@ function platePoints(view: View): Vector3[] {
     const pose = matrixOf(plate.pose);
     return Array.from({ length: 8 }, (_, i) => {
       const angle = (i * Math.PI) / 4;
-      return new Vector3(rim[0] * Math.cos(angle), rim[0] * Math.sin(angle), rim[1]).applyMatrix4(pose);
+      const radius = rim[0] + BEYOND_M;
+      return new Vector3(radius * Math.cos(angle), radius * Math.sin(angle), rim[1]).applyMatrix4(pose);
     });
   });
 }
@@ -48,11 +62,12 @@ function motionPoints(view: View): Vector3[] {
   return points;
 }
 
-/** The arm's foot, and the corners of the patch where it stands on one. */
-function floorPoints(view: View): Vector3[] {
+/** Half of the edge of the square that an arm's foot is reckoned as [m]. */
+const FOOT_M = 0.2;
+
+function footPoints(view: View): Vector3[] {
   const mount = matrixOf(view.arm.mount);
-  const square = (half: number): Vector3[] => [-half, half].flatMap((x) => [-half, half].map((y) => new Vector3(x, y, 0).applyMatrix4(mount)));
-  return [...square(0.2), ...(patchAt(view) === null ? [] : square(PATCH_M))];
+  return [-FOOT_M, FOOT_M].flatMap((x) => [-FOOT_M, FOOT_M].map((y) => new Vector3(x, y, 0).applyMatrix4(mount)));
 }
 
 /** Corners of a box of a size that can be shown. */
@@ -62,13 +77,40 @@ function corners(box: Box3): Vector3[] {
   return ends.flatMap(({ x }) => ends.flatMap(({ y }) => ends.map(({ z }) => new Vector3(x, y, z))));
 }
 
-/** What a document's picture has to hold: arm, plates, and `obstacles` as a box. */
+/** How far beyond arm and plates obstacles are in the picture [m]. */
+const BESIDE_M = 0.03;
+
+/** What a document's picture has to hold: the arm's whole sweep, the plates, and what is beside them of a box about all `obstacles`. */
 export function extentOf(view: View, obstacles: Box3): Extent {
   const drawable = (point: Vector3): boolean => point.toArray().every((x) => Number.isFinite(x) && Math.abs(x) < FARTHEST_M);
-  const rims = platePoints(view).filter(drawable);
-  const points = [...floorPoints(view), ...rims, ...motionPoints(view), ...corners(obstacles)].filter(drawable);
+  const points = [...footPoints(view), ...platePoints(view), ...motionPoints(view)].filter(drawable);
+  const near = new Box3().setFromPoints(points).expandByScalar(BESIDE_M);
+  points.push(...corners(obstacles.clone().intersect(near)));
   const box = new Box3().setFromPoints(points);
-  return { points, box, sphere: box.getBoundingSphere(new Sphere()) };
+  return { points, box, sphere: box.getBoundingSphere(new Sphere()), facing: facingOf(view) };
+}
+
+/** Turns of the overview about the vertical that are tried [deg], the preferred first. */
+const TURNS_DEG = [0, -20, 20, -40, 40, -60, 60, -80, 80, -100, 100, -120, 120, -140, 140, -160, 160, 180];
+/** Share of the faces that another turn has to show in addition, to the first and to one tried before. */
+const WORTH = 0.15;
+const WORTH_THEN = 0.01;
+/** Half of the width of what an arm is taken to hide behind its foot [m]. */
+const HIDES_M = 0.15;
+
+/** The turn of the overview about the vertical from which the plates' faces are seen best [rad]. */
+function facingOf(view: View): number {
+  const foot = new Vector3(...view.arm.mount.position_m);
+  const plates = view.plates.map(({ pose }) => ({ normal: new Vector3(0, 0, 1).transformDirection(matrixOf(pose)), at: new Vector3(...pose.position_m).sub(foot) }));
+  const seen = (turn: number): number => {
+    const eye = new Vector3(...DIRECTIONS.overview.from).normalize().applyAxisAngle(UP, turn);
+    const side = UP.clone().cross(eye).normalize();
+    const hidden = ({ at }: { at: Vector3 }): boolean => at.dot(eye.clone().setZ(0)) < 0 && Math.abs(at.dot(side)) < HIDES_M;
+    return plates.reduce((sum, plate) => sum + (hidden(plate) ? 0 : Math.max(0, plate.normal.dot(eye))), 0) / Math.max(1, plates.length);
+  };
+  const turns = TURNS_DEG.map((turn) => ({ turn: (turn * Math.PI) / 180, share: seen((turn * Math.PI) / 180) }));
+  const [first] = turns;
+  return turns.reduce((best, one) => (one.share > best.share + (best === first ? WORTH : WORTH_THEN) ? one : best)).turn;
 }
 
 export type Preset = "overview" | "above" | "front" | "side" | "follow";
@@ -121,15 +163,15 @@ function centred(points: readonly Vector3[], axis: Vector3, back: Vector3, d: nu
   return middle;
 }
 
-/** The nearest stand in a direction from which all points are in a picture of that aspect. */
-function standFor(points: readonly Vector3[], from: Vector3, fov_deg: number, aspect: number): Stand {
+/** The nearest stand in a direction from which all points are in a picture of that aspect, in the share `height` of its height. */
+function standFor(points: readonly Vector3[], from: Vector3, fov_deg: number, aspect: number, height: number): Stand {
   const back = from.clone().normalize();
-  const right = new Vector3(0, 0, 1).cross(back);
+  const right = UP.clone().cross(back);
   if (right.lengthSq() < 1e-12) right.set(1, 0, 0);
   right.normalize();
   const up = back.clone().cross(right);
-  const tall = FILL * Math.tan((fov_deg * Math.PI) / 360);
-  const wide = tall * aspect;
+  const half = FILL * Math.tan((fov_deg * Math.PI) / 360);
+  const [tall, wide] = [half * height, half * aspect];
   // Of x ≤ wide (d − depth) for all points on either side, d and the middle follow; likewise for y.
   let d = 0;
   const middle = [0, 0];
@@ -171,6 +213,7 @@ export class Views {
   /** Whether the camera stands still whatever happens. */
   #held = false;
   #placing = false;
+  #room: Room = { top: 0, bottom: 1 };
   readonly #tip = new Vector3();
   readonly #step = new Vector3();
 
@@ -196,8 +239,11 @@ export class Views {
     this.#fly(this.#standOf(preset), atOnce);
   }
 
-  /** Shows all again after the picture's shape has changed, unless a reader has moved the camera. */
-  refit(): void {
+  /** The picture has another size or room, whose middle the camera looks at: shows all again, unless a reader has moved the camera. */
+  resize(width: number, height: number, room: Room): void {
+    this.#room = room;
+    this.#camera.aspect = width / height;
+    this.#camera.setViewOffset(width, height, 0, (height * (1 - room.top - room.bottom)) / 2, width, height);
     if (!this.#moved) this.go(this.#preset, true);
   }
 
@@ -223,7 +269,8 @@ export class Views {
     this.#camera.updateMatrixWorld();
     return points.every((point) => {
       const { x, y } = this.#step.copy(point).project(this.#camera);
-      return Math.abs(x) <= 1 && Math.abs(y) <= 1;
+      const down = (1 - y) / 2;
+      return Math.abs(x) <= 1 && down >= this.#room.top && down <= this.#room.bottom;
     });
   }
 
@@ -238,8 +285,9 @@ export class Views {
   #standOf(preset: Preset): Stand {
     const { from, fov_deg } = DIRECTIONS[preset];
     const direction = new Vector3(...from);
+    if (preset === "overview") direction.applyAxisAngle(UP, this.#extent.facing);
     if (preset !== "follow") {
-      return standFor(this.#extent.points, direction, fov_deg, this.#camera.aspect);
+      return standFor(this.#extent.points, direction, fov_deg, this.#camera.aspect, this.#room.bottom - this.#room.top);
     }
     const narrow = Math.max(1, 1 / this.#camera.aspect);
     return { target: this.#tip.clone(), eye: this.#tip.clone().addScaledVector(direction.normalize(), FOLLOW_M * narrow), fov_deg };

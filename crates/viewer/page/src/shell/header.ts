@@ -1,5 +1,5 @@
-/** The strip above everything: the verdict first, then the plan's name and time; and the state of a live run. */
-import { fixed, quantity } from "../format.ts";
+/** The strip above everything: what the page is with its verdict, what that rests on, time and hash; and the state of a live run. */
+import { counted, fixed, quantity } from "../format.ts";
 import type { LivePhase } from "../live.ts";
 import type { Player } from "../player.ts";
 import { statusWord, type Verdict, verdict, washed } from "../verdict.ts";
@@ -27,18 +27,34 @@ function copyButton(text: string): HTMLButtonElement {
   }, icon("copy"));
 }
 
-function facts(view: View): HTMLElement[] {
+/** Cycle time and hash of a plan; `before` says of which one. */
+function facts(view: View, before: string): HTMLElement[] {
   const { heading, certificate } = view;
   const list: HTMLElement[] = [];
-  if (view.motion !== null) list.push(fact("cycle", quantity(heading.duration_s, 2, "s")));
-  if (heading.process !== null) list.push(fact("seed", String(heading.seed)));
-  list.push(fact("arm", isolated(heading.robot)));
+  if (view.motion !== null) list.push(fact(`${before}cycle`, quantity(heading.duration_s, 2, "s")));
   if (heading.hash !== null) {
     const altered = certificate !== null && certificate.hash !== "proved" ? ` (${statusWord(certificate.hash).toLowerCase()})` : "";
     const short = el("code", { title: heading.hash }, heading.hash.slice(0, 10));
-    list.push(fact("hash", short, altered, copyButton(heading.hash)));
+    list.push(fact(`${before}hash`, short, altered, copyButton(heading.hash)));
   }
   return list;
+}
+
+const KINDS = { wash: "Wash plan", paper: "The paper’s program" } as const;
+
+/** What the page shows, before its verdict; of a dry run its headline says that first. */
+function subject({ heading }: View, edited: boolean): string {
+  if (heading.dry_run !== null) return "";
+  const kind = heading.process === null ? "Configuration" : edited ? "Live cell" : KINDS[heading.process];
+  return `${kind} “${heading.scenario}”: `;
+}
+
+const ASSUMED = "assumed: ";
+
+/** The first assumption of a proof, and how many more there are. */
+function assumptions(view: View): { first: string; more: number } | null {
+  const [first, ...others] = (view.certificate?.rests_on ?? []).filter((line) => line.startsWith(ASSUMED));
+  return first === undefined ? null : { first: first.slice(ASSUMED.length), more: others.length };
 }
 
 function same(a: Verdict, b: Verdict): boolean {
@@ -49,45 +65,43 @@ function same(a: Verdict, b: Verdict): boolean {
 export class Header {
   readonly #root = byId("header");
   readonly #badges = el("div", { class: "badges" });
-  readonly #sentence = el("p", { class: "sentence" });
-  readonly #scenario = el("h1", { class: "scenario" });
+  readonly #sentence = el("h1", { class: "sentence" });
+  readonly #rests = el("p", { class: "rests" });
   readonly #facts = el("dl", { class: "facts" });
+  readonly #toAssumptions: () => void;
   #view: View;
+  /** The last document with a plan. */
+  #planned: View;
   /** What is to be said in place of the view's own verdict. */
   #said: Verdict | null = null;
+  /** Whether something is changed that the plan does not have. */
+  #stale = false;
 
-  constructor(view: View, tools: readonly HTMLElement[]) {
-    this.#view = view;
+  constructor(view: View, tools: readonly HTMLElement[], toAssumptions: () => void) {
+    this.#view = this.#planned = view;
+    this.#toAssumptions = toAssumptions;
     this.#root.replaceChildren(
       this.#badges,
-      el("div", { class: "heading" }, this.#scenario, this.#sentence),
+      el("div", { class: "heading" }, this.#sentence, this.#rests),
       this.#facts,
       el("div", { class: "tools" }, ...tools),
     );
-    this.#name();
     this.update();
   }
 
   /** Is about another document. */
   replace(view: View): void {
-    const other = JSON.stringify(view.heading) !== JSON.stringify(this.#view.heading) || view.certificate?.hash !== this.#view.certificate?.hash;
     this.#view = view;
-    if (other) this.#name();
+    if (view.motion !== null) this.#planned = view;
     this.update();
   }
 
-  /** Says a verdict in place of the document's own; null for that again. */
-  say(said: Verdict | null): void {
-    if (said !== null && this.#said !== null && same(said, this.#said)) return;
+  /** Says a verdict in place of the document's own; null for that again. `stale`: something is changed that the plan does not have. */
+  say(said: Verdict | null, stale: boolean): void {
+    if (said !== null && this.#said !== null && same(said, this.#said) && stale === this.#stale) return;
     this.#said = said;
+    this.#stale = stale;
     this.update();
-  }
-
-  #name(): void {
-    const name = this.#view.heading.scenario;
-    this.#scenario.title = name.slice(0, TITLE);
-    this.#scenario.replaceChildren(isolated(`“${name}”`));
-    this.#facts.replaceChildren(...facts(this.#view));
   }
 
   /** Again from the view, whose execution a live run completes. */
@@ -97,11 +111,25 @@ export class Header {
     this.#root.className = `tone-${of.tone === "proved" && result?.tone === "violated" ? "violated" : of.tone}`;
     this.#badges.replaceChildren(badge(of));
     if (result !== null) this.#badges.append(badge(result, "badge-small"));
-    this.#sentence.replaceChildren(isolated(of.sentence));
-    this.#sentence.title = of.sentence;
+    const words = of.sentence.replace(VERDICT, "");
+    this.#sentence.replaceChildren(isolated(subject(this.#view, this.#said !== null)), isolated(words));
+    this.#sentence.title = of.sentence.slice(0, TITLE);
+    this.#showRests(this.#stale ? null : assumptions(this.#view));
+    this.#facts.replaceChildren(...facts(this.#stale ? this.#planned : this.#view, this.#stale ? "last valid " : ""));
+    this.#facts.classList.toggle("stale", this.#stale);
     document.documentElement.dataset["verdict"] = of.tone;
   }
+
+  #showRests(of: { first: string; more: number } | null): void {
+    this.#rests.hidden = of === null;
+    if (of === null) return;
+    const all = button({ class: "link" }, this.#toAssumptions, of.more === 0 ? "Details" : counted(of.more, "more assumption"));
+    this.#rests.replaceChildren("This rests on: ", isolated(of.first), "; ", all);
+  }
 }
+
+/** The verdict at the begin of a headline, which the badge says. */
+const VERDICT = /^(NOT )?PROVED[^:]*: /;
 
 const WORDS: Record<LivePhase, string> = {
   connecting: "connecting …",

@@ -1,7 +1,8 @@
-/** The requirements with their results, broken ones first; what is proved of the contact with each plate; what the verdict rests on, and whose work is in the page. */
+/** The requirements with their results in groups, broken ones first; what is proved of the contact with each plate; what the verdict rests on, and whose work is in the page. */
 import { fixed, fixedShort, percentDown, quantity } from "../format.ts";
-import { RANK, statusWord, summary, verdict } from "../verdict.ts";
-import type { Certificate, Check, Contact, PlateContact, Status, View } from "../view.ts";
+import { grouped, measureWords, shareOf } from "../limits.ts";
+import { statusWord, summary, verdict } from "../verdict.ts";
+import type { Certificate, Check, Contact, PlateContact, View } from "../view.ts";
 import { button, el, icon, isolated, toneIcon } from "./dom.ts";
 import { keyTable } from "./keys.ts";
 
@@ -30,7 +31,7 @@ function row(view: View, asked: Contact["asked"], proved: PlateContact): HTMLEle
   return el(
     "tr",
     {},
-    el("th", { set: { scope: "row" } }, isolated(view.plates[proved.plate]?.name ?? `plate ${proved.plate}`)),
+    el("th", { set: { scope: "row" } }, isolated(view.plates[proved.plate]?.name ?? `plate ${proved.plate + 1}`)),
     share(proved.pressed, asked.share),
     share(proved.time, asked.time_share),
     share(proved.dose, asked.dose_share),
@@ -82,8 +83,12 @@ export function contactTable(view: View, contact: Contact): HTMLElement[] {
   ];
 }
 
-function statusCell(status: Status): HTMLElement {
-  return el("span", { class: `status tone-${status}` }, toneIcon(status), statusWord(status));
+/** How much of its limit a bound takes, as a bar. */
+function limitBar(share: number | null): HTMLElement | null {
+  if (share === null) return null;
+  const fill = el("span", { class: "bar-fill" });
+  fill.style.transform = `scaleX(${Math.min(1, share).toFixed(4)})`;
+  return el("span", { class: "bar", title: `${Math.ceil(100 * share - 1e-6)}\u202f% of the limit` }, fill);
 }
 
 /** Whether all that there is to say is that it is proved. */
@@ -142,23 +147,27 @@ export class Requirements {
       this.element.append(el("p", { class: "notice tone-violated" }, toneIcon("violated"), words));
     }
     this.element.append(el("p", { class: "summary" }, summary(certificate)));
-    const checks = [...certificate.checks].sort((a, b) => RANK[a.status] - RANK[b.status]);
-    const brief = checks.filter(isBrief);
-    const rows = checks.filter((check) => !isBrief(check)).map((check) => this.#row(check));
-    this.element.append(el("ul", { class: "checks" }, ...rows));
-    if (certificate.contact !== null) this.element.append(...contactTable(view, certificate.contact));
-    if (brief.length === 0) return;
-    const items = brief.map((check) => el("li", {}, toneIcon("proved"), check.words));
-    this.element.append(el("h3", { class: "brief-title" }, "Proved, with nothing to measure"), el("ul", { class: "brief" }, ...items));
+    for (const { name, checks } of grouped(certificate.checks)) {
+      const kept = checks.filter(({ status }) => status === "proved").length;
+      const brief = checks.filter(isBrief);
+      this.element.append(
+        el("h3", { class: "group-title" }, name, " ", el("span", { class: "group-count" }, `${kept} of ${checks.length} proved`)),
+        el("ul", { class: "checks" }, ...checks.filter((check) => !isBrief(check)).map((check) => this.#row(check))),
+        el("ul", { class: "brief", set: { "aria-label": "Proved, with nothing to measure" } }, ...brief.map((check) => el("li", {}, toneIcon("proved"), check.words))),
+      );
+      if (name === "Washed" && certificate.contact !== null) this.element.append(...contactTable(view, certificate.contact));
+    }
   }
 
   #row(check: Check): HTMLElement {
+    const { status, measure, words } = check;
     const row = el(
       "li",
-      { class: `check tone-${check.status}` },
-      statusCell(check.status),
-      el("span", { class: "requirement" }, check.words),
-      check.detail === "" ? null : el("span", { class: "detail" }, isolated(check.detail)),
+      { class: `check tone-${status}` },
+      el("span", { class: "requirement" }, toneIcon(status), el("span", { class: "spoken" }, `${statusWord(status)}: `), words),
+      measure === undefined ? el("span", { class: "measure" }, statusWord(status)) : el("span", { class: "measure" }, measureWords(measure)),
+      measure === undefined ? null : limitBar(shareOf(measure)),
+      check.detail === "" || (status === "proved" && measure !== undefined) ? null : el("span", { class: "detail" }, isolated(check.detail)),
       worstButton(check, this.#onSelect),
     );
     this.#rows.set(check, row);

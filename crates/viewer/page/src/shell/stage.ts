@@ -1,7 +1,7 @@
 /** The scene's place in the page: its canvas, its tools, a message where it cannot be drawn, and a still of it on paper. */
 import type { Theme } from "../palette.ts";
 import type { Follows } from "../player.ts";
-import { PRESETS, Scene, SceneError, type Layer } from "../scene/index.ts";
+import { PRESETS, Scene, SceneError, type Layer, type Room } from "../scene/index.ts";
 import type { View } from "../view.ts";
 import { announce, button, byId, el, icon } from "./dom.ts";
 
@@ -20,6 +20,9 @@ export function listenToPrint(canvas: HTMLCanvasElement, prepare: (printing: boo
   });
   addEventListener("afterprint", () => prepare(false));
 }
+
+/** Least share of the canvas's height that content is fitted into. */
+const LEAST_ROOM = 0.4;
 
 export interface StageActions {
   /** Something in the scene's look has changed. */
@@ -52,6 +55,8 @@ export class Stage {
   readonly #camera = el("select", { class: "camera", set: { "aria-label": "View (C)" } });
   readonly #follow: HTMLSelectElement | null;
   readonly #heat: HTMLButtonElement;
+  readonly #toolbarElement: HTMLElement;
+  readonly #readout: HTMLElement | null;
 
   constructor(view: View, theme: Theme, banner: HTMLElement, readout: HTMLElement | null, actions: StageActions) {
     this.#actions = actions;
@@ -70,7 +75,9 @@ export class Stage {
     this.#message.hidden = true;
     this.#follow = actions.follow === null ? null : this.#followSelect(actions.follow, view);
     this.scene = this.#create(view, theme);
-    const port = el("div", { class: "viewport" }, this.canvas, this.#message, this.#toolbar(view), this.#menu, banner);
+    this.#readout = readout;
+    this.#toolbarElement = this.#toolbar(view);
+    const port = el("div", { class: "viewport" }, this.canvas, this.#message, this.#toolbarElement, this.#menu, banner);
     this.root.replaceChildren(port, ...(readout === null ? [] : [readout]));
     this.#fillMenu();
     this.#watch();
@@ -88,9 +95,17 @@ export class Stage {
 
   /** Fits the drawing to its place. */
   fit(): void {
-    const { width, height } = this.canvas.getBoundingClientRect();
-    if (width > 0 && height > 0) this.scene?.resize(width, height, Math.min(2, devicePixelRatio));
+    const { top, width, height } = this.canvas.getBoundingClientRect();
+    if (width > 0 && height > 0) this.scene?.resize(width, height, Math.min(2, devicePixelRatio), this.#room(top, height));
     this.#actions.changed();
+  }
+
+  /** The part of the canvas that toolbar and readout leave free; all where little would be left. */
+  #room(canvas_top: number, height: number): Room {
+    const top = (this.#toolbarElement.getBoundingClientRect().bottom - canvas_top) / height;
+    const below = this.#readout?.getBoundingClientRect();
+    const bottom = below === undefined || below.height === 0 ? 1 : Math.min(1, (below.top - canvas_top) / height);
+    return bottom - top > LEAST_ROOM ? { top, bottom } : { top: 0, bottom: 1 };
   }
 
   camera(preset: string): void {
@@ -193,7 +208,8 @@ export class Stage {
   }
 
   #watch(): void {
-    new ResizeObserver(() => this.fit()).observe(this.canvas);
+    const observer = new ResizeObserver(() => this.fit());
+    for (const element of [this.canvas, this.#readout]) if (element !== null) observer.observe(element);
     this.canvas.addEventListener("webglcontextlost", () => this.#say("The graphics processor has taken the scene away; it comes back by itself."));
     this.canvas.addEventListener("webglcontextrestored", () => {
       this.#say(null);

@@ -257,6 +257,7 @@ export class Transport {
   readonly #scrubber: Scrubber;
   readonly #end = new TextCell();
   #duration = 0;
+  #held = false;
   #playing: boolean | null = null;
 
   constructor(view: View, duration: number, palette: Palette, actions: TransportActions) {
@@ -300,7 +301,13 @@ export class Transport {
     this.#duration = duration;
     this.#end.set(`${clockTime(duration, duration)} s`);
     byId("transport").classList.toggle("no-film", duration === 0);
-    this.#play.disabled = duration === 0;
+    this.hold(this.#held);
+  }
+
+  /** Whether the film must stand still. */
+  hold(on: boolean): void {
+    this.#held = on;
+    this.#play.disabled = on || this.#duration === 0;
   }
 
   update(t: number, edge: number, now: number): void {
