@@ -91,7 +91,7 @@ pub struct Axes {
 }
 
 /// Room that numbers and names need to the left of a frame, and below it \[px\].
-pub const ROOM: [f64; 2] = [84.0, 58.0];
+pub const ROOM: [f64; 2] = [92.0, 64.0];
 
 impl Axes {
     /// A diagram in a frame, with the least and the greatest number at its edges.
@@ -136,12 +136,12 @@ impl Axes {
         }
         if let Some(name) = below {
             for (tick, words) in across.iter().zip(tick_labels(&across)) {
-                drawing.text([self.across.at(*tick), bottom + 21.0], &words, &[SMALL, MIDDLE]);
+                drawing.text([self.across.at(*tick), bottom + 23.0], &words, &[SMALL, MIDDLE]);
             }
-            drawing.text([middle, bottom + 48.0], name, &[WORDS, MIDDLE]);
+            drawing.text([middle, bottom + 53.0], name, &[WORDS, MIDDLE]);
         }
         if let Some(name) = beside {
-            let turned = format!("transform=\"translate({:.1} {level:.1}) rotate(-90)\"", left - 66.0);
+            let turned = format!("transform=\"translate({:.1} {level:.1}) rotate(-90)\"", left - 72.0);
             drawing.group(&turned, |drawing| drawing.text([0.0; 2], name, &[WORDS, MIDDLE]));
         }
     }

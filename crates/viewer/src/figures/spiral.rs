@@ -21,7 +21,7 @@ const FEW: usize = 4;
 const CELLS: usize = 150;
 
 /// Room for words under a plate, and for its errors \[px\].
-const UNDER: f64 = 78.0;
+const UNDER: f64 = 82.0;
 const ERRORS: f64 = 290.0;
 
 /// The colour of swept or pressed area, and of the commanded path.
@@ -199,7 +199,11 @@ impl<'a> Panel<'a> {
 
     fn draw_texts(&self, drawing: &mut Drawing, cell: Rect, place: usize) {
         let [x, y] = [cell.at[0], cell.end()[1]];
-        drawing.text([x, y + 24.0], &format!("{}: plate {}", place + 1, self.index), &[BOLD]);
+        drawing.text(
+            [x, y + 24.0],
+            &format!("{}: plate {}", place + 1, self.index + 1),
+            &[BOLD],
+        );
         let Some(report) = self.subject.report else {
             return;
         };
@@ -209,11 +213,7 @@ impl<'a> Panel<'a> {
         }
         if let Some(tracking) = report.segments.get(self.segment) {
             let [rms, max] = [tracking.tracking.tip_m.rms, tracking.tracking.tip_m.max].map(millimetres);
-            drawing.text(
-                [x, y + 47.0],
-                &format!("error {rms} mm rms, {max} mm at most"),
-                &[SMALL],
-            );
+            drawing.text([x, y + 50.0], &format!("error ≤ {max} mm, {rms} rms"), &[SMALL]);
         }
         if self.subject.is_paper() {
             let far = self
@@ -223,7 +223,7 @@ impl<'a> Panel<'a> {
                 .fold(0.0, f64::max);
             let [far, rim] = [far, self.plate.rim_m()].map(|metres| 1e3 * metres);
             drawing.text(
-                [x, y + 68.0],
+                [x, y + 72.0],
                 &format!("{far:.0} mm from the centre at most, of {rim:.0}"),
                 &[SMALL],
             );
