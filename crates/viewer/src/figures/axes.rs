@@ -142,7 +142,7 @@ impl Axes {
         }
         if let Some(name) = beside {
             let turned = format!("transform=\"translate({:.1} {level:.1}) rotate(-90)\"", left - 72.0);
-            drawing.group(&turned, |drawing| drawing.text([0.0; 2], name, &[WORDS, MIDDLE]));
+            drawing.group(&turned, |drawing| drawing.text([0.0; 2], name, &[SMALL, MIDDLE]));
         }
     }
 

@@ -6,7 +6,7 @@ use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
 use super::page;
 use super::subject::{Subject, Track, per_cent, short};
-use super::svg::{BAD, Drawing, EXECUTED, GOOD, LINE, MIDDLE, Rect, SMALL, WORDS, fill, stroke, width};
+use super::svg::{BAD, Drawing, EXECUTED, GOOD, GREY, LINE, MIDDLE, Rect, SMALL, WORDS, fill, fitted, stroke, width};
 use crate::view::PressedRule;
 use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
@@ -157,14 +157,15 @@ impl Map {
         let [x, y] = [cell.middle()[0], cell.end()[1]];
         let what = if self.is_executed { "executed" } else { "planned" };
         let title = format!("{}: plate {}, {what}", self.place + 1, self.plate + 1);
-        drawing.text([x, y + 24.0], &title, &[SMALL, MIDDLE]);
+        let size = |words: &str| fitted(words, 18.0, cell.size[0] + 20.0);
+        drawing.text([x, y + 24.0], &title, &[&size(&title), &fill(GREY), MIDDLE]);
         if let Some((words, share, required)) = self.share(subject) {
             let look = fill(if reaches(share, required) { GOOD } else { BAD });
             let words = format!("{words}{}", per_cent(share));
             drawing.text(
                 [x, y + 51.0],
                 &words,
-                &["font-size=\"20\" font-weight=\"bold\"", &look, MIDDLE],
+                &[&size(&words), "font-weight=\"bold\"", &look, MIDDLE],
             );
         }
     }

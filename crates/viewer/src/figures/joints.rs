@@ -32,7 +32,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     let (left, wide) = (room.at[0] + ROOM[0], room.size[0] - ROOM[0]);
     let end = legend(&mut drawing, [left, room.at[1] - 4.0], wide, &entries(subject));
     let panels = panels(subject, &times);
-    let (top, gap) = (end + STRIP + 14.0, 16.0);
+    let (top, gap) = (end + STRIP + 14.0, 18.0);
     let height = (room.end()[1] - ROOM[1] - top + gap) / panels.len() as f64 - gap;
     for (k, panel) in panels.iter().enumerate() {
         let frame = Rect::new(left, top + k as f64 * (height + gap), wide, height);
@@ -108,7 +108,7 @@ fn clearance_panel(subject: &Subject<'_>, times: &[f64]) -> Option<Panel> {
     let line = seen.iter().map(|distance| distance.unwrap_or(far).min(far)).collect();
     least.is_finite().then(|| Panel {
         name: "gap [mm]",
-        range: [least.min(0.0) - 0.04 * far, far],
+        range: [least.min(0.0) - 0.08 * far, 1.08 * far],
         limits: vec![margin],
         words: format!("smallest distance, drawn up to {far:.0} mm; {margin:.0} mm must be kept"),
         lines: vec![(line, stroke(TRANSIT, 1.8))],
@@ -127,7 +127,7 @@ fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
     };
     Panel {
         // Room for the words above the limit.
-        range: [0.0, 1.32 * panel.range[1]],
+        range: [panel.range[0], 1.32 * panel.range[1]],
         limits: vec![washing, anywhere],
         words: limits + &beyond,
         ..panel

@@ -191,7 +191,7 @@ fn draw_paths(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
 /// The number of each plate.
 fn numbers(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     for (index, plate) in subject.plan.job.plates.iter().enumerate() {
-        let size = (0.4 * map.pixels(plate.rim_m())).clamp(9.0, 30.0);
+        let size = (0.4 * map.pixels(plate.rim_m())).clamp(9.0, 24.0);
         let [x, y] = map.spot(plate.centre_xy());
         let letters = format!("font-size=\"{size:.1}\" font-weight=\"bold\" fill=\"{INK}\"");
         drawing.circle([x, y], 0.78 * size, &outlined(PAPER, INK, 1.6));
@@ -218,7 +218,7 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
     };
     let mut row = |place: usize, cells: [String; 5], looks: [&str; 2]| {
         let y = room.at[1] + height * (place as f64 + 0.7);
-        for (k, (cell, right)) in cells.iter().zip([0.14, 0.32, 0.53, 0.74, 1.0]).enumerate() {
+        for (k, (cell, right)) in cells.iter().zip([0.14, 0.3, 0.5, 0.71, 1.0]).enumerate() {
             let look = looks[usize::from(k > 0)];
             drawing.text([room.at[0] + right * room.size[0], y], cell, &[look, END]);
         }
@@ -272,7 +272,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
         });
     }
     all.push(Entry::new(Sign::Dot, outlined(PAPER, INK, 2.6), "the tip at home"));
-    all.push(Entry::new(Sign::Field, ARM_LOOK, "the arm at home"));
+    all.push(Entry::new(Sign::Field, ARM_LOOK, "the arm with its tool at home"));
     if !outline::obstacles(&job.workcell).is_empty() {
         all.push(Entry::new(
             Sign::Field,

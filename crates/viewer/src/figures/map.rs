@@ -25,8 +25,8 @@ impl Map {
         let most = [room.size[0] - ROOM[0] - BESIDE, room.size[1] - ROOM[1]];
         let need = [1, 0].map(|k| high[k] - low[k] + 2.0 * WHITE_M);
         let scale = (most[0] / need[0]).min(most[1] / need[1]);
-        // No wider than there is something to see.
-        let size = [most[0].min(1.25 * need[0] * scale), most[1]];
+        // No larger than there is something to see.
+        let size = [0, 1].map(|k| most[k].min(1.25 * need[k] * scale));
         let frame = Rect::new(room.at[0] + ROOM[0], room.at[1], size[0], size[1]);
         let [across, up] = size.map(|size| 0.5 * size / scale);
         let [x, y] = [0, 1].map(|k| 0.5 * (low[k] + high[k]));

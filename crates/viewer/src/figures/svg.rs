@@ -253,6 +253,11 @@ pub fn width(words: &str, size: f64) -> f64 {
     words.chars().map(share).sum::<f64>() * size
 }
 
+/// The size at which a text is no wider than `most` \[px\], at most `size`.
+pub fn fitted(words: &str, size: f64, most: f64) -> String {
+    format!("font-size=\"{:.1}\"", size.min(size * most / width(words, size)))
+}
+
 /// A text in lines of a size, none wider than `most` \[px\] where words can be parted.
 pub fn lines(words: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();

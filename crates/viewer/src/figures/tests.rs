@@ -158,7 +158,7 @@ fn the_layout_has_the_plans_wash_paths_and_transits() {
         pixels / (planned[a] - planned[b]).xy().norm()
     };
     for (a, b) in [(0, 1), (0, 2), (1, 3)] {
-        assert!((scale(a, b) / scale(2, 3) - 1.0).abs() < 1e-3, "{a} {b}");
+        assert!((scale(a, b) / scale(2, 3) - 1.0).abs() < 2e-3, "{a} {b}");
     }
     // x of the world is up, y to the left.
     let (from, to) = (planned[0], planned[2]);
