@@ -1,6 +1,6 @@
 //! Diagrams: scales, ticks, grids and their words.
 
-use super::svg::{Drawing, END, LINE, MIDDLE, PAPER, Rect, SMALL, Spot, WORDS, fill, stroke};
+use super::svg::{Drawing, END, LINE, MIDDLE, PAPER, Rect, SMALL, Spot, fill, stroke};
 
 /// Scale from numbers to positions along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,7 +138,7 @@ impl Axes {
             for (tick, words) in across.iter().zip(tick_labels(&across)) {
                 drawing.text([self.across.at(*tick), bottom + 23.0], &words, &[SMALL, MIDDLE]);
             }
-            drawing.text([middle, bottom + 53.0], name, &[WORDS, MIDDLE]);
+            drawing.text([middle, bottom + 53.0], name, &[SMALL, MIDDLE]);
         }
         if let Some(name) = beside {
             let turned = format!("transform=\"translate({:.1} {level:.1}) rotate(-90)\"", left - 72.0);

@@ -218,7 +218,7 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
     };
     let mut row = |place: usize, cells: [String; 5], looks: [&str; 2]| {
         let y = room.at[1] + height * (place as f64 + 0.7);
-        for (k, (cell, right)) in cells.iter().zip([0.14, 0.3, 0.5, 0.71, 1.0]).enumerate() {
+        for (k, (cell, right)) in cells.iter().zip([0.14, 0.29, 0.48, 0.7, 1.0]).enumerate() {
             let look = looks[usize::from(k > 0)];
             drawing.text([room.at[0] + right * room.size[0], y], cell, &[look, END]);
         }

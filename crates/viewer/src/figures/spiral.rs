@@ -220,13 +220,13 @@ impl<'a> Panel<'a> {
         }
         if let Some(tracking) = report.segments.get(self.segment) {
             let [rms, max] = [tracking.tracking.tip_m.rms, tracking.tracking.tip_m.max].map(millimetres);
-            let words = format!("error {rms} mm rms, {max} mm at most");
+            let words = format!("error ≤ {max} mm, {rms} mm rms");
             text([x, y + 50.0], &words, 18.0, 1.0, &[&grey]);
         }
         if self.subject.is_paper() {
             let local = self.way.iter().map(|tip| self.plate.local(&tip.at).xy().norm());
             let [far, rim] = [local.fold(0.0, f64::max), self.plate.rim_m()].map(|metres| 1e3 * metres);
-            let words = format!("{far:.0} mm from the centre at most, of {rim:.0}");
+            let words = format!("≤ {far:.0} mm from the centre (rim {rim:.0})");
             text([x, y + 72.0], &words, 18.0, 1.0, &[&grey]);
         }
     }

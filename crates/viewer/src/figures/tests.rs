@@ -5,7 +5,8 @@ use super::svg::{Rect, width};
 use super::*;
 use nalgebra::Vector3;
 use platewash_certificate::{Certificate, prove};
-use platewash_kinematics::Pose;
+use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::{Pose, RobotModel};
 use platewash_planner::plan;
 use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
@@ -356,13 +357,38 @@ fn holds(outline: &Outline, at: [f64; 2]) -> bool {
     outline.iter().zip(next).all(|edge| left(edge) >= -1e-4)
 }
 
+/// An arm without visuals, whose collision shapes are small balls far apart.
+fn arm_of_balls() -> RobotModel {
+    let link = |k: usize| {
+        format!("<link name=\"l{k}\"><collision><geometry><sphere radius=\"0.01\"/></geometry></collision></link>")
+    };
+    let joint = |k: usize| {
+        let (to, axis, x) = (k + 1, ["0 0 1", "0 1 0"][k % 2], if k == 0 { 0.0 } else { 0.2 });
+        format!(
+            "<joint name=\"j{to}\" type=\"revolute\"><parent link=\"l{k}\"/><child link=\"l{to}\"/><origin xyz=\"{x} 0 0.1\"/>\
+             <axis xyz=\"{axis}\"/><limit lower=\"-3\" upper=\"3\" velocity=\"3\" effort=\"9\"/></joint>"
+        )
+    };
+    let parts: String = (0..=6).map(link).chain((0..6).map(joint)).collect();
+    let tool0 =
+        "<link name=\"tool0\"/><joint name=\"t\" type=\"fixed\"><parent link=\"l6\"/><child link=\"tool0\"/></joint>";
+    RobotModel::from_urdf(
+        &format!("<robot name=\"balls\">{parts}{tool0}</robot>"),
+        &MeshSource::none(),
+    )
+    .unwrap()
+}
+
 #[test]
 fn the_outline_of_an_arm_holds_its_frames_and_the_tip_for_every_mount() {
-    let (arm, terms) = (KNOWN.job.arm(), KNOWN.job.terms());
-    let tool = &terms.workcell.tool;
-    let q = terms.home_rad[0];
+    let terms = KNOWN.job.terms();
+    let (tool, q) = (&terms.workcell.tool, terms.home_rad[0]);
     let mounts = [Vector3::zeros(), Vector3::y() * FRAC_PI_2, Vector3::x() * PI].map(Pose::rotation);
-    for mount in mounts.map(|turned| Pose::translation(0.3, -0.2, 0.5) * turned) {
+    let mounts = mounts.map(|turned| Pose::translation(0.3, -0.2, 0.5) * turned);
+    for (arm, mount) in [KNOWN.job.arm(), &arm_of_balls()]
+        .into_iter()
+        .flat_map(|arm| mounts.map(|mount| (arm, mount)))
+    {
         let outlines = arm_outlines(arm, tool, &mount, &q);
         let poses = arm.fk(&q);
         let shown = |at: [f64; 2]| outlines.iter().any(|outline| holds(outline, at));
@@ -372,15 +398,20 @@ fn the_outline_of_an_arm_holds_its_frames_and_the_tip_for_every_mount() {
             assert!(shown(at), "{frame:?} at {at:?}");
         }
         assert!(!shown([5.0, 5.0]));
-        // The arm is in one piece: each outline meets one before it.
-        for (k, outline) in outlines.iter().enumerate().skip(1) {
-            let meets = |other: &Outline| {
-                let inside = |a: &Outline, b: &Outline| a.iter().any(|at| holds(b, *at));
-                inside(outline, other) || inside(other, outline) || crosses(outline, other)
-            };
-            assert!(outlines[..k].iter().any(meets), "{k} of {}", outlines.len());
+        // The arm is in one piece: all outlines are met from the first.
+        let mut apart: Vec<&Outline> = outlines.iter().collect();
+        let mut met = vec![apart.remove(0)];
+        while let Some(next) = apart.iter().position(|one| met.iter().any(|other| meet(one, other))) {
+            met.push(apart.remove(next));
         }
+        assert!(apart.is_empty(), "{}: {} outlines stand apart", arm.name(), apart.len());
     }
+}
+
+/// Checks for two outlines that have a place in common.
+fn meet(a: &Outline, b: &Outline) -> bool {
+    let inside = |a: &Outline, b: &Outline| a.iter().any(|at| holds(b, *at));
+    inside(a, b) || inside(b, a) || crosses(a, b)
 }
 
 /// Checks for edges of two outlines that cross.
