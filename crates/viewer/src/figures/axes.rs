@@ -146,7 +146,7 @@ impl Axes {
         }
     }
 
-    /// A dashed line across the frame at a limit.
+    /// A line across the frame at a limit.
     pub fn limit(&self, drawing: &mut Drawing, at: f64, look: &str) {
         let [left, right] = self.across.places;
         drawing.line([left, self.up.at(at)], [right, self.up.at(at)], look);

@@ -4,7 +4,7 @@ use super::axes::{Axes, ROOM};
 use super::page::{self, Entry, Sign, legend};
 use super::subject::{Subject, short};
 use super::svg::{
-    BAD, DASHED, Drawing, END, HOME, JOINTS, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width,
+    BAD, DOTTED, Drawing, END, HOME, JOINTS, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width,
 };
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
@@ -181,7 +181,7 @@ impl Panel {
                 );
             }
             for limit in &self.limits {
-                axes.limit(drawing, *limit, &(stroke(BAD, 1.4) + DASHED));
+                axes.limit(drawing, *limit, &(stroke(BAD, 1.4) + DOTTED));
             }
             for (values, look) in &self.lines {
                 let spots = times.iter().zip(values).map(|(&t, &value)| axes.at(t, value));
@@ -235,7 +235,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     let joint = |k: usize| Entry::new(Sign::Line, look(k), format!("joint {}", k + 1));
     let field = |kind, words| Entry::new(Sign::Field, fill(colour(kind)), words);
     let mut all: Vec<Entry> = (0..AXES).map(joint).collect();
-    all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DASHED, "limit"));
+    all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DOTTED, "limit"));
     all.push(field(SegmentKind::Wash, "washes"));
     all.push(field(SegmentKind::Transit, "transits"));
     all.push(field(SegmentKind::Depart, "from and to home"));
