@@ -12,7 +12,7 @@ use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
 use platewash::planner::suggest::Sector;
 use platewash::scenario::Suggestion;
-use platewash::viewer::figures::{RegionMap, draw_region};
+use platewash::viewer::figures::{RegionMap, arm_outlines, draw_region};
 use platewash::workcell::clearance::TouchingPairs;
 use platewash::workcell::workcell::Obstacle;
 use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
@@ -383,6 +383,7 @@ fn map(scenario: &Scenario, robot: &RobotModel, tool: &Tool, found: &Suggestion)
         sector: found.region.sector.map(|sector| (sector.rho_m, sector.azimuth_deg)),
         axis_m: [axis.x, axis.y],
         plate: (found.plate.centre_xy(), radius_m),
+        arm_m: arm_outlines(robot, tool, &scenario.robot.mount(), &found.home.q_rad()),
     }
 }
 

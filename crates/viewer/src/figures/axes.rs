@@ -1,6 +1,6 @@
 //! Diagrams: scales, ticks, grids and their words.
 
-use super::svg::{Drawing, END, LINE, MIDDLE, PAPER, Rect, SMALL, Spot, WORDS, fill, stroke};
+use super::svg::{Drawing, END, LINE, MIDDLE, PAPER, Rect, SMALL, Spot, fill, stroke};
 
 /// Scale from numbers to positions along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +91,7 @@ pub struct Axes {
 }
 
 /// Room that numbers and names need to the left of a frame, and below it \[px\].
-pub const ROOM: [f64; 2] = [84.0, 58.0];
+pub const ROOM: [f64; 2] = [92.0, 64.0];
 
 impl Axes {
     /// A diagram in a frame, with the least and the greatest number at its edges.
@@ -136,17 +136,17 @@ impl Axes {
         }
         if let Some(name) = below {
             for (tick, words) in across.iter().zip(tick_labels(&across)) {
-                drawing.text([self.across.at(*tick), bottom + 21.0], &words, &[SMALL, MIDDLE]);
+                drawing.text([self.across.at(*tick), bottom + 23.0], &words, &[SMALL, MIDDLE]);
             }
-            drawing.text([middle, bottom + 48.0], name, &[WORDS, MIDDLE]);
+            drawing.text([middle, bottom + 53.0], name, &[SMALL, MIDDLE]);
         }
         if let Some(name) = beside {
-            let turned = format!("transform=\"translate({:.1} {level:.1}) rotate(-90)\"", left - 66.0);
-            drawing.group(&turned, |drawing| drawing.text([0.0; 2], name, &[WORDS, MIDDLE]));
+            let turned = format!("transform=\"translate({:.1} {level:.1}) rotate(-90)\"", left - 72.0);
+            drawing.group(&turned, |drawing| drawing.text([0.0; 2], name, &[SMALL, MIDDLE]));
         }
     }
 
-    /// A dashed line across the frame at a limit.
+    /// A line across the frame at a limit.
     pub fn limit(&self, drawing: &mut Drawing, at: f64, look: &str) {
         let [left, right] = self.across.places;
         drawing.line([left, self.up.at(at)], [right, self.up.at(at)], look);

@@ -6,7 +6,7 @@ use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
 use super::page;
 use super::subject::{Subject, Track, per_cent, short};
-use super::svg::{BAD, Drawing, EXECUTED, GOOD, LINE, MIDDLE, Rect, SMALL, WORDS, fill, stroke, width};
+use super::svg::{BAD, Drawing, EXECUTED, GOOD, GREY, LINE, MIDDLE, Rect, SMALL, WORDS, fill, fitted, stroke, width};
 use crate::view::PressedRule;
 use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
@@ -63,9 +63,9 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     let step_s = step_s(&maps);
     let is_contact = maps.iter().all(|map| map.counted.is_some());
     key(&mut drawing, room, step_s, is_contact);
-    let field = Rect::new(room.at[0], room.at[1] + 52.0, room.size[0], room.size[1] - 52.0);
+    let field = Rect::new(room.at[0], room.at[1] + 58.0, room.size[0], room.size[1] - 58.0);
     let in_rows = tracks.len() == 2 && plates <= IN_ROWS;
-    let fields = Fields::new(field, maps.len(), in_rows.then_some(plates), 56.0);
+    let fields = Fields::new(field, maps.len(), in_rows.then_some(plates), 62.0);
     for map in &maps {
         let executed = usize::from(map.is_executed);
         let place = if in_rows {
@@ -156,15 +156,16 @@ impl Map {
         drawing.circle(cell.middle(), 0.5 * cell.size[0], &stroke(LINE, 2.0));
         let [x, y] = [cell.middle()[0], cell.end()[1]];
         let what = if self.is_executed { "executed" } else { "planned" };
-        let title = format!("{}: plate {}, {what}", self.place + 1, self.plate);
-        drawing.text([x, y + 24.0], &title, &[SMALL, MIDDLE]);
+        let title = format!("{}: plate {}, {what}", self.place + 1, self.plate + 1);
+        let size = |words: &str| fitted(words, 18.0, cell.size[0] + 20.0);
+        drawing.text([x, y + 24.0], &title, &[&size(&title), &fill(GREY), MIDDLE]);
         if let Some((words, share, required)) = self.share(subject) {
             let look = fill(if reaches(share, required) { GOOD } else { BAD });
             let words = format!("{words}{}", per_cent(share));
             drawing.text(
-                [x, y + 47.0],
+                [x, y + 51.0],
                 &words,
-                &["font-size=\"18\" font-weight=\"bold\"", &look, MIDDLE],
+                &[&size(&words), "font-weight=\"bold\"", &look, MIDDLE],
             );
         }
     }
@@ -217,16 +218,16 @@ fn key(drawing: &mut Drawing, room: Rect, step_s: f64, is_contact: bool) {
         true => ["no contact", "time in contact [s]"],
         false => ["missed", "time under the sponge [s]"],
     };
-    let ([left, y], [wide, high]) = (room.at, [92.0, 22.0]);
+    let ([left, y], [wide, high]) = (room.at, [64.0, 22.0]);
     drawing.rect(Rect::new(left, y, 40.0, high), &fill(MISSED));
     drawing.text([left + 50.0, y + 17.0], never, &[WORDS]);
     drawing.text([left + 180.0, y + 17.0], what, &[WORDS]);
-    let left = left + 200.0 + width(what, 18.0);
+    let left = left + 200.0 + width(what, 20.0);
     let starts: Vec<f64> = (0..STEPS.len()).map(|k| k as f64 * step_s).collect();
     for (k, (colour, start)) in STEPS.into_iter().zip(tick_labels(&starts)).enumerate() {
         let x = left + k as f64 * wide;
         drawing.rect(Rect::new(x, y, wide, high), &fill(colour));
-        drawing.text([x, y + high + 18.0], &start, &[SMALL, MIDDLE]);
+        drawing.text([x, y + high + 20.0], &start, &[SMALL, MIDDLE]);
     }
     drawing.text(
         [left + STEPS.len() as f64 * wide + 12.0, y + 17.0],

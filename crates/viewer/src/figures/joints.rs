@@ -3,7 +3,9 @@
 use super::axes::{Axes, ROOM};
 use super::page::{self, Entry, Sign, legend};
 use super::subject::{Subject, short};
-use super::svg::{BAD, DASHED, Drawing, END, INK, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width};
+use super::svg::{
+    BAD, DOTTED, Drawing, END, HOME, JOINTS, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width,
+};
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
 use platewash_workcell::trajectory::{JointState, SegmentKind};
@@ -15,17 +17,14 @@ const MOMENTS: usize = 1200;
 /// Height of the strip that names the segments of the motion \[px\].
 const STRIP: f64 = 26.0;
 
-/// Colours of the six joints.
-const SIX: [&str; AXES] = ["#1b1f24", "#e69f00", "#56b4e9", "#009e73", "#d55e00", "#9b4f96"];
-
 /// Share of the numbers that a diagram shows, where the others are so much greater that nothing else would be seen.
 const USUAL: f64 = 0.985;
 
 /// Draws it.
 pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     let caption = format!(
-        "Position: 0 % is a joint's lowest, 100 % its highest. Speed and acceleration: shares of the joint's limits; those of acceleration \
-         are the job's assumption. Drawn at {MOMENTS} moments, not a proof."
+        "In per cent of the joints' limits; position: −100 % at the lower limit, 100 % at the upper. Limits of acceleration are the job's \
+         assumption. Drawn at {MOMENTS} moments, not a proof."
     );
     let (mut drawing, room) = page::begin(&subject.texts("Joints and tip", caption));
     let duration = subject.motion.duration_s();
@@ -33,7 +32,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
     let (left, wide) = (room.at[0] + ROOM[0], room.size[0] - ROOM[0]);
     let end = legend(&mut drawing, [left, room.at[1] - 4.0], wide, &entries(subject));
     let panels = panels(subject, &times);
-    let (top, gap) = (end + STRIP + 14.0, 16.0);
+    let (top, gap) = (end + STRIP + 14.0, 18.0);
     let height = (room.end()[1] - ROOM[1] - top + gap) / panels.len() as f64 - gap;
     for (k, panel) in panels.iter().enumerate() {
         let frame = Rect::new(left, top + k as f64 * (height + gap), wide, height);
@@ -42,7 +41,7 @@ pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
             segments(&mut drawing, subject, &axes);
         }
         let below = (k + 1 == panels.len()).then_some("time [s]");
-        panel.draw(&mut drawing, &axes, &times, below);
+        panel.draw(&mut drawing, &axes, subject, &times, below);
     }
     drawing
 }
@@ -55,26 +54,35 @@ struct Panel {
     limits: Vec<f64>,
     /// Words at its upper edge.
     words: String,
-    lines: Vec<(Vec<f64>, &'static str)>,
+    /// Lines with their looks.
+    lines: Vec<(Vec<f64>, String)>,
+}
+
+/// The look of a joint's line, as on the page: joints 4 to 6 are dashed, so that colours are not all that tells them from 1 to 3.
+fn look(joint: usize) -> String {
+    let dashes = if joint < 3 { "" } else { " stroke-dasharray=\"7 4\"" };
+    stroke(JOINTS[joint], 1.8) + dashes
 }
 
 fn panels(subject: &Subject<'_>, times: &[f64]) -> Vec<Panel> {
     let limits = subject.arm.limits();
     let accelerations = &subject.plan.job.limits.joint_acceleration_rad_s2;
     let states: Vec<JointState> = times.iter().filter_map(|&t| subject.motion.at(t)).collect();
-    let of = |value: &dyn Fn(usize, &JointState) -> f64| -> Vec<(Vec<f64>, &'static str)> {
+    let of = |value: &dyn Fn(usize, &JointState) -> f64| -> Vec<(Vec<f64>, String)> {
         let line = |joint: usize| states.iter().map(|state| 100.0 * value(joint, state)).collect();
-        (0..AXES).map(|joint| (line(joint), SIX[joint])).collect()
+        (0..AXES).map(|joint| (line(joint), look(joint))).collect()
     };
     let position = of(&|joint, state| {
-        let [low, high] = limits.sampling_range(joint);
-        (state.q[joint] - low) / (high - low)
+        let (low, high) = (limits.lower[joint], limits.upper[joint]);
+        let share = (2.0 * state.q[joint] - low - high) / (high - low);
+        // In the middle wherever there is no limit.
+        if share.is_finite() { share } else { 0.0 }
     });
     let speed = of(&|joint, state| state.qd[joint] / limits.velocity[joint]);
     let acceleration = of(&|joint, state| state.qdd[joint] / accelerations[joint]);
     let tip = states.iter().map(|state| subject.tip_speed(&state.q, &state.qd));
     let mut all = vec![
-        Panel::new("position [%]", position, [0.0, 100.0]),
+        Panel::new("position [%]", position, [-100.0, 100.0]),
         Panel::new("speed [%]", speed, [-100.0, 100.0]),
         Panel::new("accel. [%]", acceleration, [-100.0, 100.0]),
         tip_panel(subject, tip.collect()),
@@ -100,17 +108,17 @@ fn clearance_panel(subject: &Subject<'_>, times: &[f64]) -> Option<Panel> {
     let line = seen.iter().map(|distance| distance.unwrap_or(far).min(far)).collect();
     least.is_finite().then(|| Panel {
         name: "gap [mm]",
-        range: [least.min(0.0) - 0.04 * far, far],
+        range: [least.min(0.0) - 0.08 * far, 1.08 * far],
         limits: vec![margin],
         words: format!("smallest distance, drawn up to {far:.0} mm; {margin:.0} mm must be kept"),
-        lines: vec![(line, INK)],
+        lines: vec![(line, stroke(TRANSIT, 1.8))],
     })
 }
 
 fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
     let terms = &subject.plan.job;
     let (anywhere, washing) = (terms.limits.tip_speed_m_s, terms.wash_speed_m_s());
-    let panel = Panel::new("tip [m/s]", vec![(speeds, INK)], [0.0, anywhere]);
+    let panel = Panel::new("tip [m/s]", vec![(speeds, stroke(TRANSIT, 1.8))], [0.0, anywhere]);
     let limits = format!("limits: {anywhere} m/s anywhere, {washing} m/s while it washes");
     let beyond = if panel.words.is_empty() {
         String::new()
@@ -119,7 +127,7 @@ fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
     };
     Panel {
         // Room for the words above the limit.
-        range: [0.0, 1.32 * panel.range[1]],
+        range: [panel.range[0], 1.32 * panel.range[1]],
         limits: vec![washing, anywhere],
         words: limits + &beyond,
         ..panel
@@ -129,7 +137,7 @@ fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
 impl Panel {
     /// A diagram of lines that must stay between two numbers. Its range has both numbers and all lines in it, except values much
     /// greater than nearly all of them.
-    fn new(name: &'static str, lines: Vec<(Vec<f64>, &'static str)>, limits: [f64; 2]) -> Self {
+    fn new(name: &'static str, lines: Vec<(Vec<f64>, String)>, limits: [f64; 2]) -> Self {
         let mut numbers: Vec<f64> = lines.iter().flat_map(|(line, _)| line.iter().copied()).collect();
         numbers.sort_by(f64::total_cmp);
         let at = |share: f64| numbers[(share * (numbers.len() - 1) as f64) as usize];
@@ -162,27 +170,35 @@ impl Panel {
         }
     }
 
-    fn draw(&self, drawing: &mut Drawing, axes: &Axes, times: &[f64], below: Option<&str>) {
+    fn draw(&self, drawing: &mut Drawing, axes: &Axes, subject: &Subject<'_>, times: &[f64], below: Option<&str>) {
+        let ([_, top], [_, height]) = (axes.frame.at, axes.frame.size);
         axes.draw(drawing, [12, 4], [below, Some(self.name)], |drawing| {
-            for limit in &self.limits {
-                axes.limit(drawing, *limit, &(stroke(BAD, 1.4) + DASHED));
+            for (_, wash) in subject.washes() {
+                let [from, to] = [wash.t_start_s, wash.t_end_s].map(|t| axes.across.at(t));
+                drawing.rect(
+                    Rect::new(from, top, to - from, height),
+                    &(fill(WASH) + " fill-opacity=\"0.07\""),
+                );
             }
-            for (values, colour) in &self.lines {
+            for limit in &self.limits {
+                axes.limit(drawing, *limit, &(stroke(BAD, 1.4) + DOTTED));
+            }
+            for (values, look) in &self.lines {
                 let spots = times.iter().zip(values).map(|(&t, &value)| axes.at(t, value));
-                drawing.lines(&[spots.collect()], &stroke(colour, 1.7));
+                drawing.lines(&[spots.collect()], look);
             }
         });
         if !self.words.is_empty() {
             let ([right, _], top) = (axes.frame.end(), axes.frame.at[1]);
-            let wide = width(&self.words, 15.0);
+            let wide = width(&self.words, 17.0);
             drawing.rect(
-                Rect::new(right - 16.0 - wide, top + 3.0, wide + 12.0, 21.0),
+                Rect::new(right - 16.0 - wide, top + 3.0, wide + 12.0, 23.0),
                 &fill(PAPER),
             );
             drawing.text(
-                [right - 10.0, top + 19.0],
+                [right - 10.0, top + 20.0],
                 &self.words,
-                &["font-size=\"15\"", &fill(BAD), END],
+                &["font-size=\"17\"", &fill(BAD), END],
             );
         }
     }
@@ -192,7 +208,8 @@ fn colour(kind: SegmentKind) -> &'static str {
     match kind {
         SegmentKind::Wash => WASH,
         SegmentKind::Approach | SegmentKind::Retreat => LIFT,
-        SegmentKind::Depart | SegmentKind::Transit | SegmentKind::Return => TRANSIT,
+        SegmentKind::Transit => TRANSIT,
+        SegmentKind::Depart | SegmentKind::Return => HOME,
     }
 }
 
@@ -203,24 +220,25 @@ fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
         let [from, to] = [segment.t_start_s, segment.t_end_s].map(|t| axes.across.at(t));
         let field = Rect::new(from, top, to - from, STRIP);
         drawing.rect(field, &fill(colour(segment.kind)));
-        let words = format!("plate {}", segment.plate);
-        if segment.kind == SegmentKind::Wash && width(&words, 15.0) < to - from - 8.0 {
+        let words = format!("plate {}", segment.plate + 1);
+        if segment.kind == SegmentKind::Wash && width(&words, 17.0) < to - from - 8.0 {
             drawing.text(
-                [field.middle()[0], top + 18.0],
+                [field.middle()[0], top + 19.0],
                 &words,
-                &["font-size=\"15\"", &fill(PAPER), MIDDLE],
+                &["font-size=\"17\"", &fill(PAPER), MIDDLE],
             );
         }
     }
 }
 
 fn entries(subject: &Subject<'_>) -> Vec<Entry> {
-    let joint = |k: usize| Entry::new(Sign::Line, stroke(SIX[k], 2.6), format!("joint {}", k + 1));
+    let joint = |k: usize| Entry::new(Sign::Line, look(k), format!("joint {}", k + 1));
     let field = |kind, words| Entry::new(Sign::Field, fill(colour(kind)), words);
     let mut all: Vec<Entry> = (0..AXES).map(joint).collect();
-    all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DASHED, "limit"));
+    all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DOTTED, "limit"));
     all.push(field(SegmentKind::Wash, "washes"));
     all.push(field(SegmentKind::Transit, "transits"));
+    all.push(field(SegmentKind::Depart, "from and to home"));
     if subject.has(SegmentKind::Approach) {
         all.push(field(SegmentKind::Approach, "down and up"));
     }

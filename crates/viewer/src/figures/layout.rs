@@ -1,13 +1,13 @@
 //! The workcell from above: plates in their order, washed areas, the paths between (the paper's Fig. 2).
 
 use super::axes::fixed;
-use super::map::Map;
-use super::outline::{self, Outline, solid};
+use super::map::{ARM_LOOK, Map};
+use super::outline::{self, Outline, arm_outlines, solid};
 use super::page::{self, Entry, Sign, legend};
 use super::subject::{Subject, Track, per_cent};
 use super::svg::{
     BOLD, DASHED, DOTTED, Drawing, END, EXECUTED, GREY, GROUND, INK, LIFT, LINE, MIDDLE, PAPER, Rect, SMALL, Spot,
-    TRANSIT, WASH, WORDS, fill, outlined, stroke,
+    TRANSIT, WASH, WORDS, outlined, stroke,
 };
 use crate::view::PressedRule;
 use crate::view::coverage::proved_share;
@@ -32,9 +32,8 @@ const LEVEL: f64 = 1e-6;
 /// Height of a row of the table of plates, at most \[px\].
 const ROW: f64 = 32.0;
 
-/// The colour of the arm, and of the bodies around it.
-const ARM: &str = "#f8c89f";
-const OBSTACLE: &str = "#d5d8df";
+/// The colour of the bodies around the arm.
+const OBSTACLE: &str = "#f1eadd";
 
 /// Halfway along a way, the head of an arrow.
 const ARROW: &str = "<defs><marker id=\"platewash-arrow\" markerWidth=\"9\" markerHeight=\"9\" refX=\"4\" refY=\"4\" orient=\"auto\">\
@@ -67,7 +66,7 @@ fn caption(subject: &Subject<'_>) -> String {
     } else {
         "Seen from above: the room's x leads up the page, its y to the left."
     };
-    format!("{from} Numbers say in which order the plates are washed.")
+    format!("{from} Numbers are the plates'; the table has them in the order of washing, along the arrows.")
 }
 
 /// Least and greatest x and y of everything that is drawn \[m\].
@@ -81,8 +80,10 @@ fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
         .chain(subject.followed.iter().flatten())
         .flatten();
     all.extend(tracks.map(|tip| ([tip.at.x, tip.at.y], 0.0)));
-    let base = subject.mount().translation.vector;
-    all.push(([base.x, base.y], subject.region.base_circle_m.unwrap_or(0.12)));
+    if let Some(radius_m) = subject.region.base_circle_m {
+        all.push((subject.mount().translation.vector.xy().into(), radius_m));
+    }
+    all.extend(arm(subject).into_iter().flatten().map(|corner| (corner, 0.0)));
     all.extend(subject.region.polygon_m.iter().flatten().map(|corner| (*corner, 0.0)));
     let bounds = |all: &[([f64; 2], f64)]| {
         let least = |k: usize| all.iter().map(|(at, r)| at[k] - r).fold(f64::INFINITY, f64::min);
@@ -125,11 +126,13 @@ fn ground(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
             inside.for_each(|knot| drawing.circle(at, map.pixels(knot.radius_m), &stroke("#dde2e8", 1.0)));
         }
     }
-    drawing.group("opacity=\"0.6\"", |drawing| {
-        for outline in outline::arm(subject.arm, subject.mount(), &job.home_rad[0]) {
-            drawing.polygon(&map.spots(&outline), &fill(ARM));
-        }
-    });
+    map.arm(drawing, &arm(subject));
+}
+
+/// The arm at home.
+fn arm(subject: &Subject<'_>) -> Vec<Outline> {
+    let job = &subject.plan.job;
+    arm_outlines(subject.arm, &job.workcell.tool, subject.mount(), &job.home_rad[0])
 }
 
 fn is_level(plate: &Plate) -> bool {
@@ -185,17 +188,14 @@ fn draw_paths(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     }
 }
 
-/// The place of each plate in the order of washing.
+/// The number of each plate.
 fn numbers(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
-    for (place, &index) in subject.plan.order.iter().enumerate() {
-        let Some(plate) = subject.plan.job.plates.get(index) else {
-            continue;
-        };
+    for (index, plate) in subject.plan.job.plates.iter().enumerate() {
         let size = (0.4 * map.pixels(plate.rim_m())).clamp(9.0, 24.0);
         let [x, y] = map.spot(plate.centre_xy());
         let letters = format!("font-size=\"{size:.1}\" font-weight=\"bold\" fill=\"{INK}\"");
         drawing.circle([x, y], 0.78 * size, &outlined(PAPER, INK, 1.6));
-        drawing.text([x, y + 0.36 * size], &format!("{}", place + 1), &[&letters, MIDDLE]);
+        drawing.text([x, y + 0.36 * size], &format!("{}", index + 1), &[&letters, MIDDLE]);
     }
 }
 
@@ -208,7 +208,7 @@ fn seen_apart<'s>(subject: &'s Subject<'_>) -> Option<(&'s Track, &'s Simulation
 /// The plates in their order, as many as there is room for.
 fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
     let order = &subject.plan.order;
-    let height = (room.size[1] / (order.len() + 1) as f64).clamp(24.0, ROW);
+    let height = (room.size[1] / (order.len() + 1) as f64).clamp(26.0, ROW);
     let shown = (room.size[1] / height) as usize;
     let has_contact = subject.plan.job.requirements.contact.is_some();
     let share = match (subject.certificate, has_contact) {
@@ -218,12 +218,12 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
     };
     let mut row = |place: usize, cells: [String; 5], looks: [&str; 2]| {
         let y = room.at[1] + height * (place as f64 + 0.7);
-        for (k, (cell, right)) in cells.iter().zip([0.1, 0.28, 0.48, 0.68, 0.96]).enumerate() {
+        for (k, (cell, right)) in cells.iter().zip([0.14, 0.29, 0.48, 0.7, 1.0]).enumerate() {
             let look = looks[usize::from(k > 0)];
             drawing.text([room.at[0] + right * room.size[0], y], cell, &[look, END]);
         }
     };
-    let head = ["", "plate", "x [m]", "y [m]", share].map(str::to_owned);
+    let head = ["order", "plate", "x [m]", "y [m]", share].map(str::to_owned);
     row(0, head, [SMALL; 2]);
     for (place, &index) in order.iter().enumerate().take(shown.saturating_sub(1)) {
         let Some(plate) = subject.plan.job.plates.get(index) else {
@@ -231,7 +231,7 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
         };
         let [x, y] = plate.centre_xy().map(|metres| fixed(metres, 3));
         let share = share_of(subject, plate, index).map_or_else(|| "–".to_owned(), per_cent);
-        let cells = [format!("{}", place + 1), format!("{index}"), x, y, share];
+        let cells = [format!("{}.", place + 1), format!("{}", index + 1), x, y, share];
         row(place + 1, cells, [BOLD, WORDS]);
     }
 }
@@ -272,7 +272,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
         });
     }
     all.push(Entry::new(Sign::Dot, outlined(PAPER, INK, 2.6), "the tip at home"));
-    all.push(Entry::new(Sign::Field, fill(ARM), "the arm at home"));
+    all.push(Entry::new(Sign::Field, ARM_LOOK, "the arm with its tool at home"));
     if !outline::obstacles(&job.workcell).is_empty() {
         all.push(Entry::new(
             Sign::Field,

@@ -1,13 +1,19 @@
 //! Maps from above: world x upwards, world y to the left, at one scale.
 
 use super::axes::{Axes, ROOM};
+use super::outline::Outline;
 use super::svg::{Drawing, Rect, Spot};
 
 /// White between the outermost thing and the frame \[m\].
 const WHITE_M: f64 = 0.05;
 
 /// Width of the texts beside a map \[px\].
-const BESIDE: f64 = 430.0;
+const BESIDE: f64 = 420.0;
+
+/// The arm's colour and that of its edge, and the look of both in a legend.
+const ARM: &str = "#d3d8de";
+const ARM_EDGE: &str = "#6b7783";
+pub const ARM_LOOK: &str = "fill=\"#d3d8de\" stroke=\"#6b7783\" stroke-width=\"1.4\"";
 
 /// A map of a part of the workcell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,13 +25,13 @@ impl Map {
         let most = [room.size[0] - ROOM[0] - BESIDE, room.size[1] - ROOM[1]];
         let need = [1, 0].map(|k| high[k] - low[k] + 2.0 * WHITE_M);
         let scale = (most[0] / need[0]).min(most[1] / need[1]);
-        // No wider than there is something to see.
-        let size = [most[0].min(1.25 * need[0] * scale), most[1]];
+        // No larger than there is something to see.
+        let size = [0, 1].map(|k| most[k].min(1.25 * need[k] * scale));
         let frame = Rect::new(room.at[0] + ROOM[0], room.at[1], size[0], size[1]);
         let [across, up] = size.map(|size| 0.5 * size / scale);
         let [x, y] = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
         let axes = Axes::new(frame, [y + across, y - across], [x - up, x + up]);
-        let beside = frame.end()[0] + 34.0;
+        let beside = frame.end()[0] + 28.0;
         (
             Self(axes),
             Rect::new(beside, room.at[1], room.end()[0] - beside, room.size[1]),
@@ -45,6 +51,14 @@ impl Map {
     /// Length on the page \[px\] of a length in metres.
     pub fn pixels(&self, length_m: f64) -> f64 {
         (self.0.up.at(length_m) - self.0.up.at(0.0)).abs()
+    }
+
+    /// Draws an arm as one outline, through which one sees what is below.
+    pub fn arm(&self, drawing: &mut Drawing, outlines: &[Outline]) {
+        let shapes: Vec<Vec<Spot>> = outlines.iter().map(|outline| self.spots(outline)).collect();
+        drawing.group("class=\"arm\" opacity=\"0.8\"", |drawing| {
+            drawing.silhouette(&shapes, ARM, ARM_EDGE)
+        });
     }
 
     /// Draws the map with its numbers, and the drawing of `draw`.

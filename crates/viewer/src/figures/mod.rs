@@ -31,6 +31,7 @@ mod svg;
 
 pub use error::FigureError;
 pub use names::{Figure, UnknownFigure};
+pub use outline::{Outline, arm_outlines};
 pub use region::{RegionMap, draw_region};
 pub use subject::{IdealPath, Subject};
 

@@ -3,33 +3,66 @@
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::{Shape, VisualShape};
 use platewash_kinematics::trig::sin_cos;
-use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_kinematics::{AXES, Frame, JointVector, Link, Pose, RobotModel};
+use platewash_workcell::tool::Tool;
 use platewash_workcell::workcell::{ObstacleShape, Workcell};
 use std::f64::consts::TAU;
 
 /// A convex outline, world frame \[m\].
-pub(super) type Outline = Vec<[f64; 2]>;
+pub type Outline = Vec<[f64; 2]>;
 
 /// Directions in which the farthest point of a body is a corner of its outline.
 const DIRECTIONS: u32 = 96;
 
-/// The links of an arm at `q` \[rad\]; its collision shapes for a description without visual ones.
-pub(super) fn arm(arm: &RobotModel, mount: &Pose, q: &JointVector) -> Vec<Outline> {
-    let (poses, mut all) = (arm.fk(q), Vec::new());
-    for link in arm.links() {
-        let at = mount * poses.pose(&link.frame);
-        if link.visuals.is_empty() {
-            all.extend(link.collision.iter().map(|body| solid(&body.shape, &(at * body.pose))));
-        }
-        all.extend(link.visuals.iter().map(|visual| match &visual.shape {
-            VisualShape::Solid(shape) => solid(shape, &(at * visual.pose)),
-            VisualShape::Mesh(triangles) => {
-                let corners = triangles.iter().flatten().map(|corner| corner.cast());
-                points(corners, &(at * visual.pose))
-            }
-        }));
+/// The outlines of an arm's links at `q` \[rad\] and of its tool: of the links' visuals, or of the collision shapes where there are none.
+/// A link that moves reaches to the next joint, so that the arm is in one piece.
+#[must_use]
+pub fn arm_outlines(arm: &RobotModel, tool: &Tool, mount: &Pose, q: &JointVector) -> Vec<Outline> {
+    let poses = arm.fk(q);
+    let at = |frame: &Frame| mount * poses.pose(frame);
+    let has_shape = |link: &&Link| !(link.visuals.is_empty() && link.collision.is_empty());
+    let links: Vec<&Link> = arm.links().iter().filter(has_shape).collect();
+    let flange = tool.mounting_frame(arm);
+    let link = |link: &&Link| {
+        let (pose, body) = (at(&link.frame), link.frame.body());
+        let next = links.iter().map(|next| next.frame).chain([flange]);
+        let next = next.filter(|next| body > 0 && next.body() == AXES.min(body + 1));
+        let joints = next
+            .chain([link.frame])
+            .map(|frame| at(&frame).translation.vector.xy().into());
+        hull(
+            &shapes(link, &pose)
+                .into_iter()
+                .flatten()
+                .chain(joints)
+                .collect::<Outline>(),
+        )
+    };
+    let bodies = tool.bodies.iter().map(|body| (body.shape.clone(), body.pose));
+    let sponge = tool.is_present().then(|| (tool.sponge.shape(), tool.sponge.pose));
+    let carried = bodies
+        .chain(sponge)
+        .map(|(shape, pose)| solid(&shape, &(at(&flange) * pose)));
+    links.iter().map(link).chain(carried).collect()
+}
+
+/// The shapes of a link whose frame is at a pose.
+fn shapes(link: &Link, at: &Pose) -> Vec<Outline> {
+    if link.visuals.is_empty() {
+        return link
+            .collision
+            .iter()
+            .map(|body| solid(&body.shape, &(at * body.pose)))
+            .collect();
     }
-    all
+    let visuals = link.visuals.iter().map(|visual| match &visual.shape {
+        VisualShape::Solid(shape) => solid(shape, &(at * visual.pose)),
+        VisualShape::Mesh(triangles) => {
+            let corners = triangles.iter().flatten().map(|corner| corner.cast());
+            points(corners, &(at * visual.pose))
+        }
+    });
+    visuals.collect()
 }
 
 /// Whatever stands around, the floor apart.
@@ -80,7 +113,11 @@ fn round(radius_m: f64, half_length_m: f64, is_flat: bool, pose: &Pose) -> Outli
 
 /// The hull of points.
 fn points(points: impl Iterator<Item = Point3<f64>>, pose: &Pose) -> Outline {
-    let seen: Vec<[f64; 2]> = points.map(|at| (pose * at).coords.xy().into()).collect();
+    hull(&points.map(|at| (pose * at).coords.xy().into()).collect::<Outline>())
+}
+
+/// The hull of places.
+fn hull(seen: &[[f64; 2]]) -> Outline {
     if seen.is_empty() {
         return Vec::new();
     }

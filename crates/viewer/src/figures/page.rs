@@ -1,13 +1,13 @@
 //! The sheet of a figure: its words, and the key of its lines and colours. It has the size of a slide.
 
-use super::svg::{Drawing, END, GREY, INK, LINE, Rect, SMALL, Spot, WORDS, lines, stroke, width};
+use super::svg::{Drawing, GREY, INK, LINE, Rect, SMALL, Spot, WORDS, lines, stroke, width};
 use platewash_workcell::words::shortened;
 
 /// Width and height of a figure \[px\].
-pub const SIZE: [f64; 2] = [1600.0, 1000.0];
+pub const SIZE: [f64; 2] = [1280.0, 960.0];
 
 /// White around everything \[px\].
-const MARGIN: f64 = 50.0;
+const MARGIN: f64 = 40.0;
 
 /// The words around a figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,9 +16,9 @@ pub struct FigureTexts {
     pub title: String,
     /// More of it, smaller.
     pub subtitle: String,
-    /// Caption that explains it: one or two lines at the foot.
+    /// Caption that explains it, at the foot.
     pub caption: String,
-    /// Source of the data, at the foot on the right.
+    /// Source of the data, at the end of the caption.
     pub source: String,
 }
 
@@ -30,16 +30,17 @@ pub fn begin(texts: &FigureTexts) -> (Drawing, Rect) {
     // As many letters as there is room for, were all of them wide.
     drawing.text(
         [MARGIN, 66.0],
-        &shortened(&texts.title, 64),
+        &shortened(&texts.title, 49),
         &[&title, "font-weight=\"bold\""],
     );
-    drawing.text([MARGIN, 101.0], &shortened(&texts.subtitle, 110), &[&subtitle]);
-    let (right, foot) = (SIZE[0] - MARGIN, SIZE[1] - 74.0);
+    drawing.text([MARGIN, 101.0], &shortened(&texts.subtitle, 84), &[&subtitle]);
+    let right = SIZE[0] - MARGIN;
+    let words = format!("{} Source: {}.", texts.caption, texts.source);
+    let words = lines(&words, 18.0, right - MARGIN);
+    let foot = SIZE[1] - 26.0 - 23.0 * words.len() as f64;
     drawing.line([MARGIN, foot], [right, foot], &stroke(LINE, 1.0));
-    drawing.text([right, foot + 26.0], &texts.source, &[SMALL, END]);
-    let room = right - MARGIN - width(&texts.source, 16.0) - 60.0;
-    for (k, line) in lines(&texts.caption, 16.0, room).iter().take(3).enumerate() {
-        drawing.text([MARGIN, foot + 26.0 + 20.0 * k as f64], line, &[SMALL]);
+    for (k, line) in words.iter().enumerate() {
+        drawing.text([MARGIN, foot + 26.0 + 23.0 * k as f64], line, &[SMALL]);
     }
     let top = 126.0;
     (drawing, Rect::new(MARGIN, top, right - MARGIN, foot - 18.0 - top))
@@ -71,13 +72,13 @@ impl Entry {
 
 /// Width of a sign with the white behind it, and from one line to the next \[px\].
 const SIGN: f64 = 50.0;
-const LEADING: f64 = 25.0;
+const LEADING: f64 = 28.0;
 
 /// Entries beside one another where `width` \[px\] has room, in lines else; their lower end \[px\].
 pub fn legend(drawing: &mut Drawing, [left, top]: Spot, most: f64, entries: &[Entry]) -> f64 {
     let ([mut x, mut y], mut end) = ([left, top], top);
     for Entry { sign, look, words } in entries {
-        let takes = SIGN + width(words, 18.0);
+        let takes = SIGN + width(words, 20.0);
         if x > left && x + takes > left + most {
             (x, y) = (left, end + 9.0);
         }
@@ -86,7 +87,7 @@ pub fn legend(drawing: &mut Drawing, [left, top]: Spot, most: f64, entries: &[En
             Sign::Field => drawing.rect(Rect::new(x + 4.0, y + 2.0, 30.0, 18.0), look),
             Sign::Dot => drawing.circle([x + 19.0, y + 11.0], 7.0, look),
         }
-        for (k, line) in lines(words, 18.0, most - SIGN).iter().enumerate() {
+        for (k, line) in lines(words, 20.0, most - SIGN).iter().enumerate() {
             let below = y + LEADING * k as f64;
             drawing.text([x + SIGN, below + 17.0], line, &[WORDS]);
             end = end.max(below + LEADING);

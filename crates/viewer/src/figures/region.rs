@@ -1,6 +1,7 @@
 //! Where an arm with its tool washes a plate, from above.
 
-use super::map::Map;
+use super::map::{ARM_LOOK, Map};
+use super::outline::Outline;
 use super::page::{self, Entry, FigureTexts, SIZE, Sign, legend};
 use super::svg::{DASHED, DOTTED, Drawing, GREY, GROUND, INK, Rect, TRANSIT, fill, outlined, stroke};
 use platewash_kinematics::trig::sin_cos;
@@ -11,7 +12,7 @@ const CORNERS: f64 = 144.0;
 /// The colour of washable squares.
 const WASHABLE: &str = "#74c2b4";
 
-/// Region to draw: base frame.
+/// Region to draw: world frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionMap {
     /// Name of the arm and size of the plate, in words.
@@ -24,6 +25,8 @@ pub struct RegionMap {
     pub axis_m: [f64; 2],
     /// The plate that the home is over: its centre and radius \[m\].
     pub plate: ([f64; 2], f64),
+    /// The outlines of the arm at home ([`arm_outlines`](super::arm_outlines)).
+    pub arm_m: Vec<Outline>,
 }
 
 /// Draws the map: a text in SVG.
@@ -32,8 +35,8 @@ pub fn draw_region(region: &RegionMap) -> String {
     let words = FigureTexts {
         title: "Where plates can be washed".to_owned(),
         subtitle: region.subtitle.clone(),
-        caption: "Seen from above, from behind the arm: x leads away from it, y to its left. A square counts where the plate, with its \
-                  centre in the middle, is washed from home by a policy of tilts: a guess, as transits are not looked at."
+        caption: "Seen from above: the room's x leads up the page, its y to the left. A square counts where the plate, with its centre in the \
+                  middle, is washed from home by a policy of tilts: a guess, as transits are not looked at."
             .to_owned(),
         source: "platewash robot --suggest".to_owned(),
     };
@@ -42,7 +45,8 @@ pub fn draw_region(region: &RegionMap) -> String {
     let washable = region.squares.iter().filter(|(.., is_washable)| *is_washable);
     let outer = washable
         .map(|(at, edge_m, _)| (*at, 0.5 * edge_m))
-        .chain([region.plate]);
+        .chain([region.plate])
+        .chain(region.arm_m.iter().flatten().map(|corner| (*corner, 0.0)));
     let half_m = outer
         .map(|([px, py], r)| (px - x).abs().max((py - y).abs()) + r)
         .fold(0.0, f64::max);
@@ -51,18 +55,22 @@ pub fn draw_region(region: &RegionMap) -> String {
     let plate = stroke(INK, 1.6) + DOTTED;
     map.draw(&mut drawing, |drawing| {
         squares(drawing, &map, region);
+        map.arm(drawing, &region.arm_m);
         if let Some(found) = region.sector {
             drawing.polygon(&map.spots(&corners(region.axis_m, found)), &sector);
         }
         drawing.circle(map.spot(region.plate.0), map.pixels(region.plate.1), &plate);
         drawing.circle(map.spot(region.axis_m), 6.0, &outlined(INK, GREY, 1.0));
     });
-    let entries = [
+    let mut entries = vec![
         Entry::new(Sign::Field, fill(WASHABLE), "centres of plates that can be washed"),
-        Entry::new(Sign::Field, sector, "largest sector of them"),
         Entry::new(Sign::Field, plate, "the plate that home is over"),
+        Entry::new(Sign::Field, ARM_LOOK, "the arm with its tool at home"),
         Entry::new(Sign::Dot, fill(INK), "axis 1"),
     ];
+    if region.sector.is_some() {
+        entries.insert(1, Entry::new(Sign::Field, sector, "largest sector of them"));
+    }
     legend(&mut drawing, beside.at, beside.size[0], &entries);
     drawing.finish(SIZE, &words.title)
 }
@@ -102,6 +110,7 @@ mod tests {
             sector: Some(([0.25, 0.35], [-90.0, 90.0])),
             axis_m: [0.0, 0.0],
             plate: ([0.4, 0.0], 0.145),
+            arm_m: vec![vec![[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]]],
         };
         let svg = draw_region(&map);
         assert!(svg.starts_with("<svg"));
@@ -112,9 +121,9 @@ mod tests {
             sector: None,
             ..map.clone()
         };
-        assert_eq!(
-            draw_region(&none).matches(DASHED).count() + 1,
-            svg.matches(DASHED).count()
-        );
+        let none = draw_region(&none);
+        assert!(!none.contains(DASHED) && !none.contains("sector"));
+        // The arm is one group.
+        assert_eq!(svg.matches("class=\"arm\"").count(), 1);
     }
 }

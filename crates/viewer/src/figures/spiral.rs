@@ -5,7 +5,7 @@ use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
 use super::page::{self, Entry, Sign, legend};
 use super::subject::{Subject, per_cent, short};
-use super::svg::{BOLD, DASHED, Drawing, END, EXECUTED, GROUND, INK, LINE, Rect, SMALL, Spot, fill, stroke};
+use super::svg::{DASHED, Drawing, END, EXECUTED, GREY, GROUND, INK, LINE, Rect, Spot, fill, fitted, stroke};
 use crate::view::PressedRule;
 use crate::view::coverage::swept;
 use crate::view::tips::Tip;
@@ -21,7 +21,7 @@ const FEW: usize = 4;
 const CELLS: usize = 150;
 
 /// Room for words under a plate, and for its errors \[px\].
-const UNDER: f64 = 78.0;
+const UNDER: f64 = 82.0;
 const ERRORS: f64 = 290.0;
 
 /// The colour of swept or pressed area, and of the commanded path.
@@ -199,34 +199,35 @@ impl<'a> Panel<'a> {
 
     fn draw_texts(&self, drawing: &mut Drawing, cell: Rect, place: usize) {
         let [x, y] = [cell.at[0], cell.end()[1]];
-        drawing.text([x, y + 24.0], &format!("{}: plate {}", place + 1, self.index), &[BOLD]);
+        let mut text = |at: Spot, words: &str, size: f64, share: f64, look: &[&str]| {
+            let size = fitted(words, size, share * cell.size[0]);
+            drawing.text(at, words, &[&[size.as_str()], look].concat());
+        };
+        let [bold, grey] = [fill(INK) + " font-weight=\"bold\"", fill(GREY)];
+        text(
+            [x, y + 24.0],
+            &format!("{}: plate {}", place + 1, self.index + 1),
+            20.0,
+            0.42,
+            &[&bold],
+        );
         let Some(report) = self.subject.report else {
             return;
         };
         if let Some(outcome) = report.plates.iter().find(|outcome| outcome.plate == self.index) {
             let words = format!("{} swept", per_cent(outcome.executed.lower));
-            drawing.text([cell.end()[0], y + 24.0], &words, &[BOLD, END]);
+            text([cell.end()[0], y + 24.0], &words, 20.0, 0.56, &[&bold, END]);
         }
         if let Some(tracking) = report.segments.get(self.segment) {
             let [rms, max] = [tracking.tracking.tip_m.rms, tracking.tracking.tip_m.max].map(millimetres);
-            drawing.text(
-                [x, y + 47.0],
-                &format!("error {rms} mm rms, {max} mm at most"),
-                &[SMALL],
-            );
+            let words = format!("error ≤ {max} mm, {rms} mm rms");
+            text([x, y + 50.0], &words, 18.0, 1.0, &[&grey]);
         }
         if self.subject.is_paper() {
-            let far = self
-                .way
-                .iter()
-                .map(|tip| self.plate.local(&tip.at).xy().norm())
-                .fold(0.0, f64::max);
-            let [far, rim] = [far, self.plate.rim_m()].map(|metres| 1e3 * metres);
-            drawing.text(
-                [x, y + 68.0],
-                &format!("{far:.0} mm from the centre at most, of {rim:.0}"),
-                &[SMALL],
-            );
+            let local = self.way.iter().map(|tip| self.plate.local(&tip.at).xy().norm());
+            let [far, rim] = [local.fold(0.0, f64::max), self.plate.rim_m()].map(|metres| 1e3 * metres);
+            let words = format!("≤ {far:.0} mm from the centre (rim {rim:.0})");
+            text([x, y + 72.0], &words, 18.0, 1.0, &[&grey]);
         }
     }
 }

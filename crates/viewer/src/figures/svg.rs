@@ -6,33 +6,37 @@
 /// A place on a drawing \[px\]: x to the right, y down.
 pub type Spot = [f64; 2];
 
-/// Text and frames of importance.
-pub const INK: &str = "#1b1f24";
+/// Text and frames of importance. Colours that mean something are those of the page, `page/src/palette.ts`.
+pub const INK: &str = "#16202a";
 /// Text beside.
-pub const GREY: &str = "#57606a";
+pub const GREY: &str = "#56636f";
 /// Outlines and frames.
 pub const LINE: &str = "#8c959f";
 /// Grounds of boxes.
 pub const GROUND: &str = "#f6f8fa";
 /// White.
 pub const PAPER: &str = "#ffffff";
+/// The six joints, in their order.
+pub const JOINTS: [&str; 6] = ["#0072b2", "#b57b00", "#00805e", "#c4500a", "#3aa0d8", "#a9427f"];
 /// The path on a plate, magenta as in the paper. The colours also differ for readers with colour blindness (after Okabe and Ito).
-pub const WASH: &str = "#c2187f";
+pub const WASH: &str = "#cc00a0";
 /// The way between plates.
 pub const TRANSIT: &str = "#0072b2";
 /// Down to a plate and up from it.
-pub const LIFT: &str = "#56b4e9";
+pub const LIFT: &str = "#e69f00";
+/// From home and to it.
+pub const HOME: &str = "#7c8b98";
 /// Colour of the executed motion, and of places that were not reached.
-pub const EXECUTED: &str = "#d55e00";
+pub const EXECUTED: &str = "#c4500a";
 /// Colour of requirements that are kept.
-pub const GOOD: &str = "#00795a";
+pub const GOOD: &str = "#00775a";
 /// Colour of requirements that are not kept, and of limits.
-pub const BAD: &str = "#c0392b";
+pub const BAD: &str = "#b5460b";
 
 /// Looks of texts: size, weight and colour.
-pub const WORDS: &str = "font-size=\"18\" fill=\"#1b1f24\"";
-pub const BOLD: &str = "font-size=\"18\" fill=\"#1b1f24\" font-weight=\"bold\"";
-pub const SMALL: &str = "font-size=\"16\" fill=\"#57606a\"";
+pub const WORDS: &str = "font-size=\"20\" fill=\"#16202a\"";
+pub const BOLD: &str = "font-size=\"20\" fill=\"#16202a\" font-weight=\"bold\"";
+pub const SMALL: &str = "font-size=\"18\" fill=\"#56636f\"";
 /// Anchor of a text that does not begin at its place.
 pub const MIDDLE: &str = "text-anchor=\"middle\"";
 pub const END: &str = "text-anchor=\"end\"";
@@ -115,6 +119,14 @@ impl Drawing {
     /// A closed shape.
     pub fn polygon(&mut self, corners: &[Spot], look: &str) {
         self.0 += &format!("<path d=\"{}Z\" {look}/>\n", path_data(corners));
+    }
+
+    /// Closed shapes as one, with an edge around all of them and none between: the edges lie below the grounds, which reach out a little.
+    pub fn silhouette(&mut self, shapes: &[Vec<Spot>], ground: &str, edge: &str) {
+        let path: String = shapes.iter().map(|corners| path_data(corners) + "Z").collect();
+        for (colour, width) in [(edge, 4.0), (ground, 1.2)] {
+            self.0 += &format!("<path d=\"{path}\" {}/>\n", outlined(ground, colour, width));
+        }
     }
 
     /// A rectangle.
@@ -239,6 +251,11 @@ pub fn width(words: &str, size: f64) -> f64 {
         _ => 0.63,
     };
     words.chars().map(share).sum::<f64>() * size
+}
+
+/// The size at which a text is no wider than `most` \[px\], at most `size`.
+pub fn fitted(words: &str, size: f64, most: f64) -> String {
+    format!("font-size=\"{:.1}\"", size.min(size * most / width(words, size)))
 }
 
 /// A text in lines of a size, none wider than `most` \[px\] where words can be parted.
