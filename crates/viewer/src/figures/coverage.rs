@@ -156,7 +156,11 @@ impl Map {
         drawing.circle(cell.middle(), 0.5 * cell.size[0], &stroke(LINE, 2.0));
         let [x, y] = [cell.middle()[0], cell.end()[1]];
         let what = if self.is_executed { "executed" } else { "planned" };
-        let title = format!("{}: plate {}, {what}", self.place + 1, self.plate);
+        let title = format!(
+            "{}: {}, {what}",
+            self.place + 1,
+            platewash_workcell::words::plate_name(self.plate)
+        );
         drawing.text([x, y + 24.0], &title, &[SMALL, MIDDLE]);
         if let Some((words, share, required)) = self.share(subject) {
             let look = fill(if reaches(share, required) { GOOD } else { BAD });

@@ -203,7 +203,7 @@ fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
         let [from, to] = [segment.t_start_s, segment.t_end_s].map(|t| axes.across.at(t));
         let field = Rect::new(from, top, to - from, STRIP);
         drawing.rect(field, &fill(colour(segment.kind)));
-        let words = format!("plate {}", segment.plate);
+        let words = platewash_workcell::words::plate_name(segment.plate);
         if segment.kind == SegmentKind::Wash && width(&words, 15.0) < to - from - 8.0 {
             drawing.text(
                 [field.middle()[0], top + 18.0],

@@ -10,6 +10,7 @@ use crate::view::PressedRule;
 use crate::view::coverage::swept;
 use crate::view::tips::Tip;
 use platewash_workcell::plate::Plate;
+use platewash_workcell::words::plate_name;
 
 /// Most plates of one figure.
 const MOST: usize = 24;
@@ -199,7 +200,11 @@ impl<'a> Panel<'a> {
 
     fn draw_texts(&self, drawing: &mut Drawing, cell: Rect, place: usize) {
         let [x, y] = [cell.at[0], cell.end()[1]];
-        drawing.text([x, y + 24.0], &format!("{}: plate {}", place + 1, self.index), &[BOLD]);
+        drawing.text(
+            [x, y + 24.0],
+            &format!("{}: {}", place + 1, plate_name(self.index)),
+            &[BOLD],
+        );
         let Some(report) = self.subject.report else {
             return;
         };
