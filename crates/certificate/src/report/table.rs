@@ -19,7 +19,7 @@ const MAIN: [Requirement; 3] = [Requirement::JointSpeed, Requirement::TipSpeed, 
 const OF_WASHING: [Requirement; 3] = [Requirement::Swept, Requirement::Pressed, Requirement::ContactForce];
 
 /// Note on the plate names in the table of a dry run.
-const IN_THE_AIR: &str = "dry run: \"plate 1\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 0\"";
+const IN_THE_AIR: &str = "dry run: \"plate 1\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 1\"";
 
 impl fmt::Display for Certificate {
     /// Short report: verdict, main bounds, broken requirements and assumptions. The alternate form (`{:#}`) shows everything.
