@@ -231,7 +231,7 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
         };
         let [x, y] = plate.centre_xy().map(|metres| fixed(metres, 3));
         let share = share_of(subject, plate, index).map_or_else(|| "–".to_owned(), per_cent);
-        let cells = [format!("{}", place + 1), format!("{index}"), x, y, share];
+        let cells = [format!("{}", place + 1), format!("{}", index + 1), x, y, share];
         row(place + 1, cells, [BOLD, WORDS]);
     }
 }
