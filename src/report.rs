@@ -8,7 +8,7 @@ use platewash_planner::redundancy::TiltChoice;
 use platewash_planner::{PlannedJob, TourSummary, TransitSummary, VisitSummary};
 use platewash_workcell::layout::Finding;
 use platewash_workcell::verdict::Verdict;
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{plate_name, quoted};
 use serde::Serialize;
 use std::fmt;
 
@@ -129,7 +129,7 @@ impl WashReport {
     fn washes(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{:<12} {:>9} {:>9}  how", "motion, s", "transit", "wash")?;
         for (transit, visit) in self.transits.iter().zip(&self.visits) {
-            let (name, transit_s) = (format!("plate {}", visit.plate), transit.duration_s);
+            let (name, transit_s) = (plate_name(visit.plate), transit.duration_s);
             let how = how(visit, &self.certificate);
             writeln!(f, "{name:<12} {transit_s:>9.2} {:>9.2}  {how}", visit.wash_s)?;
         }
@@ -150,16 +150,16 @@ impl WashReport {
     fn motions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{:<24} {:>9}  how", "motion", "time, s")?;
         for (k, transit) in self.transits.iter().enumerate() {
-            let plate = |k: usize| self.visits.get(k).map(|v| v.plate);
+            let plate = |k: usize| self.visits.get(k).map(|v| plate_name(v.plate));
             let name = match (k.checked_sub(1).and_then(plate), plate(k)) {
-                (None, Some(to)) => format!("home to plate {to}"),
-                (Some(from), Some(to)) => format!("plate {from} to plate {to}"),
-                (Some(from), None) => format!("plate {from} to home"),
+                (None, Some(to)) => format!("home to {to}"),
+                (Some(from), Some(to)) => format!("{from} to {to}"),
+                (Some(from), None) => format!("{from} to home"),
                 (None, None) => "home".to_owned(),
             };
             writeln!(f, "{name:<24} {:>9.2}  {}", transit.duration_s, transit.kind)?;
             if let Some(visit) = self.visits.get(k) {
-                let name = format!("wash plate {}", visit.plate);
+                let name = format!("wash {}", plate_name(visit.plate));
                 let how = how(visit, &self.certificate);
                 writeln!(f, "{name:<24} {:>9.2}  {how}", visit.wash_s)?;
                 writeln!(f, "{:<24} {:>9}  {}", "", "", visit.pace)?;

@@ -151,7 +151,7 @@ fn an_infeasible_job_reports_its_attempts() {
     assert!(
         heard[first]
             .to_string()
-            .contains("another place for plate 1: 0.02 m away"),
+            .contains("another place for plate 2: 0.02 m away"),
         "{}",
         heard[first]
     );
@@ -200,7 +200,7 @@ fn overlapping_plates_are_refused_unless_only_reported() {
     let error = planned(&scenario).unwrap_err();
     assert_eq!(error.infeasibility(), Some(Infeasibility::Proved), "{error}");
     let message = error.to_string();
-    assert!(message.contains("plate 0 and plate 1 overlap by 40.0 mm"), "{message}");
+    assert!(message.contains("plate 1 and plate 2 overlap by 40.0 mm"), "{message}");
     assert!(message.contains("layout.overlap"), "{message}");
     assert_eq!(scenario.check().unwrap_err(), error);
 }

@@ -149,7 +149,7 @@ fn waived_requirements_are_in_the_first_line_and_data() {
     scenario.layout.positions_m = Some(vec![[0.36, -0.1], [0.36, 0.11]]);
     scenario.layout.overlap = Overlap::Report;
     let (planned, certificate) = judged(&scenario);
-    let apart = "plates apart, gap between plate 0 and plate 1 -80.0 mm";
+    let apart = "plates apart, gap between plate 1 and plate 2 -80.0 mm";
     for line in [certificate.to_string(), headline(&planned, &certificate)] {
         let line = line.lines().next().unwrap();
         assert!(line.starts_with("PROVED BUT FOR every plate once"), "{line}");
@@ -195,7 +195,7 @@ fn a_wash_that_sweeps_the_neighbour_too_is_not_every_plate_once() {
     let named: Vec<_> = check.discrepancies.iter().map(|d| d.what.as_str()).collect();
     assert_eq!(
         named,
-        ["plate 1 while plate 0 is washed", "plate 0 while plate 1 is washed"]
+        ["plate 2 while plate 1 is washed", "plate 1 while plate 2 is washed"]
     );
     for swept in &certificate.swept {
         // 150 mm of path and 25 mm of sponge, less 50 mm of plate.

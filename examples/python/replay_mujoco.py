@@ -16,7 +16,7 @@ for pair in ET.fromstring(robot.srdf or "<robot/>").iter("disable_collisions"):
     # MuJoCo reads no SRDF. The base is merged into the world when the model is compiled.
     one, two = ("world" if name == "base_link" else name for name in (pair.get("link1"), pair.get("link2")))
     spec.add_exclude(bodyname1=one, bodyname2=two)
-for k, plate in enumerate(plan.plates):
+for k, plate in enumerate(plan.plates, 1):
     body = spec.worldbody.add_body(name=f"plate {k}", pos=[plate.x_m, plate.y_m, plate.z_m - plate.thickness_m / 2])
     body.add_geom(type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[plate.radius_m, plate.thickness_m / 2, 0])
 model = spec.compile()

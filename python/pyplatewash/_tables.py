@@ -162,7 +162,7 @@ def plan(of: _core.Plan) -> str:
 
 
 def planned(of: _core.Planned) -> str:
-    rows = [(f"{k}: plate {v.plate}", f"{v.wash_s:.2f} s") for k, v in enumerate(of.visits, 1)]
+    rows = [(f"{k}: {plate_name(v.plate)}", f"{v.wash_s:.2f} s") for k, v in enumerate(of.visits, 1)]
     tour = of.tour
     whole = [
         ("duration", f"{of.plan.duration_s:.2f} s"),
@@ -179,7 +179,7 @@ def certificate(of: _core.Certificate) -> str:
 
 
 def layout(of: _core.Layout) -> str:
-    plates = [(k, f"({p.x_m:.4f}, {p.y_m:.4f}) m", f"{1e3 * p.radius_m:g} mm") for k, p in enumerate(of.plates)]
+    plates = [(k, f"({p.x_m:.4f}, {p.y_m:.4f}) m", f"{1e3 * p.radius_m:g} mm") for k, p in enumerate(of.plates, 1)]
     findings = [(k, str(finding)) for k, finding in enumerate(of.findings, 1)]
     parts = [table(plates, ("plate", "centre", "radius")), table(findings, ("finding", "")) if findings else "", from_above(of.plates)]
     return page(f"Layout: {len(of)} plates, {'no findings' if not findings else f'{len(findings)} findings'}", parts)
@@ -192,7 +192,7 @@ def job(of: _core.WashJob | _core.PaperJob) -> str:
 
 def execution(of: _core.Execution) -> str:
     report = of.report()
-    rows = [(f"plate {p.plate}", status(p.verdict), percent(p.planned.fraction), percent(p.executed.fraction)) for p in report.plates]
+    rows = [(plate_name(p.plate), status(p.verdict), percent(p.planned.fraction), percent(p.executed.fraction)) for p in report.plates]
     whole = [
         ("law", of.settings.law),
         ("tip off by", f"{1e3 * report.tracking.tip_m.rms:.3g} mm rms, {1e3 * report.tracking.tip_m.max:.3g} mm at most"),
@@ -206,7 +206,7 @@ def execution(of: _core.Execution) -> str:
 def paper_run(of: _core.PaperRun) -> str:
     report = of.report()
     rows = [
-        (f"plate {p.plate}", f"{p.reached} of {p.waypoints}", percent(p.ideal_coverage.fraction), percent(p.executed_coverage.fraction), f"{1e3 * p.tracking_rms_m:.1f} mm")
+        (plate_name(p.plate), f"{p.reached} of {p.waypoints}", percent(p.ideal_coverage.fraction), percent(p.executed_coverage.fraction), f"{1e3 * p.tracking_rms_m:.1f} mm")
         for p in report.plates
     ]
     head = ("plate", "waypoints reached", "swept as commanded", "executed", "tip off by, rms")
@@ -282,5 +282,11 @@ def wash_paths(of: _core.Plan) -> list[Floats]:
     return paths
 
 
+def plate_name(index: int) -> str:
+    """Name of a plate in words, counted from 1."""
+    return f"plate {index + 1}"
+
+
 def _listed(order: Sequence[int]) -> str:
-    return ", ".join(map(str, order[:20])) + (", …" if len(order) > 20 else "")
+    """An order of plates in words, counted from 1."""
+    return ", ".join(str(index + 1) for index in order[:20]) + (", …" if len(order) > 20 else "")

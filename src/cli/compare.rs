@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::certificate::{Measure, MeasureWords, Requirement, differences, paper_headline};
 use platewash::workcell::plan::Process;
 use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
-use platewash::workcell::words::{count_with_noun, quoted};
+use platewash::workcell::words::{count_with_noun, plate_name, quoted};
 use platewash::{Certificate, Plan};
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -150,7 +150,7 @@ impl Comparison {
         let plates: BTreeSet<usize> = a.plan.order.iter().chain(&b.plan.order).copied().collect();
         let of_plates = plates.into_iter().map(|plate| {
             let is_of = |segment: &PlanSegment| segment.kind == SegmentKind::Wash && segment.plate == plate;
-            times(format!("washing plate {plate}"), &|plan| time_s(plan, is_of))
+            times(format!("washing {}", plate_name(plate)), &|plan| time_s(plan, is_of))
         });
         let job = differences(&a.plan.job, &b.plan.job).into_iter();
         let job = job.map(|difference| DifferingField {

@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::scenario::{Note, SHIPPED, source};
 use platewash::simulator::simulate::PayloadCheck;
 use platewash::workcell::layout::{Finding, LayoutError, LayoutSource};
-use platewash::workcell::words::count_with_noun;
+use platewash::workcell::words::{count_with_noun, plate_number};
 use platewash::{Failure, Layout, Scenario};
 use serde::Serialize;
 use std::fmt::Write;
@@ -183,7 +183,8 @@ fn layout_text(layout: &Layout) -> String {
         let tilted = plate.tilt_words().map(|tilted| format!("  {tilted}"));
         let _ = writeln!(
             text,
-            "{i:<6} {:>9.4} {:>9.4} {:>9.4} {radius_m:>9.4}{}",
+            "{:<6} {:>9.4} {:>9.4} {:>9.4} {radius_m:>9.4}{}",
+            plate_number(i),
             at.x,
             at.y,
             at.z,

@@ -33,7 +33,7 @@ fn every_verb_rejects_invalid_obstacles_by_file_and_key() {
             "x",
             far,
             "holds_plates = [5]",
-            "scenario cell.toml, line 16: obstacle[0].holds_plates: it holds plate 5; there is 1 plate",
+            "scenario cell.toml, line 16: obstacle[0].holds_plates: it holds the plate with index 5; there is 1 plate",
         ),
         (
             "sponge",

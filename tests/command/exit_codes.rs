@@ -82,7 +82,7 @@ fn a_job_ends_with_its_verdict_where_its_scenario_asks_for_that() {
             ("run --scenario kitchen", 0, "PROVED"),
             ("run --scenario far.toml", 3, "INFEASIBLE"),
             ("run --scenario far-report.toml", 0, "INFEASIBLE"),
-            ("run --scenario same.toml", 3, "INFEASIBLE: plate 0 and plate 1 overlap"),
+            ("run --scenario same.toml", 3, "INFEASIBLE: plate 1 and plate 2 overlap"),
             ("run --scenario same-report.toml", 0, "INFEASIBLE"),
             ("run --scenario pd.toml", 4, "PROVED"),
             ("run --scenario pd-report.toml", 0, "PROVED"),

@@ -21,7 +21,7 @@ fn an_infeasible_job_is_reported_with_its_cause_and_a_place_that_will_do() {
     let ran = platewash(dir, &run);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     assert!(
-        ran.stdout.starts_with("INFEASIBLE: plate 0 at (0.800, 0.000) m"),
+        ran.stdout.starts_with("INFEASIBLE: plate 1 at (0.800, 0.000) m"),
         "{}",
         ran.stdout
     );
@@ -182,8 +182,8 @@ fn reports_all_unwashable_plates_in_one_run() {
     let ran = plan(dir, &spiral(dir, &[("region = \"appendix\"", &far)]));
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     for part in [
-        "plate 0 at (0.700, 0.000) m",
-        "plate 1 at (0.000, 0.720) m",
+        "plate 1 at (0.700, 0.000) m",
+        "plate 2 at (0.000, 0.720) m",
         "; besides, plate ",
     ] {
         assert!(ran.stdout.contains(part), "no {part} in {}", ran.stdout);

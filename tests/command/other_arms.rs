@@ -89,7 +89,7 @@ fn searches_without_result_are_not_called_impossible() {
     assert_eq!(report["plates"][0]["conclusion"], "not_found");
     let headline = report["headline"].as_str().unwrap();
     assert!(
-        headline.starts_with("NOT FOUND: no way to wash plate 0 at (0.950, 0.000) m whole was found"),
+        headline.starts_with("NOT FOUND: no way to wash plate 1 at (0.950, 0.000) m whole was found"),
         "{headline}"
     );
     assert!(!headline.contains("cannot"), "{headline}");

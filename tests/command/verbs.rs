@@ -160,7 +160,7 @@ fn validate_and_layout_do_not_run() {
     ] {
         assert!(kinds.contains(&kind), "{kind} in {kinds:?}");
     }
-    assert!(text.contains("plate 0") && text.contains("plate 2"), "{text}");
+    assert!(text.contains("plate 1") && text.contains("plate 3"), "{text}");
     assert!(!text.contains("seed"), "nothing is sampled: {text}");
     assert_eq!(names(folder.path()), ["case.toml"], "nothing is written");
     scenario(folder.path(), "count = 4", "count = 7");

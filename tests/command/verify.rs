@@ -44,7 +44,7 @@ fn waived_requirements_are_in_the_first_line_and_data_without_failing() {
     let folder = folder();
     let dir = folder.path();
     std::fs::write(dir.join("case.toml"), OVERLAPPING).unwrap();
-    let waived = "plates apart, gap between plate 0 and plate 1 -80.0 mm (waived by the job)";
+    let waived = "plates apart, gap between plate 1 and plate 2 -80.0 mm (waived by the job)";
     let ran = platewash(dir, &["run", "--scenario", "case.toml", "--quiet"]).done();
     let first = ran.stdout.lines().next().unwrap();
     assert!(first.starts_with("PROVED BUT FOR every plate once"), "{first}");

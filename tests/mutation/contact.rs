@@ -238,7 +238,7 @@ const KITCHEN: [Case; 64] = [
     Case("job.plates[].foot", Refused(&[Plates]), |p| {
         p.job.plates[0].foot = Some(Foot { height_m: 0.4, ..FOOT })
     }),
-    Case("job.plates[].foot", NoPlan("plate 0"), |p| {
+    Case("job.plates[].foot", NoPlan("plate 1"), |p| {
         p.job.plates[0].foot = Some(Foot { radius_m: 0.2, ..FOOT })
     }),
     Case("job.planner.wash.pattern", Kept(PLANNED), |p| {

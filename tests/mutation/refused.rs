@@ -40,7 +40,7 @@ fn rejects_files_that_are_no_plan_with_their_place() {
 
 #[test]
 fn rejects_an_invalid_job_with_its_place() {
-    refused("plate 2", |p| {
+    refused("plate 3", |p| {
         p.job.plates[2] = platewash::Plate::level_disc([0.3, 0.0, 0.03], 0.0, 0.02)
     });
     refused("0 plates", |p| p.job.plates.clear());
@@ -58,7 +58,7 @@ fn rejects_an_invalid_job_with_its_place() {
     refused("obstacle 'floor': margin_m", |p| {
         p.job.workcell.obstacles[0].margin_m = -0.01
     });
-    refused("obstacle 'floor': it holds plate 4", |p| {
+    refused("obstacle 'floor': it holds the plate with index 4", |p| {
         p.job.workcell.obstacles[0].holds_plates = vec![4]
     });
     refused("\"sheet\"", |p| {

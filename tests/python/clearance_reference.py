@@ -1,6 +1,6 @@
 """Distances between the bodies of a scene by coal, from the URDF primitives, for comparison with ours.
 
-Bodies: the links of the arm, "handle" and "sponge" (fixed to tool0), "plate 0", "plate 1", … and "floor", the
+Bodies: the links of the arm, "handle" and "sponge" (fixed to tool0), "plate 1", "plate 2", … and "floor", the
 half-space z <= 0. A body is a union of convex primitives; a distance is the least over the pairs of primitives
 (negative: penetration). Metres; poses are 4 x 4 matrices.
 """
@@ -51,7 +51,7 @@ class Plates:
         middle = self.plate_height_m - self.plate_thickness_m / 2
         size = (self.plate_radius_m, self.plate_thickness_m)
         return [
-            Shape(f"plate {i}", "cylinder", size, pose([x, y, middle])) for i, (x, y) in enumerate(self.positions_m)
+            Shape(f"plate {i}", "cylinder", size, pose([x, y, middle])) for i, (x, y) in enumerate(self.positions_m, 1)
         ]
 
 

@@ -92,7 +92,7 @@ def test_command_checks_the_pairs_that_matter(report, reference):
         listed = [frozenset((pair["a"], pair["b"])) for pair in stated["clearance"]]
         assert len(listed) == len(set(listed)), "a pair is stated twice"
         assert set().union(*listed) <= {*reference.bodies, FLOOR}
-        assert {"handle", "sponge", FLOOR, "plate 0", "plate 1"} <= set().union(*listed)
+        assert {"handle", "sponge", FLOOR, "plate 1", "plate 2"} <= set().union(*listed)
         assert SELF_PAIRS | HANDLE_PAIRS <= set(listed)
 
 
@@ -201,8 +201,8 @@ def test_coal_agrees_with_mujoco(irb120_urdf, reference, configurations, poses):
     model = mujoco_scene(irb120_urdf)
     data = mujoco.MjData(model)
     pairs = [sorted(pair) for pair in SELF_PAIRS | HANDLE_PAIRS]
-    pairs += [("sponge", name) for name in ("base_link", "link_1", "link_2", "link_3", "plate 0", "plate 1")]
-    pairs += [(f"plate {i}", name) for i in (0, 1) for name in ("handle", "link_3", "link_4", "link_5", "link_6")]
+    pairs += [("sponge", name) for name in ("base_link", "link_1", "link_2", "link_3", "plate 1", "plate 2")]
+    pairs += [(f"plate {i}", name) for i in (1, 2) for name in ("handle", "link_3", "link_4", "link_5", "link_6")]
     compared = 0
     for q, placed in list(zip(configurations, poses))[::5]:
         reference.move(placed)
@@ -228,7 +228,7 @@ def test_floor_distances_agree_with_surface_samples(reference, poses):
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     for placed in poses[::30]:
         reference.move(placed)
-        for name in ("base_link", "handle", "sponge", "plate 0"):
+        for name in ("base_link", "handle", "sponge", "plate 1"):
             least = np.inf
             for part, T in zip(reference.bodies[name].shapes, reference.placed[name]):
                 if part.kind == "cylinder":

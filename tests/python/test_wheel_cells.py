@@ -38,7 +38,7 @@ def test_body_names_are_those_of_the_cell(jobs: dict[str, pw.WashJob]) -> None:
         model, workcell = pw.ClearanceModel.of(job), job.workcell
         around = [obstacle.name for obstacle in workcell.obstacles]
         held = [*(body.name for body in workcell.tool.bodies), "sponge"]
-        plates = [f"plate {k}" for k in range(len(job.plates))]
+        plates = [f"plate {k}" for k in range(1, len(job.plates) + 1)]
         assert model.bodies[-len(held + around + plates) :] == held + around + plates
         assert {name for pair in model.pairs for name in pair} <= set(model.bodies)
         assert f"{len(model.bodies)} bodies, {len(model.pairs)} pairs" in repr(model)

@@ -5,6 +5,7 @@ use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, Link, Pose};
 use platewash_problems::stages::surroundings;
 use platewash_workcell::job::WashJob;
+use platewash_workcell::words::plate_name;
 use platewash_workcell::workcell::ObstacleShape;
 use serde_json::{Value, json};
 use std::error::Error;
@@ -44,7 +45,7 @@ pub fn scene(job: &WashJob) -> Result<Value, Box<dyn Error>> {
         bodies.push(value);
     }
     for (k, plate) in terms.plates.iter().enumerate() {
-        bodies.push(body(&format!("plate {k}"), &Frame::base(), &plate.bodies(), 0.0));
+        bodies.push(body(&plate_name(k), &Frame::base(), &plate.bodies(), 0.0));
     }
     Ok(json!({
         "joints": arm.folded().iter().map(placed).collect::<Vec<_>>(),

@@ -7,6 +7,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::WashJob;
 use platewash_workcell::plan::{Knots, Plan};
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_workcell::words::plate_name;
 use std::error::Error;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -99,7 +100,7 @@ fn part(knots: &Knots, [from, to]: [f64; 2]) -> Knots {
 
 /// Whether all is proved but for the sponge and these plates.
 fn is_proved(proof: &MotionProof, plates: &[Option<usize>]) -> bool {
-    let plates: Vec<_> = plates.iter().flatten().map(|plate| format!("plate {plate}")).collect();
+    let plates: Vec<_> = plates.iter().flatten().map(|plate| plate_name(*plate)).collect();
     let others = proof.checks.iter().filter(|c| c.requirement != Requirement::Clearance);
     let may_touch = |pair: &[String; 2]| pair.iter().any(|n| n == "sponge") && pair.iter().any(|n| plates.contains(n));
     let apart = proof.clearance.iter().filter(|line| !may_touch(&line.pair));

@@ -20,6 +20,7 @@ use platewash_workcell::cancel::Deadline;
 use platewash_workcell::layout::Finding;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::verdict::Verdict;
+use platewash_workcell::words::plate_name;
 use std::sync::Arc;
 
 /// Meaning of a map, in words for the page.
@@ -234,10 +235,7 @@ fn answer_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWrit
     let placed = place_job(subject, scenario, &gone)?;
     let (plate, count) = (question.plate, placed.layout.plates.len());
     if plate >= count {
-        return Err(plain(format!(
-            "there is no plate {plate}: the cell has {count}, counted from 0"
-        ))
-        .into());
+        return Err(plain(format!("there is no {}: the cell has {count}", plate_name(plate))).into());
     }
     let mut tell = |patch: MapPatch| {
         answer.line(&MapLine::Map {

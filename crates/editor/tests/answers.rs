@@ -105,7 +105,7 @@ fn a_plate_out_of_reach_is_explained_and_proved_at_the_place_that_is_shown() {
         unplanned["headline"]
             .as_str()
             .unwrap()
-            .starts_with("INFEASIBLE: plate 1 ")
+            .starts_with("INFEASIBLE: plate 2 ")
     );
     let plate = &unplanned["plates"][0];
     assert_eq!(plate["plate"], 1);

@@ -14,7 +14,7 @@ use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
 use platewash_workcell::job::Requirements;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::words::{count_with_noun, quoted};
+use platewash_workcell::words::{count_with_noun, plate_name, quoted};
 
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -144,7 +144,10 @@ fn plates(plates: &[Plate]) -> Vec<String> {
                 .flatten()
                 .map(|words| format!(", {words}"))
                 .collect();
-            format!("plate {k}: middle of its face at {pole} mm of the world, radius {rim} mm{besides}")
+            format!(
+                "{}: middle of its face at {pole} mm of the world, radius {rim} mm{besides}",
+                plate_name(k)
+            )
         })
         .collect();
     if plates.len() > MOST_PLATES {

@@ -91,7 +91,7 @@ fn each_segment_is_a_routine_and_stops_where_the_plan_rests() {
     let plan = &kitchen().0;
     for plate in &plan.order {
         for routine in ["Approach", "Wash", "Retreat"] {
-            let name = format!("PROC pw{routine}{plate}()");
+            let name = format!("PROC pw{routine}{}()", plate + 1);
             assert_eq!(files[0].text.matches(&name).count(), 1, "{name}");
         }
     }

@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn the_tip_leaves_a_plate_where_its_spiral_ends() {
-        // From plate 0 (first) the centre of plate 1 is nearer, but the exit at +0.145 m in x favours plate 2.
+        // From plate 1 (first) the centre of plate 2 is nearer, but the exit at +0.145 m in x favours plate 3.
         let plates = [plate(0.0, 0.1), plate(-0.2, 0.1), plate(0.3, 0.1)];
         let exit = |p: &Plate| [p.centre_xy()[0] + 0.145, p.centre_xy()[1]];
         assert_eq!(order(&plates, PaperOrder::Nearest, [0.0, 0.0], exit), [0, 2, 1]);

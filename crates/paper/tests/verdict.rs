@@ -125,7 +125,7 @@ fn too_little_clearance_names_every_pair() {
     let mut pairs: Vec<_> = report.planned.violations.iter().map(|v| v.who.as_str()).collect();
     pairs.dedup();
     assert!(
-        pairs.contains(&"link_4 – handle") && pairs.contains(&"handle – plate 0"),
+        pairs.contains(&"link_4 – handle") && pairs.contains(&"handle – plate 1"),
         "{pairs:?}"
     );
     for v in &report.planned.violations {

@@ -14,7 +14,7 @@ use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
 use platewash_workcell::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::verdict::Infeasibility;
-use platewash_workcell::words::{millimetres, printable};
+use platewash_workcell::words::{millimetres, plate_name, printable};
 
 /// Reason that a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -36,7 +36,7 @@ pub enum PlanError {
         found: f64,
     },
     /// There is no such plate.
-    #[error("there is no plate {plate}; there are {count}")]
+    #[error("there is no {}; there are {count}", plate_name(*.plate))]
     Plate {
         /// Index of the plate.
         plate: usize,
@@ -107,7 +107,8 @@ pub enum PlanError {
     },
     /// The arm cannot follow the line over a plate from the configurations found there.
     #[error(
-        "no way was found for the arm to follow the line over plate {plate} up to the lift of {}: {error}",
+        "no way was found for the arm to follow the line over {} up to the lift of {}: {error}",
+        plate_name(*.plate),
         millimetres(*.lift_m)
     )]
     Line {
@@ -119,7 +120,7 @@ pub enum PlanError {
         error: Box<IkPathError>,
     },
     /// The arm can follow a wash path, but no path that was tried keeps the promises of the job.
-    #[error("no way was found to wash plate {plate} as required: {shortfall}")]
+    #[error("no way was found to wash {} as required: {shortfall}", plate_name(*.plate))]
     Promise {
         /// The plate.
         plate: usize,
@@ -128,9 +129,9 @@ pub enum PlanError {
     },
     /// The tool would tilt too far between the points that were solved.
     #[error(
-        "plate {plate}: in the motion found, the tool tilts by up to {:.4}° during its {}; the job and the sponge allow {:.4}°, and \
+        "{}: in the motion found, the tool tilts by up to {:.4}° during its {}; the job and the sponge allow {:.4}°, and \
          some of it is needed as room: allow more",
-        tilt_rad.to_degrees(), kind.name(), most_rad.to_degrees()
+        plate_name(*.plate), tilt_rad.to_degrees(), kind.name(), most_rad.to_degrees()
     )]
     Tilt {
         /// The plate.

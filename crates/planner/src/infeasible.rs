@@ -9,7 +9,7 @@ use crate::redundancy::{Conclusion, RedundancyError};
 use crate::scene::{Filter, Hindrance};
 use crate::transit::TransitError;
 use platewash_workcell::verdict::{Infeasibility, Verdict};
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{plate_name, quoted};
 use serde::Serialize;
 use std::fmt;
 
@@ -287,21 +287,21 @@ impl UnwashablePlate {
 impl fmt::Display for UnwashableReason<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(of) = self;
-        let ([x, y], plate) = (of.centre_m, of.plate);
+        let ([x, y], plate) = (of.centre_m, plate_name(of.plate));
         let percent = of.share.map(|share| 100.0 * share);
         match (of.conclusion.is_proved(), percent) {
             (true, Some(percent)) => write!(
                 f,
-                "plate {plate} at ({x:.3}, {y:.3}) m cannot be washed whole: {percent:.1} % of its wash path can"
+                "{plate} at ({x:.3}, {y:.3}) m cannot be washed whole: {percent:.1} % of its wash path can"
             )?,
             (false, Some(percent)) => write!(
                 f,
-                "no way to wash plate {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: \
+                "no way to wash {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: \
                  configurations were found for {percent:.1} % of its wash path"
             )?,
             (_, None) => write!(
                 f,
-                "no way to wash plate {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: {}",
+                "no way to wash {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: {}",
                 of.error
             )?,
         }

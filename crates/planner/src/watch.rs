@@ -3,6 +3,7 @@
 //! Also here: activities of planning, for a caller that waits.
 
 use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::words::plate_name;
 use std::fmt;
 
 /// Callback that receives the current activity of planning; it is called often, and must not take long.
@@ -89,9 +90,13 @@ impl fmt::Display for Activity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Layout { drawn, most } => write!(f, "layout {drawn} of at most {most}: whether it can be washed"),
-            Self::Wash { plate, turn, of } => write!(f, "washing of plate {plate} ({turn} of {of})"),
+            Self::Wash { plate, turn, of } => write!(f, "washing of {} ({turn} of {of})", plate_name(plate)),
             Self::Transit { turn, of } => write!(f, "transit {turn} of {of} between home and plates"),
-            Self::Cause { plate } => write!(f, "what keeps plate {plate} from being washed, branch by branch"),
+            Self::Cause { plate } => write!(
+                f,
+                "what keeps {} from being washed, branch by branch",
+                plate_name(plate)
+            ),
             Self::Relocation {
                 plate,
                 ring,
@@ -99,14 +104,16 @@ impl fmt::Display for Activity {
                 away_m,
             } => write!(
                 f,
-                "another place for plate {plate}: {away_m:.2} m away (ring {ring} of {of})"
+                "another place for {}: {away_m:.2} m away (ring {ring} of {of})",
+                plate_name(plate)
             ),
             Self::Trial {
                 plate,
                 centre_m: [x, y],
             } => write!(
                 f,
-                "another place for plate {plate}: the job with it at ({x:.3}, {y:.3}) m"
+                "another place for {}: the job with it at ({x:.3}, {y:.3}) m",
+                plate_name(plate)
             ),
         }
     }

@@ -70,7 +70,7 @@ fn an_infeasible_job_reports_its_attempts() {
     let trial = place(&|a| matches!(a, Activity::Trial { plate: 1, .. }));
     assert!(wash < cause && cause < first && first < trial, "{heard:?}");
     let said = heard[first].to_string();
-    assert!(said.contains("another place for plate 1: 0.02 m away"), "{said}");
+    assert!(said.contains("another place for plate 2: 0.02 m away"), "{said}");
 }
 
 /// A line that is not clear is that of the configurations taken; out of reach is out of reach.

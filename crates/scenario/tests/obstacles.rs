@@ -168,7 +168,7 @@ fn errors_name_key_and_line() {
         ),
         (
             "[[obstacle]]\nname = \"a\"\nshape = \"sphere\"\nradius_m = 0.1\nat_m = [1, 1, 1]\nholds_plates = [5]\n",
-            "obstacle[0].holds_plates: it holds plate 5; there are 2 plates, counted from 0",
+            "obstacle[0].holds_plates: it holds the plate with index 5; there are 2 plates, counted from 0",
         ),
         (
             "[table]\nheight_m = 0\n",
@@ -212,7 +212,7 @@ fn rejects_a_name_of_two_bodies() {
         ("sponge", "the sponge"),
         ("handle", "a body of the tool"),
         ("link_3", "a link of the arm"),
-        ("plate 0", "a plate"),
+        ("plate 1", "a plate"),
         ("real plate 7", "a plate"),
     ] {
         let said = refused(&named(name, far));
@@ -236,7 +236,7 @@ fn rejects_an_obstacle_in_a_plate_or_the_base_by_both_names() {
     let rack = "shape = \"box\"\nsize_m = [0.1, 0.1, 0.1]\nat_m = [0.35, 0.2, 0.05]";
     let said = refused(&named("rack", rack));
     assert!(
-        said.contains("obstacle 'rack' reaches") && said.contains("into plate 0"),
+        said.contains("obstacle 'rack' reaches") && said.contains("into plate 1"),
         "{said}"
     );
     let said = refused(&named(
@@ -252,7 +252,7 @@ fn rejects_an_obstacle_in_a_plate_or_the_base_by_both_names() {
         2
     );
     let said = refused(&named("rack", &format!("{rack}\nholds_plates = [2]")));
-    assert!(said.contains("it holds plate 2; there are 2"), "{said}");
+    assert!(said.contains("it holds the plate with index 2; there are 2"), "{said}");
 }
 
 /// One more than can be judged, with floor and tool, is refused wherever a scenario is checked; as many as can be are none too many.

@@ -138,7 +138,7 @@ fn the_clearance_over_time_is_that_of_the_certificate() {
                 .iter()
                 .map(|body| names[*body as usize].as_str().unwrap())
                 .collect();
-            let own = format!("plate {}", segment.plate);
+            let own = platewash_workcell::words::plate_name(segment.plate);
             assert!(!(named.contains("sponge") && named.contains(own.as_str())), "{named:?}");
         }
     }

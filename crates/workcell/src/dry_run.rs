@@ -11,7 +11,7 @@ use crate::job::{JobError, JobTerms, Limits, PATH_TOLERANCE_M, Requirements, Was
 use crate::plan::{Plan, Process};
 use crate::plate::{GREATEST_M, Plate};
 use crate::simulation::{PlantSettings, SimulationSettings};
-use crate::words::quoted;
+use crate::words::{plate_name, quoted};
 use crate::workcell::{Exclusion, MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use platewash_kinematics::RobotModel;
 use serde::{Deserialize, Serialize};
@@ -75,10 +75,10 @@ impl DryRun {
         self.height_m > 0.0 && self.height_m <= GREATEST_M
     }
 
-    /// Name of the obstacle for a real plate.
+    /// Name of the obstacle for a real plate: `real plate 1` for index 0.
     #[must_use]
     pub fn real_name(plate: usize) -> String {
-        format!("real plate {plate}")
+        format!("real {}", plate_name(plate))
     }
 
     /// Returns the raised plate of a real one.

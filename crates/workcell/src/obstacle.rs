@@ -106,7 +106,7 @@ pub enum ObstacleFault {
     #[error("it has no parts, or one without points")]
     NoParts,
     /// The obstacle holds a plate that does not exist.
-    #[error("it holds plate {plate}; there are {plates}, counted from 0")]
+    #[error("it holds the plate with index {plate}; there are {plates}, counted from 0")]
     NoPlate {
         /// Index of the plate.
         plate: usize,
@@ -141,7 +141,9 @@ mod tests {
             ("margin_m", |o| o.margin_m = 1.1),
             ("no parts", |o| o.shape = ObstacleShape::Parts(Vec::new())),
             ("without points", |o| o.shape = ObstacleShape::Parts(vec![Vec::new()])),
-            ("it holds plate 2; there are 2", |o| o.holds_plates = vec![0, 2]),
+            ("it holds the plate with index 2; there are 2", |o| {
+                o.holds_plates = vec![0, 2]
+            }),
             ("once each", |o| o.holds_plates = vec![1, 1]),
         ];
         for (words, change) in cases {

@@ -28,6 +28,18 @@ pub fn part_of(part: usize, count: usize, noun: &str) -> String {
     format!("{part} of {}", count_with_noun(count, noun))
 }
 
+/// Name of a plate in words, counted from 1: `plate 1` for index 0. It is also the name of its body.
+#[must_use]
+pub fn plate_name(index: usize) -> String {
+    format!("plate {}", plate_number(index))
+}
+
+/// Number of a plate in words, counted from 1. The largest index, which only a damaged file states, has no number of its own.
+#[must_use]
+pub fn plate_number(index: usize) -> usize {
+    index.saturating_add(1)
+}
+
 /// A length in millimetres, to a tenth: `-90.0 mm`.
 #[must_use]
 pub fn millimetres(length_m: f64) -> String {
@@ -85,6 +97,12 @@ mod tests {
         );
         assert_eq!(part_of(1, 1, "plate"), "1 of 1 plate");
         assert_eq!(part_of(1, 4, "plate"), "1 of 4 plates");
+    }
+
+    #[test]
+    fn plates_are_counted_from_one() {
+        assert_eq!([0, 9].map(plate_name), ["plate 1", "plate 10"]);
+        assert_eq!(plate_number(usize::MAX), usize::MAX);
     }
 
     #[test]

@@ -378,30 +378,30 @@ fn each_broken_rule_is_its_own_finding() {
     // The rules are strict, and Ø 290 mm plates 285 mm apart overlap without breaking them.
     assert_eq!(
         texts(&[[0.25, 0.0]], Some(&region)),
-        ["plate 0 is 250.0 mm from the base axis; the spacing rule wants more than 250.0 mm"]
+        ["plate 1 is 250.0 mm from the base axis; the spacing rule wants more than 250.0 mm"]
     );
     assert_eq!(
         texts(&[[0.3, 0.0], [0.3, -0.285]], Some(&region)),
-        ["plate 0 and plate 1 overlap by 5.0 mm"]
+        ["plate 1 and plate 2 overlap by 5.0 mm"]
     );
     assert_eq!(
         texts(&[[0.3, 0.0], [0.3, -0.25]], Some(&region)),
         [
-            "plate 0 and plate 1 are 250.0 mm apart; the spacing rule wants more than 280.0 mm",
-            "plate 0 and plate 1 overlap by 40.0 mm",
+            "plate 1 and plate 2 are 250.0 mm apart; the spacing rule wants more than 280.0 mm",
+            "plate 1 and plate 2 overlap by 40.0 mm",
         ]
     );
     let outside = [[0.5, 0.0]];
     assert_eq!(
         texts(&outside, Some(&region)),
-        ["plate 0 at x = 500.0 mm, y = 0.0 mm lies outside the region"]
+        ["plate 1 at x = 500.0 mm, y = 0.0 mm lies outside the region"]
     );
     assert!(texts(&outside, None).is_empty());
     assert_eq!(
         texts(&[[0.0, -0.2]], Some(&region)),
         [
-            "plate 0 is 200.0 mm from the base axis; the spacing rule wants more than 250.0 mm",
-            "plate 0 overlaps the robot's base by 35.0 mm",
+            "plate 1 is 200.0 mm from the base axis; the spacing rule wants more than 250.0 mm",
+            "plate 1 overlaps the robot's base by 35.0 mm",
         ]
     );
 }

@@ -40,7 +40,7 @@ fn stated(edits: &mut Edits) {
     });
     fails("one of a body with itself", |p| leave_out(p, ["link_3", "link_3"]));
     fails("one of a plate that there is not", |p| {
-        leave_out(p, ["handle", "plate 4"])
+        leave_out(p, ["handle", "plate 5"])
     });
     edits.harmless(Kind::Exclusions, "in another order", |p| {
         p.job.workcell.exclusions.reverse()
@@ -57,9 +57,9 @@ fn added(edits: &mut Edits) {
         ["link_4", "handle"],
         ["handle", "link_4"],
         ["link_3", "floor"],
-        ["handle", "plate 1"],
-        ["sponge", "plate 2"],
-        ["link_6", "plate 0"],
+        ["handle", "plate 2"],
+        ["sponge", "plate 3"],
+        ["link_6", "plate 1"],
         ["base_link", "link_5"],
     ] {
         let what = format!("{} and {}", pair[0], pair[1]);

@@ -192,7 +192,7 @@ fn overlaps(edits: &mut Edits) {
     });
 }
 
-/// Exchanges the names of plates 0 and 1 wherever one is named.
+/// Exchanges the indices of plates 1 and 2 wherever one is named.
 fn rename(plan: &mut Plan) {
     let in_time = plan.segments.iter_mut().map(|s| &mut s.plate);
     let in_space = plan.wash_paths.iter_mut().map(|path| &mut path.plate);

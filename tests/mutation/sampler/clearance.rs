@@ -5,6 +5,7 @@ use crate::mutation::sampler::findings::Findings;
 use crate::mutation::sampler::motion::{Piece, pieces, within};
 use crate::mutation::sampler::paths::{is_at_plate, path_of, segment_of};
 use platewash::certificate::Requirement;
+use platewash::workcell::words::plate_name;
 use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{ClearanceModel, JointVector, Plan, RobotModel, Workcell};
 use std::collections::HashMap;
@@ -92,11 +93,11 @@ struct Pair {
 
 impl Pair {
     fn new(plan: &Plan, (a, b): (&str, &str)) -> Self {
-        let plate = b.strip_prefix("plate ").filter(|_| a == "sponge");
+        let plate = (0..plan.job.plates.len()).find(|plate| b == plate_name(*plate));
         let stated = plan.job.workcell.exclusions.iter();
         let mut stated = stated.map(|e| e.pair.each_ref().map(String::as_str));
         Self {
-            sponge_on: plate.and_then(|index| index.parse().ok()),
+            sponge_on: plate.filter(|_| a == "sponge"),
             waived: stated.any(|pair| pair == [a, b] || pair == [b, a]),
         }
     }

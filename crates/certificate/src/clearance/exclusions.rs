@@ -8,7 +8,7 @@ use crate::report::requirement::Requirement;
 use crate::subject::Subject;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::clearance::{self, ClearanceError, ClearanceModel};
-use platewash_workcell::words::millimetres;
+use platewash_workcell::words::{millimetres, plate_name};
 use platewash_workcell::workcell::{Exclusion, Workcell};
 use std::collections::BTreeSet;
 
@@ -140,7 +140,7 @@ pub(crate) fn bodies_named_twice(robot: &RobotModel, world: &Workcell, plates: u
         .chain(world.tool.bodies.iter().map(|body| body.name.clone()))
         .chain(["sponge".to_owned()])
         .chain(world.obstacles.iter().map(|obstacle| obstacle.name.clone()))
-        .chain((0..plates).map(|i| format!("plate {i}")));
+        .chain((0..plates).map(plate_name));
     let mut known = BTreeSet::new();
     names.filter(|name| !known.insert(name.clone())).collect()
 }

@@ -9,7 +9,7 @@ use crate::washing::contact::{PlateContact, ProvedShare};
 use crate::washing::coverage::PlateCoverage;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::{decimals_down, decimals_up, distinct_decimals, percent};
-use platewash_workcell::words::{printable, quoted};
+use platewash_workcell::words::{plate_name, printable, quoted};
 use std::fmt;
 
 /// Requirements that the short report always shows.
@@ -19,7 +19,7 @@ const MAIN: [Requirement; 3] = [Requirement::JointSpeed, Requirement::TipSpeed, 
 const OF_WASHING: [Requirement; 3] = [Requirement::Swept, Requirement::Pressed, Requirement::ContactForce];
 
 /// Note on the plate names in the table of a dry run.
-const IN_THE_AIR: &str = "dry run: \"plate 0\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 0\"";
+const IN_THE_AIR: &str = "dry run: \"plate 1\" is the raised plate, where nothing is; the plate on the table is the obstacle \"real plate 1\"";
 
 impl fmt::Display for Certificate {
     /// Short report: verdict, main bounds, broken requirements and assumptions. The alternate form (`{:#}`) shows everything.
@@ -189,16 +189,16 @@ fn plate_row(f: &mut impl fmt::Write, plate: &PlateCoverage) -> fmt::Result {
     let allowed = format!("{:.2} mm {}", 1e3 * allowed_m.abs(), side(allowed_m));
     writeln!(
         f,
-        "  plate {:<4} {:>8} %  with the tool at most {tilt}° from the normal, {reach} (allowed: {allowed})",
-        plate.plate,
+        "  {:<10} {:>8} %  with the tool at most {tilt}° from the normal, {reach} (allowed: {allowed})",
+        plate_name(plate.plate),
         percent(plate.at_least)
     )?;
     plate.touches.iter().try_for_each(|touched| {
         let depth = decimals_up(1e3 * touched.depth_m, 2);
         writeln!(
             f,
-            "             while washing it, the sponge may touch plate {}, up to {depth} mm over its rim",
-            touched.plate
+            "             while washing it, the sponge may touch {}, up to {depth} mm over its rim",
+            plate_name(touched.plate)
         )
     })
 }
@@ -218,8 +218,8 @@ fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
     };
     writeln!(
         f,
-        "  plate {:<4} pressed: {}; long enough: {}; dose: {}; strain {}, force {}, friction torque {} (friction coefficient 0.3 to 1.0, assumed)",
-        contact.plate,
+        "  {:<10} pressed: {}; long enough: {}; dose: {}; strain {}, force {}, friction torque {} (friction coefficient 0.3 to 1.0, assumed)",
+        plate_name(contact.plate),
         share(&contact.pressed, 1e3, "mm"),
         share(&contact.time, 1.0, "s"),
         share(&contact.dose, 1.0, "Pa·m"),
@@ -338,7 +338,7 @@ fn place(worst: &WorstCase) -> String {
             .map(|[a, b]| format!("{} and {}", printable(a), printable(b))),
         worst.joint.map(|joint| format!("joint {}", joint + 1)),
         worst.segment.map(|(i, kind)| format!("segment {i} ({})", kind.name())),
-        worst.plate.map(|plate| format!("plate {plate}")),
+        worst.plate.map(plate_name),
         worst.time_s.map(|t| format!("at {t:.4} s")),
         worst.place_m.map(|[x, y, z]| format!("({x:.3}, {y:.3}, {z:.3}) m")),
     ];

@@ -11,7 +11,7 @@ use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
-use platewash_workcell::words::{count_with_noun, printable, quoted};
+use platewash_workcell::words::{count_with_noun, plate_name, plate_number, printable, quoted};
 use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -379,8 +379,11 @@ fn grown(margin_m: f64) -> String {
 fn holding(plates: &[usize]) -> String {
     match plates {
         [] => String::new(),
-        [plate] => format!(", holding plate {plate}"),
-        plates => format!(", holding plates {}", list(plates.iter().map(|plate| *plate as f64))),
+        &[plate] => format!(", holding {}", plate_name(plate)),
+        plates => format!(
+            ", holding plates {}",
+            list(plates.iter().map(|plate| plate_number(*plate) as f64))
+        ),
     }
 }
 

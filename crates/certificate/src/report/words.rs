@@ -5,6 +5,7 @@
 use crate::report::check::{Measure, Sense, Unit};
 use platewash_kinematics::words::{decimals_down, decimals_up, percent, rounded};
 use platewash_workcell::plate::Plate;
+use platewash_workcell::words::plate_number;
 
 /// Greatest number of significant digits of a number.
 const DIGITS: usize = 9;
@@ -114,7 +115,7 @@ pub(crate) fn plates(plates: &[Plate]) -> String {
 fn places(plates: &[Plate], those: &[usize]) -> String {
     let first = those.iter().filter(|i| **i < PLACES);
     let told: Vec<_> = first
-        .map(|i| format!("{i} at ({})", list(plates[*i].centre_xy())))
+        .map(|i| format!("{} at ({})", plate_number(*i), list(plates[*i].centre_xy())))
         .collect();
     match those.len() - told.len() {
         _ if told.is_empty() => String::new(),

@@ -16,7 +16,7 @@ use platewash_workcell::clearance::ClearanceError;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::words::millimetres;
+use platewash_workcell::words::{millimetres, plate_name};
 use platewash_workcell::workcell::Obstacle;
 
 /// Checks that every plate of a dry run has its real one below it, and that the real plates have valid places. Returns `None` where the job
@@ -72,7 +72,7 @@ fn missing(dry_run: &DryRun, obstacles: &[Obstacle], index: usize, plate: &Plate
     let expected = DryRun::plate_as_obstacle(index, &dry_run.lowered(plate));
     let below = millimetres(dry_run.height_m);
     let Some(found) = obstacles.iter().find(|obstacle| obstacle.name == name) else {
-        let words = format!("plate {index} itself, {below} below where it is raised to");
+        let words = format!("{} itself, {below} below where it is raised to", plate_name(index));
         return Some(Discrepancy::new(format!("obstacle {name:?}"), "not stated", words));
     };
     let off_m = (found.pose.translation.vector - expected.pose.translation.vector).norm();
@@ -86,6 +86,6 @@ fn missing(dry_run: &DryRun, obstacles: &[Obstacle], index: usize, plate: &Plate
         millimetres(off_m),
         found.shape
     );
-    let words = format!("plate {index}, {below} lower, {:?}", expected.shape);
+    let words = format!("{}, {below} lower, {:?}", plate_name(index), expected.shape);
     Some(Discrepancy::new(format!("obstacle {name:?}"), stated, words))
 }

@@ -14,7 +14,7 @@ use platewash_kinematics::Pose;
 use platewash_workcell::clearance::{ClearanceError, FixedBody};
 use platewash_workcell::job::{Overlap, PlateOverlap};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::{millimetres, printable};
+use platewash_workcell::words::{millimetres, plate_name, printable};
 use platewash_workcell::workcell::{ArmId, ObstacleShape};
 
 /// Checks that the plan is for this arm.
@@ -78,7 +78,8 @@ pub(crate) fn plates(subject: &Subject<'_>) -> Check {
             let underside_m = -plate.reach_along_m(&-up) - level_m;
             if underside_m < -PLACE_M {
                 let what = format!(
-                    "height of the underside of plate {i} over the {}",
+                    "height of the underside of {} over the {}",
+                    plate_name(i),
                     printable(&obstacle.name)
                 );
                 wrong.push(Discrepancy::new(what, millimetres(underside_m), "none below 0"));
@@ -114,9 +115,9 @@ fn washed_once(plan: &Plan) -> Vec<Discrepancy> {
         }
     }
     let times = washed.iter().enumerate().filter(|(_, times)| **times != 1);
-    wrong.extend(
-        times.map(|(plate, times)| Discrepancy::new(format!("order: times that plate {plate} is washed"), times, 1)),
-    );
+    wrong.extend(times.map(|(plate, times)| {
+        Discrepancy::new(format!("order: times that {} is washed", plate_name(plate)), times, 1)
+    }));
     wrong
 }
 
@@ -160,9 +161,7 @@ pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceErro
 }
 
 fn discrepancy(overlap: &PlateOverlap) -> Discrepancy {
-    let other = overlap
-        .other
-        .map_or_else(|| "the base".to_owned(), |other| format!("plate {other}"));
-    let what = format!("gap between plate {} and {other}", overlap.plate);
+    let other = overlap.other.map_or_else(|| "the base".to_owned(), plate_name);
+    let what = format!("gap between {} and {other}", plate_name(overlap.plate));
     Discrepancy::new(what, millimetres(-overlap.by_m), "none below 0")
 }

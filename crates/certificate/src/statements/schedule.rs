@@ -13,7 +13,7 @@ use crate::report::requirement::Requirement;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
-use platewash_workcell::words::count_with_noun;
+use platewash_workcell::words::{count_with_noun, plate_name};
 use std::ops::Range;
 
 /// Segments by their pieces, in time order.
@@ -154,7 +154,7 @@ fn kinds(plan: &Plan) -> Vec<Discrepancy> {
     let found = plan.segments.iter().map(|s| (s.kind, s.plate));
     let differs = |(found, expected): &((SegmentKind, usize), &(SegmentKind, usize))| found != *expected;
     if let Some((i, (found, expected))) = found.zip(&expected).enumerate().find(|(_, pair)| differs(pair)) {
-        let say = |(kind, plate): (SegmentKind, usize)| format!("{} of plate {plate}", kind.name());
+        let say = |(kind, plate): (SegmentKind, usize)| format!("{} of {}", kind.name(), plate_name(plate));
         wrong.push(Discrepancy::new(format!("segments[{i}]"), say(found), say(*expected)));
     }
     wrong

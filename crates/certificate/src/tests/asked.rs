@@ -20,7 +20,7 @@ fn plates_that_reach_below_the_floor_are_named() {
     plan.job.plates.iter_mut().for_each(|plate| plate.thickness_m = 1.0);
     let told = judged(plan);
     assert!(broken(&told).contains(&Plates), "{told}");
-    let underside = "height of the underside of plate 0 over the floor: -970.0 mm; expected none below 0";
+    let underside = "height of the underside of plate 1 over the floor: -970.0 mm; expected none below 0";
     assert!(told.to_string().contains(underside), "{told}");
 }
 

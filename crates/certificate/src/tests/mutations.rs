@@ -210,13 +210,13 @@ fn names_a_waived_pair_that_is_too_near() {
 fn waiving_one_pair_does_not_waive_others() {
     let mut plan = good();
     plan.job.requirements.clearance_m = 0.0215;
-    plan.job.workcell.exclusions.push(leaves_out(["sponge", "plate 0"]));
+    plan.job.workcell.exclusions.push(leaves_out(["sponge", "plate 1"]));
     let certificate = judged(plan);
     assert_eq!(broken(&certificate), [Clearance], "{certificate}");
     let rules = certificate
         .clearance
         .iter()
-        .filter(|line| line.pair == ["sponge".to_owned(), "plate 0".to_owned()]);
+        .filter(|line| line.pair == ["sponge".to_owned(), "plate 1".to_owned()]);
     let rules: Vec<_> = rules.map(|line| (line.rule, line.status)).collect();
     assert_eq!(
         rules,
@@ -264,7 +264,7 @@ fn a_path_that_runs_over_another_plate_is_named() {
     let said = told.check(EveryPlateOnce).unwrap();
     assert_eq!((said.status, said.discrepancies.len()), (Status::Violated, 2));
     let first = &said.discrepancies[0];
-    assert_eq!(first.what, "plate 1 while plate 0 is washed");
+    assert_eq!(first.what, "plate 2 while plate 1 is washed");
     // 123 mm of path and 25 mm of sponge, tilted by 15°, less 50 mm of plate and 20 mm of gap.
     assert_eq!(first.stated, "swept as far as 78.9 mm over its rim");
 }
@@ -317,7 +317,7 @@ fn only_plates_within_reach_are_touching_pairs() {
     let touching: Vec<_> = touching
         .map(|line| (line.pair[1].as_str(), &line.working_on[..]))
         .collect();
-    assert_eq!(touching, [("plate 0", &[0][..]), ("plate 1", &[1])]);
+    assert_eq!(touching, [("plate 1", &[0][..]), ("plate 2", &[1])]);
     let near = prove(&Recipe::arc(&[-23.5, 23.5]).plan(), &irb120()).unwrap();
     let line = near
         .clearance
@@ -341,7 +341,7 @@ fn the_sponge_keeps_clear_of_a_higher_neighbour() {
     let touching: Vec<_> = touching
         .map(|line| (line.pair[1].as_str(), &line.working_on[..]))
         .collect();
-    assert_eq!(touching, [("plate 0", &[0, 1][..]), ("plate 1", &[1])]);
+    assert_eq!(touching, [("plate 1", &[0, 1][..]), ("plate 2", &[1])]);
     assert!(broken(&certificate).contains(&Clearance), "{certificate}");
     assert!(
         certificate
@@ -625,7 +625,7 @@ fn plates_that_overlap_fail_or_are_reported() {
     assert_eq!(certificate.verdict, Verdict::Pass, "{certificate}");
     assert_eq!(certificate.check(PlatesApart).unwrap().discrepancies.len(), 1);
     assert_eq!(certificate.waived, [PlatesApart]);
-    let expected = "PROVED BUT FOR plates apart, gap between plate 0 and plate 1 -12.8 mm (waived by the job): ";
+    let expected = "PROVED BUT FOR plates apart, gap between plate 1 and plate 2 -12.8 mm (waived by the job): ";
     assert!(certificate.to_string().starts_with(expected), "{certificate}");
 }
 

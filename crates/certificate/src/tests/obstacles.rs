@@ -115,7 +115,7 @@ fn an_obstacle_in_a_plate_breaks_plates_apart() {
         let check = certificate.check(Requirement::PlatesApart).unwrap();
         assert_eq!(check.status, Status::Violated);
         let said = format!("{:?}", check.discrepancies);
-        assert!(said.contains("stone") && said.contains("plate 0"), "{said}");
+        assert!(said.contains("stone") && said.contains("plate 1"), "{said}");
     }
     let mut held = stone;
     held.holds_plates = vec![0];

@@ -100,7 +100,7 @@ fn reports_the_basis_of_the_verdict() {
         "  tool          \"handle\", a cylinder of radius 20 and length 125 mm at (0, 0, 62.5) mm of the flange; tip at (0, 0, 150) mm of the flange",
         "  tool mount    on tool0 along its z",
         "  sponge        radius 25 and height 25 mm, compressed by 5 mm (assumed), at (0, 0, 137.5) mm of the flange",
-        "  plates        2 of radius 145 mm, 20 mm thick, faces 30 mm above 0: 0 at (0.303086256, -0.212223281), 1 at (0.320429399, 0.185) m",
+        "  plates        2 of radius 145 mm, 20 mm thick, faces 30 mm above 0: 1 at (0.303086256, -0.212223281), 2 at (0.320429399, 0.185) m",
         "  obstacles     \"floor\", all below 0; \"post\", a cylinder of radius 20 and length 600 mm at (-0.9, 0, 0.3) m",
         "  home          0, 0, 10, 0, 70, 0 ° at the start, 0, 0, 10, 0, 70, 28.6478898 ° at the end",
         "  limits        joint positions and speeds from the description; joint accelerations 8, 8, 8, 8, 8, 8 rad/s² (assumed); tip 1 m/s, 8 m/s² (assumed)",

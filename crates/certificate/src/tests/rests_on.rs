@@ -185,7 +185,7 @@ fn states_all_sizes_of_plates_and_the_first_positions() {
     let row = |count: u32| (0..count).map(|i| Plate::level_disc([f64::from(i), 0.5, 0.03], 0.145, 0.02));
     let few = told("plates", |r| r.plates = row(2).collect());
     let size = "of radius 145 mm, 20 mm thick, faces 30 mm above 0";
-    assert_eq!(few, format!("2 {size}: 0 at (0, 0.5), 1 at (1, 0.5) m"));
+    assert_eq!(few, format!("2 {size}: 1 at (0, 0.5), 2 at (1, 0.5) m"));
     let many = told("plates", |r| {
         r.plates = row(14).collect();
         r.plates[1].thickness_m = 0.0200001;
@@ -193,14 +193,14 @@ fn states_all_sizes_of_plates_and_the_first_positions() {
     });
     let groups: Vec<_> = many.split("; ").collect();
     assert!(
-        groups[0].starts_with(&format!("15: 13 {size}: 0 at (0, 0.5), 2 at (2, 0.5), ")),
+        groups[0].starts_with(&format!("15: 13 {size}: 1 at (0, 0.5), 3 at (2, 0.5), ")),
         "{many}"
     );
-    assert!(groups[0].ends_with(", 11 at (11, 0.5) m and 2 more"), "{many}");
+    assert!(groups[0].ends_with(", 12 at (11, 0.5) m and 2 more"), "{many}");
     assert_eq!(
         groups[1..],
         [
-            "1 of radius 145 mm, 20.0001 mm thick, faces 30 mm above 0: 1 at (1, 0.5) m",
+            "1 of radius 145 mm, 20.0001 mm thick, faces 30 mm above 0: 2 at (1, 0.5) m",
             "1 of radius 1 mm, 20 mm thick, faces 40 mm above 0"
         ]
     );
@@ -216,7 +216,7 @@ fn states_the_tilt_of_tilted_plates() {
     let axis = "tilted by 45°, axis (-0.707106781, 0, 0.707106781)";
     assert_eq!(
         leaning,
-        format!("2: 1 {size}: 0 at (0.5, 0) m; 1 {size}, {axis}: 1 at (0.5, 0) m")
+        format!("2: 1 {size}: 1 at (0.5, 0) m; 1 {size}, {axis}: 2 at (0.5, 0) m")
     );
 }
 
@@ -241,7 +241,7 @@ fn states_profiles_by_name_or_knots_with_rim_and_foot() {
         );
         assert!(words.starts_with(&start), "{words}");
         assert!(words.contains(
-            " mm over the pole, 20 mm thick, poles 30 mm above 0, on a foot of radius 60 mm, 4 mm high: 0 at ("
+            " mm over the pole, 20 mm thick, poles 30 mm above 0, on a foot of radius 60 mm, 4 mm high: 1 at ("
         ));
         // As it is read back.
         let read: Surface = serde_json::from_str(&serde_json::to_string(&surface).unwrap()).unwrap();
@@ -299,5 +299,5 @@ fn limits_are_printed_without_rounding() {
     let home = told("home", |r| r.home_rad[0][0] = 0.001_f64.to_radians());
     assert!(home.starts_with("0.001, "), "{home}");
     let place = told("plates", |r| r.plates[0].pose.translation.x = 0.3000004);
-    assert!(place.contains(": 0 at (0.3000004, "), "{place}");
+    assert!(place.contains(": 1 at (0.3000004, "), "{place}");
 }

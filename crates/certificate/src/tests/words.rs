@@ -46,11 +46,11 @@ fn the_headline_counts_waived_requirements_after_failed_ones() {
     );
     assert!(!line.contains("BUT FOR"), "{line}");
     assert!(
-        waived.starts_with("every plate once, plate 1 while plate 0 is washed"),
+        waived.starts_with("every plate once, plate 2 while plate 1 is washed"),
         "{line}"
     );
     assert!(
-        waived.contains(" and 55 more cases; plates apart, gap between plate 0 and plate 1 -289.0 mm"),
+        waived.contains(" and 55 more cases; plates apart, gap between plate 1 and plate 2 -289.0 mm"),
         "{line}"
     );
     assert!(waived.ends_with(" and 27 more cases"), "{line}");

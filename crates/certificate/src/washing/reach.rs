@@ -22,7 +22,7 @@ use platewash_kinematics::trig::cos;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::trajectory::SegmentKind;
-use platewash_workcell::words::millimetres;
+use platewash_workcell::words::{millimetres, plate_name};
 use serde::{Deserialize, Serialize};
 
 /// Greatest depth of halving of a piece of an approach or a retreat. The pieces are long there.
@@ -256,7 +256,7 @@ pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64
                 &mut swept.apart
             };
             list.push(Discrepancy::new(
-                format!("plate {j} while plate {i} is washed"),
+                format!("{} while {} is washed", plate_name(j), plate_name(i)),
                 format!("swept as far as {} over its rim", millimetres(depth_m)),
                 format!("at most its rim, {}", millimetres(most_m)),
             ));

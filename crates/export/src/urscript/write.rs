@@ -8,6 +8,7 @@ use crate::header::wrapped;
 use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector};
+use platewash_workcell::words::{plate_name, plate_number};
 use std::fmt::Write;
 
 /// Decimals of a position \[rad, m\]: half a nanoradian.
@@ -131,8 +132,8 @@ fn stretches(program: &Program<'_>) -> Vec<Stretch> {
                 let (kind, plate) = (segment.kind.name(), segment.plate);
                 let time = format!("{} to {} s", fixed(segment.t_start_s, 3), fixed(segment.t_end_s, 3));
                 (
-                    format!("part_{count}_{kind}_{plate}"),
-                    format!("{kind}, plate {plate}: {time} of the plan"),
+                    format!("part_{count}_{kind}_{}", plate_number(plate)),
+                    format!("{kind}, {}: {time} of the plan", plate_name(plate)),
                 )
             }
             None => (format!("part_{count}"), "a part of the plan".to_owned()),

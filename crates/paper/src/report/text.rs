@@ -3,7 +3,7 @@
 use super::{ClosestApproach, MotionReport, PaperReport, UnreachedWaypoint, Violation, ViolationKind};
 use platewash_kinematics::words::{angles_told_apart, distinct_decimals, rounded};
 use platewash_workcell::coverage::Coverage;
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{plate_name, plate_number, quoted};
 use std::fmt::{self, Display, Formatter};
 
 /// Violations listed one by one for a motion before the rest is only counted.
@@ -79,7 +79,7 @@ impl PaperReport {
         ])?;
         for p in &self.plates {
             row([
-                &p.plate.to_string(),
+                &plate_number(p.plate).to_string(),
                 &format!("({:.0}, {:.0})", 1e3 * p.centre_m[0], 1e3 * p.centre_m[1]),
                 &format!("{}/{}", p.reached, p.waypoints),
                 &format!("{:.4}", 1e3 * p.worst_ik_position_error_m),
@@ -91,7 +91,7 @@ impl PaperReport {
             ])?;
         }
         for p in &self.plates {
-            let what = format!("plate {}", p.plate);
+            let what = plate_name(p.plate);
             unreached(f, &what, p.waypoints - p.reached, p.worst_unreached.as_ref())?;
         }
         writeln!(
@@ -100,7 +100,7 @@ impl PaperReport {
             1e3 * self.clearance_required_m
         )?;
         for p in &self.plates {
-            let what = format!("plate {}", p.plate);
+            let what = plate_name(p.plate);
             nearest(f, &what, [&p.planned_clearance, &p.executed_clearance])?;
         }
         Ok(())

@@ -11,6 +11,7 @@ use platewash_kinematics::{Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashPath};
+use platewash_workcell::words::plate_name;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
@@ -423,7 +424,7 @@ pub enum RedundancyError {
         found: f64,
     },
     /// There is no such plate.
-    #[error("there is no plate {plate}; there are {count}")]
+    #[error("there is no {}; there are {count}", plate_name(*.plate))]
     Plate {
         /// Index of the plate.
         plate: usize,
@@ -431,7 +432,7 @@ pub enum RedundancyError {
         count: usize,
     },
     /// At some contact points no tilt within the limit was found reachable, within the joint limits and clear.
-    #[error("plate {plate}: no tilt was found at {dead} of {tried} points of the wash path; {}", at(.ends))]
+    #[error("{}: no tilt was found at {dead} of {tried} points of the wash path; {}", plate_name(*.plate), at(.ends))]
     NoTilt {
         /// Index of the plate.
         plate: usize,
@@ -443,7 +444,7 @@ pub enum RedundancyError {
         ends: Vec<DeadEnd>,
     },
     /// Every contact point has a tilt, but no continuous sequence of them was found within the joint steps and tilt rate allowed.
-    #[error("plate {plate}: no way was found to connect the usable tilts along the path; {}", at(std::slice::from_ref(.end)))]
+    #[error("{}: no way was found to connect the usable tilts along the path; {}", plate_name(*.plate), at(std::slice::from_ref(.end)))]
     Disconnected {
         /// Index of the plate.
         plate: usize,
@@ -454,7 +455,7 @@ pub enum RedundancyError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// The sequence of tilts found fails between the points searched.
-    #[error("plate {plate}: {}", at(std::slice::from_ref(.end)))]
+    #[error("{}: {}", plate_name(*.plate), at(std::slice::from_ref(.end)))]
     Between {
         /// Index of the plate.
         plate: usize,

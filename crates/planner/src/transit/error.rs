@@ -9,6 +9,7 @@ use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{JointVector, LimitViolation};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::PairClearance;
+use platewash_workcell::words::plate_name;
 use std::fmt;
 
 /// Reason that there is no transit.
@@ -31,7 +32,7 @@ pub enum TransitError {
         blocked: Option<Box<TransitObstruction>>,
     },
     /// The line over a plate is not free.
-    #[error("the line over plate {plate} is not clear at {height_m:.3} m{}", line(.too_near.as_deref()))]
+    #[error("the line over {} is not clear at {height_m:.3} m{}", plate_name(*.plate), line(.too_near.as_deref()))]
     Line {
         /// The plate.
         plate: usize,
@@ -84,7 +85,7 @@ impl fmt::Display for TransitObstruction {
 }
 
 fn name(end: &Option<usize>) -> String {
-    end.map_or_else(|| "home".to_owned(), |plate| format!("plate {plate}"))
+    end.map_or_else(|| "home".to_owned(), plate_name)
 }
 
 fn first(blocked: Option<&TransitObstruction>) -> String {
@@ -193,7 +194,7 @@ mod tests {
             assert_eq!(at_plate, None, "the sponge may be near a plate");
             if let Some(found) = found {
                 let message = found.to_string();
-                for part in ["sponge", "plate 0", "10.50 mm", "11.00 mm", "1.00 mm in reserve"] {
+                for part in ["sponge", "plate 1", "10.50 mm", "11.00 mm", "1.00 mm in reserve"] {
                     assert!(message.contains(part), "{message}");
                 }
             }

@@ -10,6 +10,7 @@ use crate::timing::SlowStretch;
 use crate::transit::search::{BaseArc, FreePath};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::arc;
+use platewash_workcell::words::plate_name;
 
 /// Home, or a plate with the line along its normal: configurations from where the arm rests to where it is free.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +28,7 @@ pub struct LiftLine {
 
 /// A line that is none.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the line over plate {plate}: {error}")]
+#[error("the line over {}: {error}", plate_name(*.plate))]
 pub struct LiftLineError {
     /// The plate.
     pub plate: usize,

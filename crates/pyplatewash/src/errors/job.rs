@@ -10,6 +10,7 @@ use platewash::scenario::Problem;
 use platewash::workcell::dry_run::DryRunError;
 use platewash::workcell::job::JobError;
 use platewash::workcell::layout::LayoutError;
+use platewash::workcell::words::plate_name;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Failure, PlanError, ScenarioError};
 use pyo3::prelude::*;
@@ -103,7 +104,7 @@ fn layout(py: Python<'_>, error: &LayoutError, message: &str) -> PyErr {
         ],
         LayoutError::EmptyRegion { .. } => vec![("cause", any(py, "empty_region"))],
         LayoutError::InvalidPosition { plate } => {
-            let problem = format!("the centre of plate {plate} is not finite");
+            let problem = format!("the centre of {} is not finite", plate_name(*plate));
             return input(py, "positions_m", &problem);
         }
         LayoutError::InvalidInput { key, problem } => return input(py, key, &problem.to_string()),

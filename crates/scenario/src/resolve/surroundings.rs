@@ -54,7 +54,7 @@ impl Scenario {
             if let Some(plate) = obstacle.held(plates).into_iter().find(|plate| *plate >= plates) {
                 let there = count_with_noun(plates, "plate");
                 let are = if plates == 1 { "is" } else { "are" };
-                let found = format!("it holds plate {plate}; there {are} {there}, counted from 0");
+                let found = format!("it holds the plate with index {plate}; there {are} {there}, counted from 0");
                 conflict(format!("{at}.holds_plates"), found)?;
             }
         }

@@ -194,8 +194,8 @@ mod tests {
                 "tool_body[1].radius_m: is not a size of a box",
             ),
             (
-                more("name = \"plate 1\"\nshape = \"sphere\"\nradius_m = 0.01"),
-                "tool_body[1].name: \"plate 1\" is the name of something else",
+                more("name = \"plate 2\"\nshape = \"sphere\"\nradius_m = 0.01"),
+                "tool_body[1].name: \"plate 2\" is the name of something else",
             ),
             (
                 more("name = \"bracket\"\nshape = \"sphere\"\nradius_m = 0.01"),

@@ -12,7 +12,7 @@ use platewash_workcell::job::JobError;
 use platewash_workcell::simulation::{FoamContact, PlantSettings, SimulationSettings};
 use platewash_workcell::tool::Tool;
 use platewash_workcell::trajectory::KnotError;
-use platewash_workcell::words::count_with_noun;
+use platewash_workcell::words::{count_with_noun, plate_name};
 
 /// Significant digits of a rate that is suggested.
 const RATE_DIGITS: usize = 5;
@@ -48,7 +48,7 @@ pub enum SimulationError {
         segments: usize,
     },
     /// A segment names a plate that is not there.
-    #[error("plan: segment {segment} names plate {plate}; there are {plates}")]
+    #[error("plan: segment {segment} names {}; there are {plates}", plate_name(*.plate))]
     Plate {
         /// Index of the segment.
         segment: usize,

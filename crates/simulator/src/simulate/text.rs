@@ -6,6 +6,7 @@ use crate::simulate::measures::{Effort, PayloadVerdict, Tracking};
 use crate::simulate::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
 use crate::simulate::report::{SimulationReport, SimulationVerdict};
 use platewash_kinematics::words::{distinct_decimals, percent, rounded};
+use platewash_workcell::words::{plate_name, plate_number};
 use std::fmt::{self, Display, Formatter};
 
 impl Display for SimulationReport {
@@ -51,7 +52,7 @@ fn plates(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
             "{:<10} {:>16} {:>17} {contact:>12.1} {:>10.2}  {}",
-            plate.plate,
+            plate_number(plate.plate),
             percent(plate.planned.fraction),
             percent(plate.executed.fraction),
             plate.tilt_rad.to_degrees(),
@@ -69,7 +70,7 @@ fn pressing(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     let pressed: Vec<_> = report
         .plates
         .iter()
-        .filter_map(|plate| Some((plate.plate, plate.pressing.as_ref()?)))
+        .filter_map(|plate| Some((plate_name(plate.plate), plate.pressing.as_ref()?)))
         .collect();
     if pressed.is_empty() {
         return writeln!(f, "force on plates: not simulated\n");
@@ -79,7 +80,7 @@ fn pressing(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     heights(&pressed, f)
 }
 
-fn forces(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
+fn forces(pressed: &[(String, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(
         f,
         "{:<24} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}",
@@ -116,7 +117,7 @@ fn forces(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result 
 }
 
 /// Writes the contact; nothing where the job asks for no contact.
-fn contact(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
+fn contact(pressed: &[(String, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
     let found: Vec<_> = pressed
         .iter()
         .filter_map(|(plate, pressing)| Some((plate, pressing.contact?)))
@@ -137,7 +138,7 @@ fn contact(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result
 }
 
 /// The force of the plan's own poses, and how much of it a millimetre makes.
-fn heights(pressed: &[(usize, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
+fn heights(pressed: &[(String, &Pressing)], f: &mut Formatter<'_>) -> fmt::Result {
     write!(f, "{:<24}", "planned N, plate higher")?;
     for higher_m in HEIGHT_ERRORS_M {
         write!(f, " {:>13}", format!("{:+.0} mm", 1e3 * higher_m))?;
@@ -165,7 +166,7 @@ fn tracking(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
     };
     for segment in &report.segments {
         row(
-            &format!("{}, plate {}", segment.kind.name(), segment.plate),
+            &format!("{}, {}", segment.kind.name(), plate_name(segment.plate)),
             &segment.tracking,
         )?;
     }

@@ -11,6 +11,7 @@ use crate::view::PressedRule;
 use crate::view::coverage::{proved_share, swept};
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::PlanSegment;
+use platewash_workcell::words::plate_name;
 
 /// Greatest number of plates in one figure: with the planned motion alone, and with the executed one besides.
 const MOST: [usize; 2] = [24, 12];
@@ -156,7 +157,7 @@ impl Map {
         drawing.circle(cell.middle(), 0.5 * cell.size[0], &stroke(LINE, 2.0));
         let [x, y] = [cell.middle()[0], cell.end()[1]];
         let what = if self.is_executed { "executed" } else { "planned" };
-        let title = format!("{}: plate {}, {what}", self.place + 1, self.plate + 1);
+        let title = format!("{}: {}, {what}", self.place + 1, plate_name(self.plate));
         let size = |words: &str| fitted(words, 18.0, cell.size[0] + 20.0);
         drawing.text([x, y + 24.0], &title, &[&size(&title), &fill(GREY), MIDDLE]);
         if let Some((words, share, required)) = self.share(subject) {

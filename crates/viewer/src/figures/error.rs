@@ -1,6 +1,7 @@
 //! Why a figure cannot be drawn.
 
 use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::words::plate_name;
 
 /// Reason that a figure cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,7 +24,8 @@ pub enum FigureError {
     },
     /// A segment whose plate does not exist, or whose times are not valid.
     #[error(
-        "segment {segment}: plate {plate} of {plates}, from {t_start_s} to {t_end_s} s, is not a part of the motion"
+        "segment {segment}: {} of {plates}, from {t_start_s} to {t_end_s} s, is not a part of the motion",
+        plate_name(*.plate)
     )]
     Segment {
         /// Index of the segment.
@@ -44,7 +46,7 @@ pub enum FigureError {
         figure: &'static str,
     },
     /// A plate that is nowhere or of no size.
-    #[error("plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0")]
+    #[error("{}: its centre, height, radius and thickness must be finite, the latter two above 0", plate_name(*.plate))]
     NoPlate {
         /// Index of the plate.
         plate: usize,

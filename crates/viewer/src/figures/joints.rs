@@ -9,6 +9,7 @@ use super::svg::{
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
 use platewash_workcell::trajectory::{JointState, SegmentKind};
+use platewash_workcell::words::plate_name;
 use rayon::prelude::*;
 
 /// Moments that are drawn.
@@ -220,7 +221,7 @@ fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
         let [from, to] = [segment.t_start_s, segment.t_end_s].map(|t| axes.across.at(t));
         let field = Rect::new(from, top, to - from, STRIP);
         drawing.rect(field, &fill(colour(segment.kind)));
-        let words = format!("plate {}", segment.plate + 1);
+        let words = plate_name(segment.plate);
         if segment.kind == SegmentKind::Wash && width(&words, 17.0) < to - from - 8.0 {
             drawing.text(
                 [field.middle()[0], top + 19.0],

@@ -10,6 +10,7 @@ use crate::view::PressedRule;
 use crate::view::coverage::swept;
 use crate::view::tips::Tip;
 use platewash_workcell::plate::Plate;
+use platewash_workcell::words::plate_name;
 
 /// Most plates of one figure.
 const MOST: usize = 24;
@@ -206,7 +207,7 @@ impl<'a> Panel<'a> {
         let [bold, grey] = [fill(INK) + " font-weight=\"bold\"", fill(GREY)];
         text(
             [x, y + 24.0],
-            &format!("{}: plate {}", place + 1, self.index + 1),
+            &format!("{}: {}", place + 1, plate_name(self.index)),
             20.0,
             0.42,
             &[&bold],

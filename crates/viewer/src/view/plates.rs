@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate;
 use platewash_workcell::wash_path::{self, WashCurve};
+use platewash_workcell::words::plate_name;
 use serde::Serialize;
 
 /// Largest deviation of a chord from a wash path \[m\].
@@ -46,7 +47,7 @@ impl Plate {
     #[must_use]
     pub fn new(index: usize, plate: &plate::Plate) -> Self {
         Self {
-            name: format!("plate {index}"),
+            name: plate_name(index),
             meridian_m: plate.surface.outline_m(TURN_RAD),
             plate: *plate,
         }

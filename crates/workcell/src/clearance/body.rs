@@ -6,6 +6,7 @@ use crate::clearance::part::{Part, PlacedPart};
 use crate::clearance::tree::Tree;
 use crate::plate::Plate;
 use crate::tool::Tool;
+use crate::words::plate_name;
 use crate::workcell::{Obstacle, ObstacleShape};
 use nalgebra::Vector3;
 use platewash_kinematics::rotation::RigidTransform;
@@ -216,7 +217,7 @@ pub(crate) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Bo
         |(tree, parts)| (Some(tree), parts),
     );
     Body {
-        name: format!("plate {index}"),
+        name: plate_name(index),
         kind: BodyKind::Plate(index),
         parts,
         tree,

@@ -18,7 +18,7 @@ use crate::clearance::model::{ClearanceError, ClearanceModel, from_base};
 use crate::clearance::part::{Core, Extent, Part, PlacedPart};
 use crate::dry_run::DryRun;
 use crate::plate::Plate;
-use crate::words::printable;
+use crate::words::{plate_name, printable};
 use crate::workcell::{Obstacle, ObstacleShape, Workcell};
 use nalgebra::Vector6;
 use parry3d_f64::math::Vector;
@@ -44,7 +44,7 @@ impl fmt::Display for FixedBody {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Obstacle(name) | Self::Parts(name) => write!(f, "obstacle '{}'", printable(name)),
-            Self::Plate(index) => write!(f, "plate {index}"),
+            Self::Plate(index) => f.write_str(&plate_name(*index)),
         }
     }
 }

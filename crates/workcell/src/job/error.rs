@@ -4,7 +4,7 @@ use crate::clearance::{ClearanceError, FixedBody, FixedOverlap};
 use crate::layout::MAX_PLATES;
 use crate::obstacle::ObstacleFault;
 use crate::plate::GREATEST_M;
-use crate::words::{millimetres, printable};
+use crate::words::{millimetres, plate_name, printable};
 use crate::workcell::{ArmId, MOST_BODIES};
 use platewash_kinematics::LimitViolation;
 use serde::{Deserialize, Serialize};
@@ -42,8 +42,9 @@ pub enum JobError {
     },
     /// A plate has an invalid size or pose.
     #[error(
-        "plate {plate}: its centre, height, radius and thickness must be finite, the latter two above 0; a foot has a height above 0 and \
-         a radius above 0, within the rim"
+        "{}: its centre, height, radius and thickness must be finite, the latter two above 0; a foot has a height above 0 and \
+         a radius above 0, within the rim",
+        plate_name(*.plate)
     )]
     NoPlate {
         /// Index of the plate.

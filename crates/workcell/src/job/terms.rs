@@ -12,6 +12,7 @@ use crate::layout::{MAX_PLATES, base_footprint};
 use crate::plate::{GREATEST_M, Plate};
 use crate::pose;
 use crate::simulation::SimulationSettings;
+use crate::words::plate_name;
 use crate::workcell::{MOST_BODIES, Workcell};
 use platewash_kinematics::words::nonzero_decimals;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
@@ -320,10 +321,10 @@ impl JobTerms {
 
 impl fmt::Display for PlateOverlap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (plate, mm) = (self.plate, nonzero_decimals(1e3 * self.by_m, 1));
+        let (plate, mm) = (plate_name(self.plate), nonzero_decimals(1e3 * self.by_m, 1));
         match self.other {
-            Some(other) => write!(f, "plate {plate} and plate {other} overlap by {mm} mm"),
-            None => write!(f, "plate {plate} overlaps the robot's base by {mm} mm"),
+            Some(other) => write!(f, "{plate} and {} overlap by {mm} mm", plate_name(other)),
+            None => write!(f, "{plate} overlaps the robot's base by {mm} mm"),
         }
     }
 }
@@ -360,8 +361,8 @@ mod tests {
             ("home_rad", |t| t.home_rad[1][3] = f64::NAN),
             ("seed", |t| t.seed = MAX_SEED + 1),
             ("0 plates", |t| t.plates.clear()),
-            ("plate 2", |t| t.plates[2].thickness_m = 0.0),
-            ("plate 1", |t| {
+            ("plate 3", |t| t.plates[2].thickness_m = 0.0),
+            ("plate 2", |t| {
                 t.plates[1].pose.rotation = nalgebra::UnitQuaternion::new_unchecked([0.0, 0.0, 0.1, 1.0].into())
             }),
             ("sponge.radius_m", |t| t.workcell.tool.sponge.radius_m = 1000.1),

@@ -2,6 +2,7 @@
 
 use crate::layout::{BaseFootprint, Region, Spacing};
 use crate::plate::Plate;
+use crate::words::plate_name;
 use platewash_kinematics::words::{distinct_decimals, nonzero_decimals};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -71,7 +72,9 @@ impl fmt::Display for Finding {
                 let [distance, required] = distinct_decimals(mm(distance_m), mm(required_m), 1);
                 write!(
                     f,
-                    "plate {a} and plate {b} are {distance} mm apart; the spacing rule wants more than {required} mm"
+                    "{} and {} are {distance} mm apart; the spacing rule wants more than {required} mm",
+                    plate_name(a),
+                    plate_name(b)
                 )
             }
             Self::TooCloseToBase {
@@ -82,27 +85,32 @@ impl fmt::Display for Finding {
                 let [distance, required] = distinct_decimals(mm(distance_m), mm(required_m), 1);
                 write!(
                     f,
-                    "plate {plate} is {distance} mm from the base axis; the spacing rule wants more than {required} mm"
+                    "{} is {distance} mm from the base axis; the spacing rule wants more than {required} mm",
+                    plate_name(plate)
                 )
             }
             Self::PlatesOverlap { a, b, overlap_m } => {
                 write!(
                     f,
-                    "plate {a} and plate {b} overlap by {} mm",
+                    "{} and {} overlap by {} mm",
+                    plate_name(a),
+                    plate_name(b),
                     nonzero_decimals(mm(overlap_m), 1)
                 )
             }
             Self::OverlapsBase { plate, overlap_m } => {
                 write!(
                     f,
-                    "plate {plate} overlaps the robot's base by {} mm",
+                    "{} overlaps the robot's base by {} mm",
+                    plate_name(plate),
                     nonzero_decimals(mm(overlap_m), 1)
                 )
             }
             Self::LeavesRegion { plate, x_m, y_m } => {
                 write!(
                     f,
-                    "plate {plate} at x = {:.1} mm, y = {:.1} mm lies outside the region",
+                    "{} at x = {:.1} mm, y = {:.1} mm lies outside the region",
+                    plate_name(plate),
                     mm(x_m),
                     mm(y_m)
                 )

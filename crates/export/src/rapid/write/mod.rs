@@ -218,8 +218,8 @@ pub struct Routines {
 }
 
 impl Routines {
-    /// A name after a kind of segment and a plate.
-    pub fn name(&mut self, kind: Option<SegmentKind>, plate: usize) -> String {
+    /// A name after a kind of segment and the number of its plate, counted from 1.
+    pub fn name(&mut self, kind: Option<SegmentKind>, number: usize) -> String {
         let word = match kind {
             Some(SegmentKind::Depart) => "Depart",
             Some(SegmentKind::Approach) => "Approach",
@@ -229,7 +229,7 @@ impl Routines {
             Some(SegmentKind::Return) => "Return",
             None => "Motion",
         };
-        let first = format!("{PREFIX}{word}{plate}");
+        let first = format!("{PREFIX}{word}{number}");
         let mut name = first.clone();
         let mut again = 1_u32;
         while !self.taken.insert(name.clone()) {

@@ -6,6 +6,7 @@ use crate::rapid::zone_named;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_workcell::words::{plate_name, plate_number};
 
 /// Decimals of joint positions \[°\]: 1 µm at the tip.
 const ANGLE_DECIMALS: usize = 4;
@@ -114,7 +115,7 @@ pub fn routines(program: &Program<'_>, most: usize) -> Vec<Routine> {
             routines.push(Routine {
                 name: names.name(
                     segment.map(|segment| segment.kind),
-                    segment.map_or(first.segment, |segment| segment.plate),
+                    segment.map_or(first.segment, |segment| plate_number(segment.plate)),
                 ),
                 comment: comment(segment, [begins_s, last.t_s], part.len()),
                 lines,
@@ -125,13 +126,13 @@ pub fn routines(program: &Program<'_>, most: usize) -> Vec<Routine> {
 }
 
 fn comment(segment: Option<&PlanSegment>, span_s: [f64; 2], targets: usize) -> String {
-    let what = match segment.map(|segment| (segment.kind, segment.plate)) {
-        Some((SegmentKind::Depart, plate)) => format!("From the start to plate {plate}"),
-        Some((SegmentKind::Approach, plate)) => format!("Down to plate {plate}"),
-        Some((SegmentKind::Wash, plate)) => format!("Washes plate {plate}"),
-        Some((SegmentKind::Retreat, plate)) => format!("Up from plate {plate}"),
-        Some((SegmentKind::Transit, plate)) => format!("To plate {plate}"),
-        Some((SegmentKind::Return, plate)) => format!("From plate {plate} to the end"),
+    let what = match segment.map(|segment| (segment.kind, plate_name(segment.plate))) {
+        Some((SegmentKind::Depart, plate)) => format!("From the start to {plate}"),
+        Some((SegmentKind::Approach, plate)) => format!("Down to {plate}"),
+        Some((SegmentKind::Wash, plate)) => format!("Washes {plate}"),
+        Some((SegmentKind::Retreat, plate)) => format!("Up from {plate}"),
+        Some((SegmentKind::Transit, plate)) => format!("To {plate}"),
+        Some((SegmentKind::Return, plate)) => format!("From {plate} to the end"),
         None => "Moves".to_owned(),
     };
     let [from, to] = span_s.map(|t_s| fixed(t_s, 3));

@@ -67,7 +67,7 @@ fn ends_for_extreme_values() {
                 let path = path(curve, tilt);
                 match world.washing(&path) {
                     Ok(washing) => check(world, &path, &washing),
-                    Err(error) => assert!(error.to_string().contains("plate 0"), "{error}"),
+                    Err(error) => assert!(error.to_string().contains("plate 1"), "{error}"),
                 }
             }
         });

@@ -31,8 +31,8 @@ fn accepts_touching_bodies_and_names_overlapping_ones() {
     assert_eq!(
         names,
         [
-            ("obstacle 'table'".to_owned(), "plate 0"),
-            ("obstacle 'table'".to_owned(), "plate 1")
+            ("obstacle 'table'".to_owned(), "plate 1"),
+            ("obstacle 'table'".to_owned(), "plate 2")
         ]
     );
     assert!((wrong[0].by_m - 1e-4).abs() < 1e-9, "{}", wrong[0].by_m);

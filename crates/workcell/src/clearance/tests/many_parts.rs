@@ -5,6 +5,7 @@ use crate::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
 use crate::fixtures::{kitchen_tool, workcell};
 use crate::plate::{Foot, Plate};
 use crate::surface::{SHIPPED_PROFILES, Surface};
+use crate::words::plate_name;
 use crate::workcell::{Obstacle, ObstacleShape, Workcell};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use proptest::prelude::*;
@@ -62,7 +63,7 @@ proptest! {
         let poses = robot.fk(&q);
         let mut keeps = [true; 2];
         for (pair, found) in all.iter().enumerate() {
-            let plate = (0..2).find(|i| found.b == format!("plate {i}"));
+            let plate = (0..2).find(|i| found.b == plate_name(*i));
             let Some(plate) = plate else {
                 let clear = is_clear(found.distance_m, required);
                 keeps = keeps.map(|k| k && clear);

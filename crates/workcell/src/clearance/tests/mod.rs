@@ -239,7 +239,7 @@ fn known_distances_at_the_home_position() {
 #[test]
 fn ignores_contact_of_the_sponge_with_its_plate() {
     let model = model();
-    // Tool straight down over plate 1 with the sponge on its surface: found by the place of contact alone.
+    // Tool straight down over plate 2 with the sponge on its surface: found by the place of contact alone.
     let robot = RobotModel::irb120().unwrap();
     let tip = robot.tool_mount(None).unwrap().offset(&RigidTransform {
         translation: Vector3::new(0.0, 0.0, 0.15),
@@ -252,7 +252,7 @@ fn ignores_contact_of_the_sponge_with_its_plate() {
         .unwrap()
         .q;
     let touching = model.smallest(&q, &[]).unwrap();
-    assert_eq!((touching.a.as_str(), touching.b.as_str()), ("sponge", "plate 1"));
+    assert_eq!((touching.a.as_str(), touching.b.as_str()), ("sponge", "plate 2"));
     assert!(touching.distance_m <= 0.0);
     assert!(model.smallest(&q, &[1]).unwrap().distance_m > 0.0);
     assert!(model.smallest(&q, &[0]).unwrap().distance_m <= 0.0);
