@@ -289,7 +289,8 @@ def test_matplotlib_is_not_needed() -> None:
 
 
 def order(plan: pw.Plan) -> str:
-    return ", ".join(map(str, plan.order))
+    """As words have it, counted from 1."""
+    return ", ".join(str(index + 1) for index in plan.order)
 
 
 def test_every_table_is_complete_and_matches_its_title(kitchen: pw.Plan, executed: pw.Execution, paper: pw.PaperRun) -> None:
@@ -297,7 +298,7 @@ def test_every_table_is_complete_and_matches_its_title(kitchen: pw.Plan, execute
     nearest = next(check for check in certificate.checks if check.requirement == "clearance")
     nouns: list[tuple[Any, list[str]]] = [
         (kitchen, ["kitchen", f"{kitchen.duration_s:.2f} s", order(kitchen), (kitchen.hash or "")[:12], "as sealed", "see prove(plan)"]),
-        (whole, [f"{visit.wash_s:.2f} s" for visit in whole.visits]),
+        (whole, [f"plate {visit.plate + 1}" for visit in whole.visits] + [f"{visit.wash_s:.2f} s" for visit in whole.visits]),
         (certificate, [certificate.headline, "✓ proved", "wash speed", " and ".join(nearest.worst.pair)]),
         (whole.job, ["kitchen", "irb120", "certified"]),
         (whole.job.layout, [f"({p.x_m:.4f}, {p.y_m:.4f}) m" for p in kitchen.plates]),
