@@ -6,7 +6,7 @@
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 //!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
-//!     cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; 'edit' is a live cell
+//!     cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
 //!     cargo xtask docs                              writes the pages that are made from the program
 
 mod benches;
@@ -30,7 +30,7 @@ cargo xtask test [OPTIONS]                    every test there is
     --without-browser                         all but what is looked at in a browser
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
-cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; 'edit' is a live cell
+cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 cargo xtask docs                              writes the pages that are made from the program";
 
