@@ -55,6 +55,14 @@ test("a button adds an obstacle, and undoing takes it away", async (t) => {
   const [x, y, z] = await placeOf(page, "box 1");
   assert.ok(Math.abs(z - 0.1) < 2e-3, "it stands on the floor");
   for (const [px, py] of await centres(page)) assert.ok(Math.hypot(px - x, py - y) > 0.145 + 0.04);
+  // With the keys it comes behind the plates.
+  await page.locator("canvas.scene").focus();
+  for (let k = 0; k < 5; k++) await page.keyboard.press("n");
+  await page.keyboard.press("ArrowRight");
+  await settled(page);
+  const [to_x, to_y] = await placeOf(page, "box 1");
+  assert.ok(Math.abs(Math.hypot(to_x - x, to_y - y) - 0.005) < 1e-6);
+  await page.evaluate(() => window.platewash.edit.undo());
   await page.evaluate(() => window.platewash.edit.undo());
   await settled(page);
   assert.equal(await scenario(page), before);

@@ -155,6 +155,7 @@ export class App {
   #hold(stale: boolean): void {
     document.documentElement.toggleAttribute("data-stale", stale);
     this.#controls.hold(stale);
+    this.#stage.scene?.setStale(stale);
     this.#transport?.hold(stale);
   }
 

@@ -62,6 +62,7 @@ export class Controls {
   }
 
   seek(t: number): void {
+    if (this.#held) return;
     this.#player.seek(t, this.#now());
     this.#listener.moved();
     this.#listener.changed();

@@ -128,7 +128,7 @@ export function isStale({ kind }: Standing): boolean {
 
 /** Bodies among those that stand around that the reason for no plan names, or that a refused key is of. */
 export function blamedBodies({ refused, unplanned }: Answers, { surroundings, moves }: CellDrawn): number[] {
-  const words = [unplanned?.headline ?? "", ...(unplanned?.plates.flatMap(({ words, causes }) => [words, ...causes]) ?? [])].join("\n");
+  const words = [refused?.words ?? "", unplanned?.headline ?? "", ...(unplanned?.plates.flatMap(({ words, causes }) => [words, ...causes]) ?? [])].join("\n");
   const section = /^obstacle\[\d+\]/.exec(refused?.key ?? "")?.[0];
   return surroundings.obstacles.flatMap(({ name }, body) => {
     const isOf = section !== undefined && moves.bodies[body]?.key?.startsWith(`${section}.`) === true;
@@ -158,7 +158,7 @@ export function editVerdict({ kind, words }: Standing, answers: Answers, view: V
     case "unplanned":
       return unplannedVerdict(answers, words);
     case "refused":
-      return { tone: "violated", word: "Refused", sentence: `${words.replace(/[.!?]?$/, ".")} What is shown is of before.` };
+      return { tone: "violated", word: "Refused", sentence: `${words.replace(/[.!?]?$/, ".")}${view.motion === null ? "" : " The plan of before is shown in grey."}` };
     case "lost":
       return { tone: "not_proved", word: "Connection lost", sentence: words };
     case "failed":

@@ -175,11 +175,12 @@ export class CellPanel {
     const names = seen.drawn?.plates ?? [];
     this.#showRows(centres.map((centre, k) => ({ name: names[k]?.name ?? `plate ${k + 1}`, centre, state: plateState(answers, k) })), selected);
     this.#all.setAttribute("aria-pressed", String(selected === "all"));
-    this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, isolated(words))));
+    this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, "Note: ", isolated(words))));
     this.#map.hidden = mapWords === null;
     if (this.#mapWords.textContent !== mapWords) this.#mapWords.textContent = mapWords;
     const stuck = cell.unmoved();
-    const hint = stuck !== null ? stuck : seen.drawn?.listed === false ? "These plates are drawn from a region by the seed: moving one lists them all where they are." : "Drag plates in the scene, or move them with the arrow keys; an obstacle once it is clicked.";
+    const drag = "Drag plates in the scene, or choose one with N and move it with the arrow keys; an obstacle once it is clicked.";
+    const hint = stuck ?? (seen.drawn?.listed === false ? `${drag} The seed draws these plates from the region: moving one lists them all where they are.` : drag);
     if (this.#hint.textContent !== hint) this.#hint.textContent = hint;
   }
   /** Shows every plate. Rows stay what they are, and with them focus and what is being typed. */

@@ -111,12 +111,15 @@ export class Commands implements EditActions {
     this.#cell.place(centres, this.#label(verb, [plate]), `place ${plate}`);
   }
 
-  /** Selects the next plate, or the one before. */
+  /** Selects the next of all plates and of the obstacles that are moved, or the one before. */
   next(step: 1 | -1): void {
-    const count = this.#cell.centres.length;
+    const plates = this.#cell.centres.length;
+    const bodies = (this.#cell.seen.drawn?.moves?.bodies ?? []).flatMap(({ key }, body) => (key === null ? [] : [body]));
+    const count = plates + bodies.length;
     if (count === 0) return;
-    const from = typeof this.#selected === "number" ? this.#selected : step === 1 ? -1 : 0;
-    const next = (from + step + count) % count;
+    const at = typeof this.#selected === "number" ? this.#selected : this.#body === null ? -1 : plates + bodies.indexOf(this.#body);
+    const next = (at < 0 && step === -1 ? count - 1 : at + step + count) % count;
+    if (next >= plates) return this.selectBody(bodies[next - plates]!);
     this.select(next);
     announce(`${this.#plateName(next)} selected`);
   }
@@ -164,7 +167,8 @@ export class Commands implements EditActions {
     const name = Array.from(obstacles, (_, k) => `box ${k + 1}`).find((free) => !obstacles.some((one) => one.name === free)) ?? `box ${obstacles.length + 1}`;
     const at = [...room, stepped(marksHeight(drawn) + BOX_M[2] / 2, 1e3)];
     this.#cell.append(`[[obstacle]]\nname = "${name}"\nshape = "box"\nsize_m = [${BOX_M.join(", ")}]\nat_m = [${at.join(", ")}]\n`, `Add ${name}`);
-    announce(`${name} added at ${at.map((c) => c.toFixed(3)).join(", ")} m`);
+    this.selectBody(obstacles.length);
+    this.#say(`${name} added at ${at.map((c) => c.toFixed(3)).join(", ")} m: drag it, or move it with the arrow keys.`);
   }
 
   /** A free place near the arm, beside all plates and other places. */
@@ -258,7 +262,8 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 
 /** For the help. */
 export const PLATE_KEYS: [string, string][] = [
-  ["N", "in the scene: select the next plate; with Shift the one before"],
+  ["Drag", "a plate, or an obstacle once it is clicked: moves it; the ring’s knob turns a plate about the arm"],
+  ["N", "in the scene: select the next plate or obstacle; with Shift the one before"],
   ["↑ ↓ ← →", "on a plate: move it 5 mm along x or y, whichever the arrow points along on the screen; with Shift 50 mm, with Alt 1 mm"],
   ["R", "on a plate: turn it 1° about the arm’s axis, counter-clockwise; with Shift clockwise"],
   ["Enter", "on a plate: take the nearest place that can be washed"],

@@ -62,7 +62,8 @@ export class Disk {
 
   /** Whether the scenario is another than on disk. */
   get unsaved(): boolean {
-    return this.#actions.text() !== this.#known.saved;
+    const text = this.#actions.text();
+    return text === null || text !== this.#known.saved;
   }
 
   /** Looks at the disk every second, while `visible`. */

@@ -134,10 +134,10 @@ export class KeyRow {
     input.id = id;
     input.setAttribute("aria-describedby", `${id}-about ${id}-error`);
     this.#error.id = `${id}-error`;
-    this.#reset = button({ class: "button bare-button", label: `Reset ${key.path}: take it out of the text` }, () => {
+    this.#reset = button({ class: "button bare-button", label: `Take ${key.path} out of the text${key.default === null ? "" : `: then ${valueText(key.default)} counts`}` }, () => {
       input.focus();
       this.#onValue(key.path, null);
-    }, "reset");
+    }, "take out");
     const name = FIRST.includes(key.path) ? key.path : key.path.slice(key.path.lastIndexOf(".") + 1);
     const given = key.default === null ? "" : `; ${valueText(key.default)} where it is not stated`;
     this.element = el(

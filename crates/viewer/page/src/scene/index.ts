@@ -72,6 +72,7 @@ export class Scene {
   /** Whether the next frame is drawn in haste. */
   #hasty = false;
   #lost = false;
+  #stale = false;
 
   /** The scene of a document; `SceneError` where there is no WebGL 2. */
   constructor(canvas: HTMLCanvasElement, view: View, theme: Theme) {
@@ -185,7 +186,7 @@ export class Scene {
     this.#content.plates.show(shown.coverageTime, shown.coverageKind, shown.heat);
     this.#content.paths.show(shown.t_s);
     this.#nearest = shown.clearance;
-    this.#clearance.show(this.#isOn("clearance") ? shown.clearance : null);
+    this.#clearance.show(this.#isOn("clearance") && !this.#stale ? shown.clearance : null);
     this.#showCommanded(shown.commanded);
   }
 
@@ -270,6 +271,15 @@ export class Scene {
     this.#dirty = true;
   }
 
+  /** Draws nothing of the plan but the arm: something is changed that it does not have. */
+  setStale(on: boolean): void {
+    if (on === this.#stale) return;
+    this.#stale = on;
+    for (const [layer, shown] of this.#on) this.#switch(layer, shown);
+    if (this.#shown !== null) this.show(this.#shown);
+    this.#dirty = true;
+  }
+
   setTheme(theme: Theme): void {
     this.#theme = theme;
     for (const part of [this.#stage, this.#studio, this.#content, this.#clearance, this.#mark]) part.setPalette(PALETTES[theme]);
@@ -303,9 +313,10 @@ export class Scene {
   }
 
   #switch(layer: Layer, on: boolean): void {
-    for (const object of this.#content.objectsOf(layer)) object.visible = on;
+    const isOfPlan = layer === "paths" || layer === "transits" || layer === "executed";
+    for (const object of this.#content.objectsOf(layer)) object.visible = on && !(isOfPlan && this.#stale);
     if (layer === "bodies") this.#content.bodies.setVisible(on);
-    if (layer === "coverage") this.#content.plates.setCoverage(on);
+    if (layer === "coverage") this.#content.plates.setCoverage(on && !this.#stale);
   }
 
   layers(): { id: Layer; label: string; on: boolean }[] {

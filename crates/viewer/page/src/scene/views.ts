@@ -244,7 +244,7 @@ export class Views {
     this.#room = room;
     this.#camera.aspect = width / height;
     this.#camera.setViewOffset(width, height, 0, (height * (1 - room.top - room.bottom)) / 2, width, height);
-    if (!this.#moved) this.go(this.#preset, true);
+    if (!this.#moved && !this.#held) this.go(this.#preset, true);
   }
 
   /** Keeps the camera where it is, as somebody drags something in the picture. */

@@ -45,7 +45,7 @@ const KINDS = { wash: "Wash plan", paper: "The paper’s program" } as const;
 /** What the page shows, before its verdict; of a dry run its headline says that first. */
 function subject({ heading }: View, edited: boolean): string {
   if (heading.dry_run !== null) return "";
-  const kind = heading.process === null ? "Configuration" : edited ? "Live cell" : KINDS[heading.process];
+  const kind = heading.process === null ? "Configuration" : edited ? "Live wash plan" : KINDS[heading.process];
   return `${kind} “${heading.scenario}”: `;
 }
 
@@ -92,7 +92,8 @@ export class Header {
   /** Is about another document. */
   replace(view: View): void {
     this.#view = view;
-    if (view.motion !== null) this.#planned = view;
+    // While plates are dragged plans come and go that nobody chose.
+    if (view.motion !== null && !document.documentElement.hasAttribute("data-dragging")) this.#planned = view;
     this.update();
   }
 

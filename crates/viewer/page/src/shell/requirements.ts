@@ -146,7 +146,7 @@ export class Requirements {
       const words = "The plan was changed after it was written: its hash does not match its contents.";
       this.element.append(el("p", { class: "notice tone-violated" }, toneIcon("violated"), words));
     }
-    this.element.append(el("p", { class: "summary" }, summary(certificate)));
+    this.element.append(el("p", { class: "summary" }, `${summary(certificate)}. A bar shows how much of its limit is taken.`));
     for (const { name, checks } of grouped(certificate.checks)) {
       const kept = checks.filter(({ status }) => status === "proved").length;
       const brief = checks.filter(isBrief);
@@ -176,8 +176,9 @@ export class Requirements {
 }
 
 function restsOn(view: View): HTMLElement | null {
-  const lines = view.certificate?.rests_on ?? [];
-  if (lines.length === 0) return null;
+  const all = view.certificate?.rests_on ?? [];
+  if (all.length === 0) return null;
+  const lines = [...all.filter((line) => line.startsWith("assumed: ")), ...all.filter((line) => !line.startsWith("assumed: "))];
   const items = lines.map((line) => {
     const [, topic, rest] = /^([a-z ]{2,20}): (.+)$/su.exec(line) ?? [];
     return topic === undefined || rest === undefined
