@@ -6,8 +6,8 @@ import { mkdirSync, readdirSync } from "node:fs";
 import { readFile, writeFile } from "node:fs/promises";
 import { basename, join } from "node:path";
 import { launch, unpack } from "./lib/browser.mjs";
-import { change, edit as editCell } from "./lib/cell.mjs";
-import { folder, kitchen, page } from "./lib/command.mjs";
+import { change, settled } from "./lib/cell.mjs";
+import { folder, kitchen, page, serve } from "./lib/command.mjs";
 import { open } from "./lib/watched.mjs";
 
 const SIZES = [{ width: 1280, height: 800 }, { width: 390, height: 844 }, { width: 1920, height: 1080 }];
@@ -42,10 +42,12 @@ async function scenario(name) {
 
 /** A live cell: proved, and after a change that is refused. */
 async function cell() {
+  const place = await folder(life);
+  const file = await kitchen(place, ["\n[wash]", `\n${POST}\n[wash]`]);
+  const server = await serve(life, place, ["edit", "--no-open", "--scenario", file]);
   for (const { size, colorScheme, tag } of variants()) {
-    const place = await folder(life);
-    const file = await kitchen(place, ["\n[wash]", `\n${POST}\n[wash]`]);
-    const { page: opened } = await editCell(life, place, ["--scenario", file], { size, colorScheme });
+    const { page: opened } = await open(life, server.url, { size, colorScheme });
+    await settled(opened);
     await shoot(opened, `edit-${tag}`);
     await change(opened, REFUSED);
     await shoot(opened, `edit-refused-${tag}`);

@@ -6,9 +6,9 @@ import { serve } from "./command.mjs";
 const SIZE = { width: 1000, height: 640 };
 
 /** Serves a scenario for editing and opens its page. */
-export async function edit(test, place, words = [], { size = SIZE, ...context } = {}) {
+export async function edit(test, place, words = [], { size = SIZE } = {}) {
   const server = await serve(test, place, ["edit", "--no-open", ...words]);
-  const opened = await open(test, server.url, { size, ...context });
+  const opened = await open(test, server.url, { size });
   await settled(opened.page);
   return { server, ...opened };
 }
