@@ -54,7 +54,7 @@ class Row {
     }, icon("cross"));
     const map = button({ class: "button text-button", title: "Show where it could be washed, the others as they lie" }, () => actions.map(plate), "Where?");
     const places = el("div", { class: "row-places" }, ...this.#inputs.map((input, k) => el("label", {}, k === 0 ? "x" : "y", input)), el("span", { class: "unit" }, "m"), map, this.#remove);
-    this.element = el("li", { class: "row", set: { tabindex: 0, role: "group" } }, el("div", { class: "row-head" }, this.#name, this.#sign), places, this.#why, this.#take);
+    this.element = el("div", { class: "row", set: { tabindex: 0, role: "group" } }, el("div", { class: "row-head" }, this.#name, this.#sign), places, this.#why, this.#take);
     this.element.addEventListener("focusin", () => commands.select(plate));
     this.element.addEventListener("pointerdown", () => commands.select(plate));
     this.element.addEventListener("keydown", (event) => {
@@ -143,7 +143,7 @@ export class CellPanel {
   readonly element: HTMLElement;
   readonly #commands: Commands;
   readonly #actions: PanelActions;
-  readonly #list = el("ul", { class: "rows", set: { "aria-label": "Plates" } });
+  readonly #list = el("div", { class: "rows", set: { role: "group", "aria-label": "Plates" } });
   readonly #rows: Row[] = [];
   readonly #all: HTMLButtonElement;
   readonly #findings = el("ul", { class: "plain findings" });
