@@ -69,9 +69,14 @@ const NAMES: Record<SegmentKind, string> = {
 /** In a dry run nothing is where the sponge moves. */
 const IN_AIR: Record<SegmentKind, string> = { ...NAMES, wash: "In the air over" };
 
-/** A plate's number in its name, as files count it; its place in the list where its name has none. */
+/** A plate's name; its number where it has none. */
+export function plateName(plates: readonly Plate[] | undefined, index: number): string {
+  return plates?.[index]?.name ?? `plate ${index + 1}`;
+}
+
+/** A plate's number in its name; its place in the list, from 1, where its name has none. */
 export function plateNumber(plates: readonly Plate[], index: number): string {
-  return /(\d{1,4})$/.exec(plates[index]?.name ?? "")?.[1] ?? String(index);
+  return /(\d{1,4})$/.exec(plateName(plates, index))?.[1] ?? String(index + 1);
 }
 
 /** What the arm does in a segment. */

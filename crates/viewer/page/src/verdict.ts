@@ -75,6 +75,18 @@ export function washed(view: View): Verdict | null {
     : { tone: "violated", word: `Not ${done}, ${how}`, sentence };
 }
 
+const ASSUMED = "assumed: ";
+
+/** Whether a line of what a proof rests on is an assumption. */
+export function isAssumed(line: string): boolean {
+  return line.startsWith(ASSUMED);
+}
+
+/** What a proof assumes. */
+export function assumptions(certificate: Certificate | null): string[] {
+  return (certificate?.rests_on ?? []).filter(isAssumed).map((line) => line.slice(ASSUMED.length));
+}
+
 /** The certificate's requirements in figures: “24 proved, 1 violated”. */
 export function summary(certificate: Certificate): string {
   const parts = (["violated", "not_proved", "waived", "proved"] as const)

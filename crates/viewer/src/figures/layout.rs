@@ -1,7 +1,7 @@
 //! The workcell from above: plates in their order, washed areas, the paths between (the paper's Fig. 2).
 
 use super::axes::fixed;
-use super::map::{ARM_LOOK, Map};
+use super::map::{Map, arm_look};
 use super::outline::{self, Outline, arm_outlines, solid};
 use super::page::{self, Entry, Sign, legend};
 use super::subject::{Subject, Track, per_cent};
@@ -272,7 +272,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
         });
     }
     all.push(Entry::new(Sign::Dot, outlined(PAPER, INK, 2.6), "the tip at home"));
-    all.push(Entry::new(Sign::Field, ARM_LOOK, "the arm with its tool at home"));
+    all.push(Entry::new(Sign::Field, arm_look(), "the arm with its tool at home"));
     if !outline::obstacles(&job.workcell).is_empty() {
         all.push(Entry::new(
             Sign::Field,

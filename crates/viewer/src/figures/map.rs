@@ -10,10 +10,14 @@ const WHITE_M: f64 = 0.05;
 /// Width of the texts beside a map \[px\].
 const BESIDE: f64 = 420.0;
 
-/// The arm's colour and that of its edge, and the look of both in a legend.
+/// The arm's colour and that of its edge.
 const ARM: &str = "#d3d8de";
 const ARM_EDGE: &str = "#6b7783";
-pub const ARM_LOOK: &str = "fill=\"#d3d8de\" stroke=\"#6b7783\" stroke-width=\"1.4\"";
+
+/// The look of the arm in a legend.
+pub fn arm_look() -> String {
+    format!("fill=\"{ARM}\" stroke=\"{ARM_EDGE}\" stroke-width=\"1.4\"")
+}
 
 /// A map of a part of the workcell.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where an arm with its tool washes a plate, from above.
 
-use super::map::{ARM_LOOK, Map};
+use super::map::{Map, arm_look};
 use super::outline::Outline;
 use super::page::{self, Entry, FigureTexts, SIZE, Sign, legend};
 use super::svg::{DASHED, DOTTED, Drawing, GREY, GROUND, INK, Rect, TRANSIT, fill, outlined, stroke};
@@ -65,7 +65,7 @@ pub fn draw_region(region: &RegionMap) -> String {
     let mut entries = vec![
         Entry::new(Sign::Field, fill(WASHABLE), "centres of plates that can be washed"),
         Entry::new(Sign::Field, plate, "the plate that home is over"),
-        Entry::new(Sign::Field, ARM_LOOK, "the arm with its tool at home"),
+        Entry::new(Sign::Field, arm_look(), "the arm with its tool at home"),
         Entry::new(Sign::Dot, fill(INK), "axis 1"),
     ];
     if region.sector.is_some() {

@@ -1,5 +1,5 @@
 /** What has been said about a scenario, and what that comes to: for the cell, for the head of the page, for each plate. */
-import { percentDown } from "../format.ts";
+import { percentDown, plateName } from "../format.ts";
 import { verdict as proved, type Tone, type Verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
 import type { CellLine } from "./protocol.ts";
@@ -100,7 +100,7 @@ export function standing(answers: Answers): Standing {
 
 function previewWords(preview: Of<"preview">, { cell }: Answers): string {
   const names = (chance: string): string[] =>
-    preview.plates.filter((one) => one.chance === chance).map(({ plate }) => cell?.plates[plate]?.name ?? `plate ${plate + 1}`);
+    preview.plates.filter((one) => one.chance === chance).map(({ plate }) => plateName(cell?.plates, plate));
   const [no, open] = [names("unwashable"), names("unclear")];
   if (no.length > 0) return `A guess before planning: ${listed(no)} may not be washable there.`;
   if (open.length > 0) return `A guess before planning: whether ${listed(open)} can be washed is unclear.`;
@@ -138,7 +138,7 @@ export function blamedBodies({ refused, unplanned }: Answers, { surroundings, mo
 
 /** Whether words name a thing, and not one whose name is longer. */
 function names(words: string, name: string): boolean {
-  const isPart = (letter: string | undefined): boolean => letter !== undefined && /[\w]/.test(letter);
+  const isPart = (letter: string | undefined): boolean => letter !== undefined && /\w/.test(letter);
   for (let at = words.indexOf(name); name !== "" && at >= 0; at = words.indexOf(name, at + 1)) {
     if (!isPart(words[at - 1]) && !isPart(words[at + name.length])) return true;
   }
@@ -169,7 +169,7 @@ export function editVerdict({ kind, words }: Standing, answers: Answers, view: V
 /** Plates by name where some are to blame, whose rows give the reasons; otherwise the reason. */
 function unplannedVerdict({ unplanned, cell }: Answers, words: string): Verdict {
   const known = unplanned?.proved === true;
-  const plates = unplanned?.plates.map(({ plate }) => cell?.plates[plate]?.name ?? `plate ${plate + 1}`) ?? [];
+  const plates = unplanned?.plates.map(({ plate }) => plateName(cell?.plates, plate)) ?? [];
   const tone = known ? "violated" : "not_proved";
   if (plates.length === 0) return { tone, word: known ? "Cannot be planned" : "No plan found", sentence: words.replace(/^[A-Z ]+: /, "") };
   const sentence = known ? `${listed(plates)} cannot be washed there.` : `no way was found to wash ${listed(plates)}.`;

@@ -1,5 +1,5 @@
 /** The panel of the cell: what can be done with it, and its plates, each with what is known of it. */
-import { millimetres } from "../format.ts";
+import { millimetres, plateName } from "../format.ts";
 import type { Selection } from "../scene/editing.ts";
 import type { Centre } from "../scene/handles.ts";
 import { button, el, icon, isolated, TextCell, toneIcon } from "../shell/dom.ts";
@@ -172,8 +172,7 @@ export class CellPanel {
     const now = [seen.drawn, cell.standing.words, answers, centres, selected, mapWords, seen.preview];
     if (now.every((one, k) => one === this.#shown[k])) return;
     this.#shown = now;
-    const names = seen.drawn?.plates ?? [];
-    this.#showRows(centres.map((centre, k) => ({ name: names[k]?.name ?? `plate ${k + 1}`, centre, state: plateState(answers, k) })), selected);
+    this.#showRows(centres.map((centre, k) => ({ name: plateName(seen.drawn?.plates, k), centre, state: plateState(answers, k) })), selected);
     this.#all.setAttribute("aria-pressed", String(selected === "all"));
     this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, "Note: ", isolated(words))));
     this.#map.hidden = mapWords === null;

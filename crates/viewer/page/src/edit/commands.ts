@@ -1,4 +1,5 @@
 /** Commands of a live cell: what pointers, keys and buttons do to its plates. */
+import { plateName } from "../format.ts";
 import type { EditActions, Editing, Selection } from "../scene/editing.ts";
 import { marksHeight } from "../scene/floor.ts";
 import { type Centre, type Phase, stepped } from "../scene/handles.ts";
@@ -11,6 +12,11 @@ import type { ToolbarActions } from "./toolbar.ts";
 
 /** Edges of a box that is added [m]. */
 const BOX_M = [0.08, 0.08, 0.2] as const;
+
+/** Coordinates in words. */
+function metres(place: readonly number[]): string {
+  return place.map((c) => c.toFixed(3)).join(", ");
+}
 
 export class Commands implements EditActions {
   readonly #cell: Cell;
@@ -102,7 +108,7 @@ export class Commands implements EditActions {
     const nearest = this.#cell.answers.places.find((place) => place.plate === plate)?.nearest_m;
     if (!nearest) return;
     this.place(plate, nearest, "Take the nearest place of");
-    announce(`${this.#plateName(plate)} put at ${nearest.map((c) => c.toFixed(3)).join(", ")} m`);
+    announce(`${this.#plateName(plate)} put at ${metres(nearest)} m`);
   }
 
   place(plate: number, centre: Centre, verb = "Move"): void {
@@ -139,7 +145,7 @@ export class Commands implements EditActions {
     if (at === null) return;
     const [centre_m] = shifted([at], [0], dx_m, dy_m);
     this.#cell.placeBody({ body, centre_m: centre_m! }, `Move ${this.#nameOf(body)}`, `move body ${body}`);
-    announce(centre_m!.map((c) => c.toFixed(3)).join(", "));
+    announce(metres(centre_m!));
   }
 
   turn(angle_rad: number): void {
@@ -155,7 +161,7 @@ export class Commands implements EditActions {
     const room = this.#roomIn(drawn);
     this.#cell.place([...this.#cell.centres, room], "Add a plate");
     this.select(this.#cell.centres.length - 1);
-    announce(`plate ${this.#cell.centres.length} added at ${room.map((c) => c.toFixed(3)).join(", ")} m`);
+    announce(`plate ${this.#cell.centres.length} added at ${metres(room)} m`);
   }
 
   /** Adds a box that stands where the plates do, beside them. */
@@ -168,7 +174,7 @@ export class Commands implements EditActions {
     const at = [...room, stepped(marksHeight(drawn) + BOX_M[2] / 2, 1e3)];
     this.#cell.append(`[[obstacle]]\nname = "${name}"\nshape = "box"\nsize_m = [${BOX_M.join(", ")}]\nat_m = [${at.join(", ")}]\n`, `Add ${name}`);
     this.selectBody(obstacles.length);
-    this.#say(`${name} added at ${at.map((c) => c.toFixed(3)).join(", ")} m: drag it, or move it with the arrow keys.`);
+    this.#say(`${name} added at ${metres(at)} m: drag it, or move it with the arrow keys.`);
   }
 
   /** A free place near the arm, beside all plates and other places. */
@@ -198,7 +204,7 @@ export class Commands implements EditActions {
 
   #sayPlace(): void {
     const centre = typeof this.#selected === "number" ? this.#cell.centres[this.#selected] : undefined;
-    announce(centre === undefined ? "All plates moved" : centre.map((c) => c.toFixed(3)).join(", "));
+    announce(centre === undefined ? "All plates moved" : metres(centre));
   }
 
   /** Where upwards on the screen points, seen from above; along x where there is no scene. */
@@ -215,7 +221,7 @@ export class Commands implements EditActions {
   }
 
   #plateName(plate: number): string {
-    return this.#cell.seen.drawn?.plates[plate]?.name ?? `plate ${plate + 1}`;
+    return plateName(this.#cell.seen.drawn?.plates, plate);
   }
 }
 

@@ -36,6 +36,8 @@ export interface Shown {
   heat: boolean;
 }
 
+/** Layers of the plan, but the arm. */
+const OF_PLAN: ReadonlySet<Layer> = new Set(["coverage", "paths", "transits", "executed", "clearance"]);
 /** Below this distance the commanded tip is not shown beside the tip [m]. */
 const APART_M = 0.0005;
 /** While plates are dragged their shadows follow so much later at most [ms], and in haste. */
@@ -113,7 +115,7 @@ export class Scene {
   replace(view: View): void {
     const kept = this.#content.replace(view);
     this.#content.setPalette(PALETTES[this.#theme]);
-    for (const [layer, on] of this.#on) this.#switch(layer, on);
+    for (const layer of LAYERS) this.#switch(layer);
     if (!kept.extent) {
       this.#reach();
       this.#views.setExtent(this.#content.extent, this.#quick.matches);
@@ -186,7 +188,7 @@ export class Scene {
     this.#content.plates.show(shown.coverageTime, shown.coverageKind, shown.heat);
     this.#content.paths.show(shown.t_s);
     this.#nearest = shown.clearance;
-    this.#clearance.show(this.#isOn("clearance") && !this.#stale ? shown.clearance : null);
+    this.#clearance.show(this.#isOn("clearance") ? shown.clearance : null);
     this.#showCommanded(shown.commanded);
   }
 
@@ -275,7 +277,7 @@ export class Scene {
   setStale(on: boolean): void {
     if (on === this.#stale) return;
     this.#stale = on;
-    for (const [layer, shown] of this.#on) this.#switch(layer, shown);
+    for (const layer of OF_PLAN) this.#switch(layer);
     if (this.#shown !== null) this.show(this.#shown);
     this.#dirty = true;
   }
@@ -288,13 +290,13 @@ export class Scene {
   }
 
   #isOn(layer: Layer): boolean {
-    return this.#on.get(layer) ?? false;
+    return this.#on.get(layer) === true && !(this.#stale && OF_PLAN.has(layer));
   }
 
   setLayer(layer: Layer, on: boolean): void {
     this.#on.set(layer, on);
-    this.#switch(layer, on);
-    if (layer === "clearance") this.#clearance.show(on ? this.#nearest : null);
+    this.#switch(layer);
+    if (layer === "clearance") this.#clearance.show(this.#isOn(layer) ? this.#nearest : null);
     if (layer === "executed" && !on) this.#content.commanded.root.visible = false;
     this.#dirty = this.#moved = true;
     // The shadows of what is hidden go with it, in a hasty frame, too.
@@ -312,15 +314,15 @@ export class Scene {
     this.#dirty = true;
   }
 
-  #switch(layer: Layer, on: boolean): void {
-    const isOfPlan = layer === "paths" || layer === "transits" || layer === "executed";
-    for (const object of this.#content.objectsOf(layer)) object.visible = on && !(isOfPlan && this.#stale);
+  #switch(layer: Layer): void {
+    const on = this.#isOn(layer);
+    for (const object of this.#content.objectsOf(layer)) object.visible = on;
     if (layer === "bodies") this.#content.bodies.setVisible(on);
-    if (layer === "coverage") this.#content.plates.setCoverage(on && !this.#stale);
+    if (layer === "coverage") this.#content.plates.setCoverage(on);
   }
 
   layers(): { id: Layer; label: string; on: boolean }[] {
-    return LAYERS.map((id) => ({ id, label: LABELS[id], on: this.#isOn(id) }));
+    return LAYERS.map((id) => ({ id, label: LABELS[id], on: this.#on.get(id) ?? false }));
   }
 
   /** Goes to a view; at once where asked, or where a reader wants no motion. */

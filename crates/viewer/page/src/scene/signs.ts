@@ -53,8 +53,9 @@ function letter(context: CanvasRenderingContext2D, text: string, colour: string,
   context.fillText(text, 0, (up - down) / 2);
 }
 
-function material(map: CanvasTexture): SpriteMaterial {
-  return new SpriteMaterial({ map, sizeAttenuation: false, depthTest: false, depthWrite: false, toneMapped: false });
+/** `over`: before everything else. */
+function material(map: CanvasTexture, over = true): SpriteMaterial {
+  return new SpriteMaterial({ map, sizeAttenuation: false, depthTest: !over, depthWrite: !over, toneMapped: false });
 }
 
 /** Marks a place to look at. */
@@ -106,11 +107,8 @@ export class PlateNumbers {
   }
 
   #materialOf(number: string): SpriteMaterial {
-    const known = this.#materials.get(number) ?? new SpriteMaterial({
-      map: picture((context) => letter(context, number, NUMBER_COLOUR, number.length > 1 ? 0.46 : 0.62)),
-      sizeAttenuation: false,
-      toneMapped: false,
-    });
+    const size = number.length > 1 ? 0.46 : 0.62;
+    const known = this.#materials.get(number) ?? material(picture((context) => letter(context, number, NUMBER_COLOUR, size)), false);
     this.#materials.set(number, known);
     return known;
   }

@@ -2,7 +2,7 @@
 import { counted, fixed, quantity } from "../format.ts";
 import type { LivePhase } from "../live.ts";
 import type { Player } from "../player.ts";
-import { statusWord, type Verdict, verdict, washed } from "../verdict.ts";
+import { assumptions, statusWord, type Verdict, verdict, washed } from "../verdict.ts";
 import type { View } from "../view.ts";
 import { announce, button, byId, type Child, el, icon, isolated, TextCell, toneIcon } from "./dom.ts";
 
@@ -49,14 +49,6 @@ function subject({ heading }: View, edited: boolean): string {
   return `${kind} “${heading.scenario}”: `;
 }
 
-const ASSUMED = "assumed: ";
-
-/** The first assumption of a proof, and how many more there are. */
-function assumptions(view: View): { first: string; more: number } | null {
-  const [first, ...others] = (view.certificate?.rests_on ?? []).filter((line) => line.startsWith(ASSUMED));
-  return first === undefined ? null : { first: first.slice(ASSUMED.length), more: others.length };
-}
-
 function same(a: Verdict, b: Verdict): boolean {
   return a.tone === b.tone && a.word === b.word && a.sentence === b.sentence;
 }
@@ -76,6 +68,7 @@ export class Header {
   #said: Verdict | null = null;
   /** Whether something is changed that the plan does not have. */
   #stale = false;
+  #factsShown = "";
 
   constructor(view: View, tools: readonly HTMLElement[], toAssumptions: () => void) {
     this.#view = this.#planned = view;
@@ -115,21 +108,31 @@ export class Header {
     const words = of.sentence.replace(VERDICT, "");
     this.#sentence.replaceChildren(isolated(subject(this.#view, this.#said !== null)), isolated(words));
     this.#sentence.title = of.sentence.slice(0, TITLE);
-    this.#showRests(this.#stale ? null : assumptions(this.#view));
-    this.#facts.replaceChildren(...facts(this.#stale ? this.#planned : this.#view, this.#stale ? "last valid " : ""));
-    this.#facts.classList.toggle("stale", this.#stale);
+    this.#showRests(this.#stale ? [] : assumptions(this.#view.certificate));
+    this.#showFacts();
     document.documentElement.dataset["verdict"] = of.tone;
   }
 
-  #showRests(of: { first: string; more: number } | null): void {
-    this.#rests.hidden = of === null;
-    if (of === null) return;
-    const all = button({ class: "link" }, this.#toAssumptions, of.more === 0 ? "Details" : counted(of.more, "more assumption"));
-    this.#rests.replaceChildren("This rests on: ", isolated(of.first), "; ", all);
+  /** The first assumption, and the way to the others. */
+  #showRests([first, ...others]: string[]): void {
+    this.#rests.hidden = first === undefined;
+    if (first === undefined) return;
+    const all = button({ class: "link" }, this.#toAssumptions, others.length === 0 ? "Details" : counted(others.length, "more assumption"));
+    this.#rests.replaceChildren("This rests on: ", isolated(first), "; ", all);
+  }
+
+  /** Cycle time and hash: made anew only where they differ, so that a button keeps its focus. */
+  #showFacts(): void {
+    const view = this.#stale ? this.#planned : this.#view;
+    const shown = JSON.stringify([this.#stale, view.heading, view.motion === null, view.certificate?.hash]);
+    if (shown === this.#factsShown) return;
+    this.#factsShown = shown;
+    this.#facts.replaceChildren(...facts(view, this.#stale ? "last valid " : ""));
+    this.#facts.classList.toggle("stale", this.#stale);
   }
 }
 
-/** The verdict at the begin of a headline, which the badge says. */
+/** The verdict at the beginning of a headline, which the badge says. */
 const VERDICT = /^(NOT )?PROVED[^:]*: /;
 
 const WORDS: Record<LivePhase, string> = {

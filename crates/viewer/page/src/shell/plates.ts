@@ -1,6 +1,6 @@
 /** Each plate's coverage: a map that builds up as time runs, and how much of the plate that is. */
 import { cssGradient, decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
-import { fixedShort, percentDown, quantity } from "../format.ts";
+import { fixedShort, percentDown, plateName, quantity } from "../format.ts";
 import type { Follows, Player } from "../player.ts";
 import type { PlateCoverage } from "../view.ts";
 import { button, el, isolated, TextCell } from "./dom.ts";
@@ -149,7 +149,7 @@ export class Plates {
   }
 
   #card(plate: number, seen: boolean): Card {
-    const name = this.#player.view.plates[plate]?.name ?? `plate ${plate + 1}`;
+    const name = plateName(this.#player.view.plates, plate);
     const canvas = el("canvas", { class: "map", set: { role: "img", "aria-label": `What the sponge sweeps of ${name}` } });
     const share = new TextCell("0\u202f%");
     const bar = el("span", { class: "bar-fill" });

@@ -1,7 +1,7 @@
 /** The requirements with their results in groups, broken ones first; what is proved of the contact with each plate; what the verdict rests on, and whose work is in the page. */
-import { fixed, fixedShort, percentDown, quantity } from "../format.ts";
+import { fixed, fixedShort, percentDown, plateName, quantity } from "../format.ts";
 import { grouped, measureWords, shareOf } from "../limits.ts";
-import { statusWord, summary, verdict } from "../verdict.ts";
+import { isAssumed, statusWord, summary, verdict } from "../verdict.ts";
 import type { Certificate, Check, Contact, PlateContact, View } from "../view.ts";
 import { button, el, icon, isolated, toneIcon } from "./dom.ts";
 import { keyTable } from "./keys.ts";
@@ -31,7 +31,7 @@ function row(view: View, asked: Contact["asked"], proved: PlateContact): HTMLEle
   return el(
     "tr",
     {},
-    el("th", { set: { scope: "row" } }, isolated(view.plates[proved.plate]?.name ?? `plate ${proved.plate + 1}`)),
+    el("th", { set: { scope: "row" } }, isolated(plateName(view.plates, proved.plate))),
     share(proved.pressed, asked.share),
     share(proved.time, asked.time_share),
     share(proved.dose, asked.dose_share),
@@ -176,9 +176,9 @@ export class Requirements {
 }
 
 function restsOn(view: View): HTMLElement | null {
-  const all = view.certificate?.rests_on ?? [];
+  const { rests_on: all } = view.certificate ?? { rests_on: [] };
   if (all.length === 0) return null;
-  const lines = [...all.filter((line) => line.startsWith("assumed: ")), ...all.filter((line) => !line.startsWith("assumed: "))];
+  const lines = [...all.filter(isAssumed), ...all.filter((line) => !isAssumed(line))];
   const items = lines.map((line) => {
     const [, topic, rest] = /^([a-z ]{2,20}): (.+)$/su.exec(line) ?? [];
     return topic === undefined || rest === undefined
