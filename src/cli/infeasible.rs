@@ -8,8 +8,8 @@ use anyhow::{Error, Result};
 use platewash::paper::PaperError;
 use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
 use platewash::scenario::Remedies;
-use platewash::workcell::cancel::Deadline;
-use platewash::{CancelToken, Certificate, Failure, RobotModel, Scenario};
+use platewash::workcell::cancel::system_clock;
+use platewash::{Certificate, Failure, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Arc;
@@ -79,9 +79,8 @@ fn in_full(
     let (why, others) = match &error {
         PlanError::Unwashable(first) => {
             let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
-            let is_over = CancelToken::new();
             // The other half of the time is left for the search for remedies.
-            let _deadline = Deadline::following(search_time / 2, &is_over, watch.cancel);
+            let is_over = watch.cancel.within(search_time / 2, system_clock);
             let others = Watch {
                 cancel: &is_over,
                 ..watch

@@ -4,11 +4,10 @@ use crate::protocol::{EndLine, Refusal};
 use crate::refusal::of_failure;
 use platewash_planner::PlanError;
 use platewash_scenario::Failure;
-use platewash_workcell::cancel::Deadline;
-use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::cancel::{CancelToken, Cancelled, Clock};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::time::Instant;
+use std::time::Duration;
 
 /// Time that steps took, by their names \[ms\].
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -18,19 +17,24 @@ pub struct Milliseconds(BTreeMap<&'static str, f64>);
 /// Writes the lines of an answer while the client listens, and records the duration of each step.
 pub struct AnswerWriter<'a> {
     tell: &'a mut dyn FnMut(String) -> bool,
+    /// Cancelled when the client has left.
+    client: CancelToken,
     /// Cancelled when the client has left, or the work must end for another reason.
     pub gone: CancelToken,
-    since: Instant,
+    clock: Clock,
+    since: Duration,
     took: Milliseconds,
 }
 
 impl<'a> AnswerWriter<'a> {
     /// Makes a writer that passes lines to `tell`, which returns false once the client has left. The first step begins now.
-    pub fn new(tell: &'a mut dyn FnMut(String) -> bool, gone: &CancelToken) -> Self {
+    pub fn new(tell: &'a mut dyn FnMut(String) -> bool, gone: &CancelToken, clock: Clock) -> Self {
         Self {
             tell,
+            client: gone.clone(),
             gone: gone.clone(),
-            since: Instant::now(),
+            clock,
+            since: clock(),
             took: Milliseconds::default(),
         }
     }
@@ -40,13 +44,13 @@ impl<'a> AnswerWriter<'a> {
         // Lines are made of numbers and text, which JSON can say.
         let Ok(text) = serde_json::to_string(line) else { return };
         if !(self.tell)(text) {
-            self.gone.cancel();
+            self.client.cancel();
         }
     }
 
     /// A step ends here, the next one begins.
     pub fn step(&mut self, name: &'static str) {
-        let now = Instant::now();
+        let now = (self.clock)();
         let took_ms = 1e3 * (now - self.since).as_secs_f64();
         // Hundredths are as fine as anybody looks.
         self.took.0.insert(name, (100.0 * took_ms).round() / 100.0);
@@ -63,12 +67,17 @@ impl<'a> AnswerWriter<'a> {
         self.line(&EndLine::Failed { words });
     }
 
-    /// Tells why an answer ends; `too_long` are the words where that is for its deadline.
-    pub fn end(&mut self, end: &End, deadline: &Deadline, too_long: &str) {
+    /// From now on, cancels the work after some time.
+    pub fn end_within(&mut self, time: Duration) {
+        self.gone = self.client.within(time, self.clock);
+    }
+
+    /// Tells why an answer ends; `too_long` are the words where its time has passed.
+    pub fn end(&mut self, end: &End, too_long: &str) {
         let ms = self.ms();
         match end {
             End::Refused(refusal) => self.line(&EndLine::Refused { refusal, ms }),
-            End::GivenUp if deadline.is_missed() => self.failed(too_long),
+            End::GivenUp if self.gone.is_late() => self.failed(too_long),
             End::GivenUp => self.line(&EndLine::Superseded),
             End::Failed(words) => self.failed(words),
         }

@@ -16,7 +16,6 @@ use platewash_planner::{
 };
 use platewash_scenario::Failure;
 use platewash_viewer::view::{self, View, ViewExtras};
-use platewash_workcell::cancel::Deadline;
 use platewash_workcell::layout::Finding;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::verdict::Verdict;
@@ -28,10 +27,10 @@ const MEANING: &str = "Where a plate of this size could lie, the others as they 
                        configurations were found for all of its wash path. Not planned, not proved.";
 
 /// Answers a question for a cell.
-pub fn answer(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>, deadline: &Deadline) {
+pub fn answer(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>) {
     if let Err(end) = answer_cell(subject, question, answer) {
         let too_long = "this cell takes longer than a minute to plan and prove; `platewash run` takes its time";
-        answer.end(&end, deadline, too_long);
+        answer.end(&end, too_long);
     }
 }
 
@@ -214,7 +213,7 @@ fn tell_unplanned(
 }
 
 /// Answers a question for a map: places at which a plate could be washed, sent as they are found.
-pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>, deadline: &Deadline) {
+pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>) {
     let answered = answer_map(subject, question, answer);
     answer.step("map");
     match answered {
@@ -224,7 +223,7 @@ pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<
         }),
         Err(end) => {
             let too_long = "the map was not finished within two minutes: what is drawn is what was looked at";
-            answer.end(&end, deadline, too_long);
+            answer.end(&end, too_long);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::answer_writer::AnswerWriter;
 use crate::cell;
+use crate::host::Host;
 use crate::keep::{DiskContents, Keeper, SavedFile};
 use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, LastStage, MapQuestion, SaveQuestion};
 use crate::sessions::{Lane, Sessions, Turn, is_name};
@@ -14,8 +15,7 @@ use platewash_viewer::bundle::Bundle;
 use platewash_viewer::page::{self, PageError};
 use platewash_viewer::server::{NoListener, Page, QuestionLimits, Service, Site, token};
 use platewash_viewer::view::View;
-use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::cancel::Deadline;
+use platewash_workcell::cancel::{CancelToken, Clock, system_clock};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -45,6 +45,7 @@ pub struct Editor {
     subject: Subject,
     saved_file: Option<SavedFile>,
     sessions: Sessions,
+    clock: Clock,
 }
 
 impl Editor {
@@ -67,7 +68,16 @@ impl Editor {
             subject: Subject::new(name, text, folder),
             saved_file: None,
             sessions: Sessions::default(),
+            clock: system_clock,
         })
+    }
+
+    /// The same editor on another machine than the one with the system's clock and the files on disk.
+    #[must_use]
+    pub fn with_host(mut self, host: Host) -> Self {
+        self.subject.files = host.files;
+        self.clock = host.clock;
+        self
     }
 
     /// The same editor, saved by a keeper. The file on disk is read again for each page.
@@ -139,7 +149,10 @@ impl Editor {
         let scenario = scenario.filter(|scenario| may_name_its_files(subject, scenario).is_ok());
         let scenario = match scenario {
             Some(scenario) => scenario,
-            None => Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?,
+            None => Scenario {
+                files: subject.files.clone(),
+                ..Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?
+            },
         };
         let arm = subject.arms.of(&scenario)?.arm;
         let mut view = View::of_configuration(&arm, None, &scenario.homes()[0].unwrap_or_else(JointVector::zeros));
@@ -150,7 +163,7 @@ impl Editor {
     /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it
     /// is known. The work stops where `tell` returns that the client has left, or `gone` is cancelled.
     pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
-        let mut told = AnswerWriter::new(tell, gone);
+        let mut told = AnswerWriter::new(tell, gone, self.clock);
         let answered = catch_unwind(AssertUnwindSafe(|| self.answer_told(path, question, &mut told, gone)));
         let words = match answered {
             Ok(Ok(())) => return,
@@ -176,20 +189,20 @@ impl Editor {
                     LastStage::Proof => Lane::Proof,
                 };
                 let _turn = self.turn(&question.session, lane, gone)?;
-                let deadline = Deadline::after(LONGEST, gone);
-                cell::answer(&self.subject, &question, answer, &deadline);
+                answer.end_within(LONGEST);
+                cell::answer(&self.subject, &question, answer);
             }
             ("/map", _) => {
                 let question: MapQuestion = read(question)?;
                 let _turn = self.turn(&question.session, Lane::Map, gone)?;
-                let deadline = Deadline::after(LONGEST_MAP, gone);
-                cell::map(&self.subject, &question, answer, &deadline);
+                answer.end_within(LONGEST_MAP);
+                cell::map(&self.subject, &question, answer);
             }
             ("/save", Some(kept)) => {
                 let question: SaveQuestion = read(question)?;
                 named(&question.session)?;
-                let _deadline = Deadline::after(LONGEST, gone);
-                self.save(kept, &question, answer, gone)?;
+                answer.end_within(LONGEST);
+                self.save(kept, &question, answer)?;
             }
             ("/disk", Some(kept)) => {
                 let question: DiskQuestion = read(question)?;
@@ -207,7 +220,6 @@ impl Editor {
         saved_file: &SavedFile,
         question: &SaveQuestion,
         answer: &mut AnswerWriter<'_>,
-        gone: &CancelToken,
     ) -> Result<(), String> {
         let subject = &self.subject;
         let scenario = stated(subject, &question.text);
@@ -217,7 +229,7 @@ impl Editor {
         }
         let scenario = scenario.and_then(|scenario| accepted(subject, scenario));
         let scenario = scenario.map_err(|refusal| refusal.words);
-        saved_file.save(question, scenario.as_ref().map_err(String::as_str), answer, gone);
+        saved_file.save(question, scenario.as_ref().map_err(String::as_str), answer);
         Ok(())
     }
 
@@ -334,7 +346,7 @@ impl Service for EditorSite {
     ) {
         let mut tell = |line| tell(line).is_ok();
         match (path, &self.editor.saved_file) {
-            ("/hello", Some(kept)) => kept.greet(&mut AnswerWriter::new(&mut tell, gone)),
+            ("/hello", Some(kept)) => kept.greet(&mut AnswerWriter::new(&mut tell, gone, self.editor.clock)),
             _ => self.editor.answer(path, question, &mut tell, gone),
         }
     }

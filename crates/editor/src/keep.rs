@@ -161,13 +161,7 @@ impl SavedFile {
     }
 
     /// Writes, unless something else stands there than the page knows, when it asks or when all is ready to be written.
-    pub fn save(
-        &self,
-        question: &SaveQuestion,
-        scenario: Result<&Scenario, &str>,
-        answer: &mut AnswerWriter<'_>,
-        cancel: &CancelToken,
-    ) {
+    pub fn save(&self, question: &SaveQuestion, scenario: Result<&Scenario, &str>, answer: &mut AnswerWriter<'_>) {
         let _one = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
         let standing = match self.read_disk() {
             Ok(standing) => standing,
@@ -181,7 +175,7 @@ impl SavedFile {
         }
         let still = || self.read_disk().is_ok_and(|now| now.hash() == hash);
         let text = question.text.as_str();
-        match self.keeper.write(&Save { text, scenario }, &still, cancel) {
+        match self.keeper.write(&Save { text, scenario }, &still, &answer.gone) {
             Ok(written) => answer.line(&SaveLine::Saved {
                 disk: &sha256_hex(question.text.as_bytes()),
                 file: &self.file(),

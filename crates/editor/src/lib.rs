@@ -7,6 +7,7 @@
 //! | concept | file |
 //! | --- | --- |
 //! | the editor: answers, first contents of the page, server | `editor.rs` |
+//! | clock and files of the machine that it runs on | `host.rs` |
 //! | questions and lines as JSON | `protocol.rs` |
 //! | a new question ends those before it | `sessions.rs` |
 //! | the subject: the scenario, changed; its arm and its job; the limit on work | `subject.rs` |
@@ -19,6 +20,7 @@
 mod answer_writer;
 mod cell;
 mod editor;
+mod host;
 mod keep;
 mod moves;
 pub mod protocol;
@@ -27,5 +29,6 @@ mod sessions;
 mod subject;
 
 pub use editor::{Editor, EditorError, site};
+pub use host::Host;
 pub use keep::{Keeper, Save, SaveError, SaveReport};
 pub use subject::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};

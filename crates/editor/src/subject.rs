@@ -6,6 +6,7 @@ use crate::refusal::{about, at, of_edit, of_scenario, plain};
 use platewash_certificate::Certificate;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::fingerprint::sha256_hex;
+use platewash_kinematics::urdf::Files;
 use platewash_planner::Watch;
 use platewash_scenario::{Draft, Failure, Program, Scenario, Solids, values_of};
 use platewash_workcell::cancel::CancelToken;
@@ -63,6 +64,8 @@ pub struct Subject {
     pub arms: Arms,
     /// Meshes that were cut.
     pub solids: Solids,
+    /// Source of the files that it names.
+    pub files: Files,
     last: Mutex<Option<LastResult>>,
 }
 
@@ -171,6 +174,7 @@ fn in_folder(subject: &Subject, draft: &Draft) -> Result<Scenario, Refusal> {
     let scenario = draft.scenario(&subject.name, subject.folder.as_deref());
     let mut scenario = scenario.map_err(|error| of_scenario(&error))?;
     scenario.solids = subject.solids.clone();
+    scenario.files = subject.files.clone();
     Ok(scenario)
 }
 

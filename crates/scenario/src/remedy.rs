@@ -12,7 +12,7 @@ use platewash_kinematics::RobotModel;
 use platewash_planner::scene::Hindrance;
 use platewash_planner::transit::TransitError;
 use platewash_planner::{ContactPromise, PlanError, Watch, plan_unexplained};
-use platewash_workcell::cancel::{CancelToken, Cancelled, Deadline};
+use platewash_workcell::cancel::{Cancelled, system_clock};
 use platewash_workcell::job::{End, JobError};
 use platewash_workcell::layout::LayoutError;
 use rayon::prelude::*;
@@ -244,8 +244,7 @@ impl Scenario {
         watch: &Watch<'_>,
         search_time: Duration,
     ) -> Result<Remedies, Cancelled> {
-        let is_over = CancelToken::new();
-        let deadline = Deadline::following(search_time, &is_over, watch.cancel);
+        let is_over = watch.cancel.within(search_time, system_clock);
         let silent = Watch::silent(&is_over);
         let tried: Vec<TriedKey> = pointed_to.into_iter().filter(|tried| self.has_effect(*tried)).collect();
         let found: Vec<_> = tried
@@ -253,7 +252,6 @@ impl Scenario {
             .with_max_len(1)
             .map(|tried| (self.remedy(arm, *tried, &silent), is_over.is_cancelled()))
             .collect();
-        drop(deadline);
         watch.cancel.check()?;
         let mut remedies = Remedies::default();
         for (tried, found) in tried.iter().zip(found) {

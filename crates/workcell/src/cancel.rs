@@ -1,15 +1,35 @@
-//! Cancelling long work.
-//!
-//! Deadlines for work.
+//! Cancelling long work: on demand, or after some time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::Builder;
+use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
+
+/// Reads the time since some fixed moment. It never goes back.
+pub type Clock = fn() -> Duration;
+
+/// The [`Clock`] of the system. Programs without one, such as those in a browser, bring their own.
+#[must_use]
+pub fn system_clock() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed()
+}
 
 /// Token that cancels long work. Clones share one state; the thread that waits keeps a clone.
 #[derive(Debug, Clone, Default)]
-pub struct CancelToken(Arc<AtomicBool>);
+pub struct CancelToken(Arc<State>);
+
+#[derive(Debug, Default)]
+struct State {
+    is_cancelled: AtomicBool,
+    deadline: Option<Deadline>,
+}
+
+#[derive(Debug)]
+struct Deadline {
+    clock: Clock,
+    until: Duration,
+    parent: CancelToken,
+}
 
 /// The work was cancelled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -23,101 +43,58 @@ impl CancelToken {
         Self::default()
     }
 
-    /// Cancels all work that uses this token.
+    /// Returns a token that is cancelled with this one, or once `time` has passed on the clock.
+    #[must_use]
+    pub fn within(&self, time: Duration, clock: Clock) -> Self {
+        let deadline = Deadline {
+            clock,
+            until: clock() + time,
+            parent: self.clone(),
+        };
+        Self(Arc::new(State {
+            is_cancelled: AtomicBool::new(false),
+            deadline: Some(deadline),
+        }))
+    }
+
+    /// Cancels all work that uses this token, or one that was made of it.
     pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.0.is_cancelled.store(true, Ordering::Relaxed);
     }
 
     /// True if the work is cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        let is_over = |deadline: &Deadline| deadline.parent.is_cancelled() || deadline.has_passed();
+        self.0.is_cancelled.load(Ordering::Relaxed) || self.0.deadline.as_ref().is_some_and(is_over)
+    }
+
+    /// True if the time of the token has passed, and nobody cancelled it before.
+    #[must_use]
+    pub fn is_late(&self) -> bool {
+        let is_late = |deadline: &Deadline| !deadline.parent.is_cancelled() && deadline.has_passed();
+        !self.0.is_cancelled.load(Ordering::Relaxed) && self.0.deadline.as_ref().is_some_and(is_late)
     }
 
     /// Returns an error if the work is cancelled.
     ///
     /// # Errors
-    /// [`Cancelled`] after the first [`CancelToken::cancel`].
+    /// [`Cancelled`] after the first [`CancelToken::cancel`], and once the time of the token has passed.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 }
 
-/// Interval at which another token is polled.
-const LOOK: Duration = Duration::from_millis(50);
-
-/// Deadline that cancels a token after some time, unless it is dropped before.
-#[derive(Debug)]
-pub struct Deadline {
-    shared: Arc<SharedState>,
-}
-
-#[derive(Debug, Default)]
-struct SharedState {
-    state: Mutex<State>,
-    changed: Condvar,
-}
-
-#[derive(Debug, Default, Clone, Copy)]
-struct State {
-    is_over: bool,
-    is_missed: bool,
-}
-
 impl Deadline {
-    /// Starts a deadline. If the system gives no thread, there is no deadline.
-    #[must_use]
-    pub fn after(time: Duration, token: &CancelToken) -> Self {
-        Self::following(time, token, &CancelToken::new())
-    }
-
-    /// Starts a deadline that also cancels the token soon after another one is cancelled.
-    #[must_use]
-    pub fn following(time: Duration, token: &CancelToken, other: &CancelToken) -> Self {
-        let other = other.clone();
-        let shared: Arc<SharedState> = Arc::default();
-        let (theirs, token) = (shared.clone(), token.clone());
-        let until = Instant::now() + time;
-        let wait = move || {
-            let mut state = theirs.state.lock().unwrap_or_else(PoisonError::into_inner);
-            while !state.is_over {
-                let left = until.saturating_duration_since(Instant::now());
-                if left.is_zero() || other.is_cancelled() {
-                    state.is_missed = left.is_zero();
-                    token.cancel();
-                    return;
-                }
-                let woken = theirs.changed.wait_timeout(state, left.min(LOOK));
-                state = woken.unwrap_or_else(PoisonError::into_inner).0;
-            }
-        };
-        let _ = Builder::new().name("deadline".to_owned()).spawn(wait);
-        Self { shared }
-    }
-
-    /// True if the deadline has passed.
-    #[must_use]
-    pub fn is_missed(&self) -> bool {
-        self.state().is_missed
-    }
-
-    fn state(&self) -> State {
-        *self.shared.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Drop for Deadline {
-    fn drop(&mut self) {
-        let mut state = self.shared.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.is_over = true;
-        drop(state);
-        self.shared.changed.notify_all();
+    fn has_passed(&self) -> bool {
+        (self.clock)() >= self.until
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicU64;
 
     #[test]
     fn clones_are_one_token() {
@@ -129,17 +106,23 @@ mod tests {
     }
 
     #[test]
-    fn a_deadline_cancels_only_when_it_passes() {
-        let (late, met) = (CancelToken::new(), CancelToken::new());
-        let missed = Deadline::after(Duration::from_millis(1), &late);
-        drop(Deadline::after(Duration::from_millis(100), &met));
-        let begin = Instant::now();
-        while !late.is_cancelled() {
-            assert!(begin.elapsed() < Duration::from_secs(60));
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        assert!(missed.is_missed());
-        std::thread::sleep(Duration::from_millis(150));
-        assert!(!met.is_cancelled());
+    fn a_deadline_cancels_once_its_time_has_passed() {
+        static NOW_S: AtomicU64 = AtomicU64::new(0);
+        let clock = || Duration::from_secs(NOW_S.load(Ordering::Relaxed));
+        let parent = CancelToken::new();
+        let [late, met] = [1, 3].map(|seconds| parent.within(Duration::from_secs(seconds), clock));
+        assert!(!late.is_cancelled() && !late.is_late());
+        NOW_S.store(1, Ordering::Relaxed);
+        assert!(late.is_cancelled() && late.is_late() && late.clone().check().is_err());
+        assert!(!met.is_cancelled() && !parent.is_cancelled());
+        parent.cancel();
+        assert!(met.is_cancelled() && !met.is_late());
+    }
+
+    #[test]
+    fn the_clock_of_the_system_runs() {
+        let begin = system_clock();
+        std::thread::sleep(Duration::from_millis(2));
+        assert!(system_clock() >= begin + Duration::from_millis(2));
     }
 }
