@@ -56,23 +56,19 @@ pub fn message(words: &str) {
     let _ = writeln!(std::io::stderr(), "{}", text(&words));
 }
 
-/// A value as indented JSON with a final newline. NaN and infinity become `null`; control characters are escaped, those too
-/// that JSON itself allows.
+/// A value as indented JSON: see [`json::write`](platewash::workcell::json::write).
 pub fn json(value: &impl Serialize) -> Result<String> {
-    let text = serde_json::to_string_pretty(value).map_err(failure::internal)?;
-    Ok(escaped(&text, |c| format!("\\u{:04x}", u32::from(c))) + "\n")
+    platewash::workcell::json::write(value).map_err(failure::internal)
 }
 
 /// A value as text without control characters but new lines, so that a terminal obeys no name out of a file.
 pub fn text(value: &impl Display) -> String {
-    escaped(&value.to_string(), |c| c.escape_default().to_string())
-}
-
-/// A text in which `escape` replaces every control character but new lines.
-fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
     let is_harmless = |c: char| !c.is_control() || c == '\n';
-    let written = |c| if is_harmless(c) { c.to_string() } else { escape(c) };
-    text.chars().map(written).collect()
+    let written = |c: char| match is_harmless(c) {
+        true => c.to_string(),
+        false => c.escape_default().to_string(),
+    };
+    value.to_string().chars().map(written).collect()
 }
 
 /// The whole report, as files hold it.

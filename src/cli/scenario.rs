@@ -36,21 +36,12 @@ pub fn show(options: &Options, arguments: &ScenarioArguments) -> Result<ExitCode
     }
     let all = SHIPPED.iter().map(|shipped| ScenarioEntry {
         name: shipped.name,
-        about: about(shipped.text),
+        about: shipped.about(),
     });
     let all: Vec<ScenarioEntry> = all.collect();
-    let line = |ScenarioEntry { name, about }: &ScenarioEntry| {
-        format!("{name:<15} {}\n", about.trim_end_matches('.').replace('`', ""))
-    };
+    let line = |ScenarioEntry { name, about }: &ScenarioEntry| format!("{name:<15} {about}\n");
     options.print(&all, || all.iter().map(line).collect())?;
     Ok(ExitCode::Done)
-}
-
-/// The first sentence of the comment at the head of a scenario.
-fn about(text: &str) -> String {
-    let lines = text.lines().map_while(|line| line.strip_prefix('#'));
-    let words = lines.map(str::trim).collect::<Vec<_>>().join(" ");
-    words.split(". ").next().unwrap_or_default().to_owned()
 }
 
 #[derive(Serialize)]

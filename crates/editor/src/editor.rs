@@ -135,6 +135,17 @@ impl Editor {
         self.page(Channel::Frame, self.text(), bundle)
     }
 
+    /// The first contents of a page whose questions go to a worker of the browser, of the scenario as `text` has it.
+    ///
+    /// # Errors
+    /// [`EditorError`].
+    pub fn first_contents<'a>(&'a self, text: &'a str) -> Result<FirstContents<'a>, EditorError> {
+        Ok(FirstContents {
+            view: self.view(text)?,
+            edit: EditDocument::new(Channel::Worker, text, self.saved_file.as_ref()),
+        })
+    }
+
     /// A page of the scenario as `text` has it, or as it was opened where that is none.
     fn page(&self, channel: Channel, text: &str, bundle: &Bundle) -> Result<String, EditorError> {
         let edit = EditDocument::new(channel, text, self.saved_file.as_ref());
@@ -259,6 +270,15 @@ enum Channel {
     Server,
     /// Questions go to the window around it, by messages.
     Frame,
+    /// Questions go to workers of the browser that the page has started.
+    Worker,
+}
+
+/// First contents of a page: the arm at home, and the block of the live cell.
+#[derive(Debug, Serialize)]
+pub struct FirstContents<'a> {
+    view: View,
+    edit: EditDocument<'a>,
 }
 
 /// The block.

@@ -28,7 +28,7 @@ mod refusal;
 mod sessions;
 mod subject;
 
-pub use editor::{Editor, EditorError, site};
+pub use editor::{Editor, EditorError, FirstContents, site};
 pub use host::Host;
 pub use keep::{Keeper, Save, SaveError, SaveReport};
 pub use subject::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};

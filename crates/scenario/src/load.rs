@@ -286,6 +286,17 @@ pub struct ShippedScenario {
     pub text: &'static str,
 }
 
+impl ShippedScenario {
+    /// The first sentence of the comment at its head.
+    #[must_use]
+    pub fn about(&self) -> String {
+        let lines = self.text.lines().map_while(|line| line.strip_prefix('#'));
+        let words = lines.map(str::trim).collect::<Vec<_>>().join(" ");
+        let sentence = words.split(". ").next().unwrap_or_default();
+        sentence.trim_end_matches('.').replace('`', "")
+    }
+}
+
 /// All shipped scenarios; the first is the default.
 pub static SHIPPED: &[ShippedScenario] = &[
     ShippedScenario {

@@ -1,7 +1,8 @@
-//! JSON from files, with error messages for people who do not know this program's types.
+//! JSON of files: read with error messages for people who do not know this program's types, and written.
 
 use crate::words::{printable, without_mark};
 use platewash_kinematics::words::message_in_words;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 
@@ -22,6 +23,23 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     serde_json::from_str(text).map_err(|error| JsonError {
         reason: error_text(text, &error),
     })
+}
+
+/// Writes a value as indented JSON with a final newline. NaN and infinity become `null`; control characters are escaped, those too
+/// that JSON itself allows.
+///
+/// # Errors
+/// A value that JSON cannot hold.
+pub fn write(value: &impl Serialize) -> Result<String, JsonError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| JsonError {
+        reason: error.to_string(),
+    })?;
+    let is_harmless = |c: char| !c.is_control() || c == '\n';
+    let written = |c: char| match is_harmless(c) {
+        true => c.to_string(),
+        false => format!("\\u{:04x}", u32::from(c)),
+    };
+    Ok(text.chars().map(written).collect::<String>() + "\n")
 }
 
 /// Describes an error with its position.
