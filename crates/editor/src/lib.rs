@@ -6,7 +6,7 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | the editor: answers, first contents of the page, server | `editor.rs` |
+//! | the editor: answers, first contents of the page | `editor.rs` |
 //! | questions and lines as JSON | `protocol.rs` |
 //! | a new question ends those before it | `sessions.rs` |
 //! | the subject: the scenario, changed; its arm and its job; the limit on work | `subject.rs` |
@@ -26,6 +26,6 @@ mod refusal;
 mod sessions;
 mod subject;
 
-pub use editor::{Editor, EditorError, site};
+pub use editor::{Editor, EditorError};
 pub use keep::{Keeper, Save, SaveError, SaveReport};
 pub use subject::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};
