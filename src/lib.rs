@@ -33,6 +33,8 @@ pub use platewash_kinematics as kinematics;
 pub use platewash_paper as paper;
 pub use platewash_planner as planner;
 pub use platewash_scenario as scenario;
+#[cfg(feature = "command")]
+pub use platewash_server as server;
 pub use platewash_simulator as simulator;
 pub use platewash_study as study;
 pub use platewash_viewer as viewer;

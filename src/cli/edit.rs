@@ -11,9 +11,10 @@ use super::run::wash;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use platewash::certificate::prove_with;
-use platewash::editor::{Editor, Keeper, Save, SaveError, SaveReport, site};
+use platewash::editor::{Editor, Keeper, Save, SaveError, SaveReport};
 use platewash::kinematics::urdf::file::{FileError, read_bytes};
 use platewash::scenario::{Draft, ScenarioSource, source};
+use platewash::server::cell_site;
 use platewash::workcell::words::count_with_noun;
 use platewash::{CancelToken, Failure, Scenario, WashReport};
 use serde::Serialize;
@@ -63,7 +64,7 @@ pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode> {
         true => editor,
         false => editor.open_to_others(),
     };
-    let site = site(editor, bundle).map_err(internal)?;
+    let site = cell_site(editor, bundle).map_err(internal)?;
     // Behind the #, where browsers keep it to themselves.
     let token = site.service.as_ref().map(|service| service.token().to_owned());
     let answer = Answer {

@@ -22,6 +22,7 @@ PYTHON = {
     "paper": None,
     "planner": None,
     "scenario": None,
+    "server": None,  # the command's; the cell in a notebook needs none
     "simulator": None,
     "study": "Study",
     "workcell": None,

@@ -1,4 +1,4 @@
-//! An editor: it answers the page's questions, makes the page's first contents, and serves the page.
+//! An editor: it answers the page's questions and makes the page's first contents.
 
 use crate::answer_writer::AnswerWriter;
 use crate::cell;
@@ -6,20 +6,16 @@ use crate::host::Host;
 use crate::keep::{DiskContents, Keeper, SavedFile};
 use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, LastStage, MapQuestion, SaveQuestion};
 use crate::sessions::{Lane, Sessions, Turn, is_name};
-use crate::subject::{
-    LONGEST, LONGEST_MAP, LastResult, MOST_QUESTION_BYTES, Subject, accepted, may_name_its_files, stated,
-};
+use crate::subject::{LONGEST, LONGEST_MAP, LastResult, Subject, accepted, may_name_its_files, stated};
 use platewash_kinematics::JointVector;
 use platewash_scenario::{Draft, FormKey, Scenario, ScenarioError, form, source};
 use platewash_viewer::bundle::Bundle;
 use platewash_viewer::page::{self, PageError};
-use platewash_viewer::server::{NoListener, Page, QuestionLimits, Service, Site, token};
 use platewash_viewer::view::View;
 use platewash_workcell::cancel::{CancelToken, Clock, system_clock};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Reason that there is nothing to edit.
 #[derive(Debug, thiserror::Error)]
@@ -34,9 +30,6 @@ pub enum EditorError {
     /// The page cannot be made.
     #[error(transparent)]
     Page(#[from] PageError),
-    /// The system gives no random numbers for a token.
-    #[error("no token can be made: {0}")]
-    Token(String),
 }
 
 /// A scenario that is edited. Its only state of a page is the work under way: the page holds the scenario.
@@ -146,6 +139,16 @@ impl Editor {
         })
     }
 
+    /// A page whose questions go to its own address: of the file on disk; of the scenario as it was opened, where there is no file
+    /// or it is no scenario.
+    ///
+    /// # Errors
+    /// [`EditorError`].
+    pub fn served_page(&self, bundle: &Bundle) -> Result<String, EditorError> {
+        let on_disk = self.saved_file.as_ref().and_then(SavedFile::scenario);
+        self.page(Channel::Server, on_disk.as_deref().unwrap_or(self.text()), bundle)
+    }
+
     /// A page of the scenario as `text` has it, or as it was opened where that is none.
     fn page(&self, channel: Channel, text: &str, bundle: &Bundle) -> Result<String, EditorError> {
         let edit = EditDocument::new(channel, text, self.saved_file.as_ref());
@@ -171,7 +174,7 @@ impl Editor {
         Ok(view)
     }
 
-    /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`. Each line of JSON goes to `tell` as soon as it
+    /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`, `/hello`. Each line of JSON goes to `tell` as soon as it
     /// is known. The work stops where `tell` returns that the client has left, or `gone` is cancelled.
     pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
         let mut told = AnswerWriter::new(tell, gone, self.clock);
@@ -220,6 +223,7 @@ impl Editor {
                 named(&question.session)?;
                 kept.report_changes(&question, answer);
             }
+            ("/hello", Some(kept)) => kept.greet(answer),
             _ => return Err(format!("there is no question {path}")),
         }
         Ok(())
@@ -306,72 +310,5 @@ impl<'a> EditDocument<'a> {
             text,
             keys: form(),
         }
-    }
-}
-
-/// Longest question about the disk \[bytes\].
-const MOST_SHORT_BYTES: usize = 1 << 10;
-
-/// An editor, its page and its token.
-#[derive(Debug)]
-struct EditorSite {
-    editor: Editor,
-    bundle: Bundle,
-    token: String,
-}
-
-/// The site of an editor: its page, made anew for each visitor, and its answers. Every visitor of the page sees the scenario; a
-/// question needs the token, which the page takes from its address ([`Service::token`]).
-///
-/// # Errors
-/// [`EditorError::Token`], and [`EditorError`] for a page that cannot be made.
-pub fn site(editor: Editor, bundle: Bundle) -> Result<Site, EditorError> {
-    let token = token().map_err(|error| EditorError::Token(error.to_string()))?;
-    let served = Arc::new(EditorSite { editor, bundle, token });
-    // An error shows now, not at the first visit.
-    served.page()?;
-    let pages = served.clone();
-    let page = Page::Made(Box::new(move || pages.page().map_err(Into::into)));
-    Ok(Site {
-        service: Some(served),
-        ..Site::of(page)
-    })
-}
-
-impl EditorSite {
-    /// The page of the file on disk; of the scenario as it was opened, where there is no file or it is no scenario.
-    fn page(&self) -> Result<String, EditorError> {
-        let on_disk = self.editor.saved_file.as_ref().and_then(SavedFile::scenario);
-        let text = on_disk.as_deref().unwrap_or(self.editor.text());
-        self.editor.page(Channel::Server, text, &self.bundle)
-    }
-}
-
-impl Service for EditorSite {
-    fn knows(&self, path: &str) -> Option<QuestionLimits> {
-        let asked = |is_work, most_bytes| Some(QuestionLimits { is_work, most_bytes });
-        match path {
-            "/cell" | "/map" | "/save" => asked(true, MOST_QUESTION_BYTES),
-            "/disk" | "/hello" => asked(false, MOST_SHORT_BYTES),
-            _ => None,
-        }
-    }
-
-    fn answer(
-        &self,
-        path: &str,
-        question: &[u8],
-        tell: &mut dyn FnMut(String) -> Result<(), NoListener>,
-        gone: &CancelToken,
-    ) {
-        let mut tell = |line| tell(line).is_ok();
-        match (path, &self.editor.saved_file) {
-            ("/hello", Some(kept)) => kept.greet(&mut AnswerWriter::new(&mut tell, gone, self.editor.clock)),
-            _ => self.editor.answer(path, question, &mut tell, gone),
-        }
-    }
-
-    fn token(&self) -> &str {
-        &self.token
     }
 }

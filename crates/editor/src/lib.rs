@@ -6,7 +6,7 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | the editor: answers, first contents of the page, server | `editor.rs` |
+//! | the editor: answers, first contents of the page | `editor.rs` |
 //! | clock and files of the machine that it runs on | `host.rs` |
 //! | questions and lines as JSON | `protocol.rs` |
 //! | a new question ends those before it | `sessions.rs` |
@@ -28,7 +28,7 @@ mod refusal;
 mod sessions;
 mod subject;
 
-pub use editor::{Editor, EditorError, FirstContents, site};
+pub use editor::{Editor, EditorError, FirstContents};
 pub use host::Host;
 pub use keep::{Keeper, Save, SaveError, SaveReport};
 pub use subject::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};

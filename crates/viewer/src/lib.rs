@@ -5,13 +5,11 @@
 //! | the document that a page shows | [`view`] |
 //! | the bundle that all pages share | [`bundle`] |
 //! | both as one file of HTML | [`page`] |
-//! | a page on the loopback, and the events of a live run | [`server`] |
 //! | figures of a plan, as SVG | [`figures`] |
 
 pub mod bundle;
 pub mod figures;
 pub mod page;
-pub mod server;
 pub mod view;
 
 pub use view::View;

@@ -2,7 +2,7 @@
 
 use crate::toy::*;
 use crate::wire::*;
-use platewash_viewer::server::Page;
+use platewash_server::Page;
 use std::io::{Read, Write};
 use std::net::Shutdown;
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};

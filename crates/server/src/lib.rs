@@ -1,7 +1,8 @@
-//! A page on the loopback: one HTML file and, of a live run, its events.
+//! Serves pages, live runs and live cells to browsers on this machine: one HTML file and its events or answers.
 //!
 //! [`Listener::bind`] takes a port before any long work, [`Listener::serve`] answers on it until the [`Server`] is dropped. What it serves
-//! lives in memory; it reads no file for any request. Where the page has questions, a [`Service`] answers them.
+//! lives in memory; it reads no file for any request, except the scenario of a live cell. Where the page has questions, a [`Service`]
+//! answers them.
 //!
 //! | concept | file |
 //! | --- | --- |
@@ -13,9 +14,11 @@
 //! | a stream with a deadline | `deadline.rs` |
 //! | who is connected, who has to go for another, how much is worked on at a time | `connections.rs` |
 //! | the port, and the thread that accepts | `listener.rs` |
+//! | the site of a live cell: its page and its answers | `cell.rs` |
 //! | a live run as those who watch it share it; samples of a simulation into it, in real time | `live.rs`, `feed.rs` |
 
 mod answer;
+mod cell;
 mod connection;
 mod connections;
 mod deadline;
@@ -29,6 +32,7 @@ mod service;
 mod site;
 mod token;
 
+pub use cell::cell_site;
 pub use error::ServerError;
 pub use feed::Feed;
 pub use listener::{Listener, Server};

@@ -1,9 +1,9 @@
 //! A request: its head, who may ask, and the question that may follow it.
 
-use super::answer::Refusal;
-use super::names::Names;
-use super::service::{QuestionLimits, Service};
-use super::token::is_token;
+use crate::answer::Refusal;
+use crate::names::Names;
+use crate::service::{QuestionLimits, Service};
+use crate::token::is_token;
 use httparse::{EMPTY_HEADER, Error, Header, Status};
 use std::io::{ErrorKind, Read};
 

@@ -1,11 +1,11 @@
 //! The port, and the thread that accepts.
 
-use super::answer::Refusal;
-use super::connection::{self, ServerState};
-use super::connections::{Connections, Turns};
-use super::error::ServerError;
-use super::names::Names;
-use super::site::Site;
+use crate::answer::Refusal;
+use crate::connection::{self, ServerState};
+use crate::connections::{Connections, Turns};
+use crate::error::ServerError;
+use crate::names::Names;
+use crate::site::Site;
 use std::io::Read;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;

@@ -22,7 +22,7 @@ pub trait Service: Debug + Send + Sync {
         gone: &CancelToken,
     );
 
-    /// Token that the page sends with its questions, so that others cannot ask: see [`token`](super::token()).
+    /// Token that the page sends with its questions, so that others cannot ask: see [`token`](crate::token()).
     fn token(&self) -> &str;
 }
 

@@ -1,7 +1,7 @@
 //! A service that does nothing useful in several ways, served, and a client for it.
 #![allow(dead_code, clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use platewash_viewer::server::{Listener, NoListener, Page, QuestionLimits, Server, Service, Site};
+use platewash_server::{Listener, NoListener, Page, QuestionLimits, Server, Service, Site};
 use platewash_workcell::cancel::CancelToken;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};

@@ -1,5 +1,6 @@
 //! Why nothing can be served.
 
+use platewash_editor::EditorError;
 use std::net::SocketAddr;
 
 /// Reason that nothing can be served.
@@ -20,4 +21,7 @@ pub enum ServerError {
     /// The system gives no random numbers, without which no token can be made that nobody guesses.
     #[error("cannot make a token: the system gives no random numbers")]
     Randomness(#[source] std::io::Error),
+    /// The page of a live cell cannot be made.
+    #[error(transparent)]
+    Cell(#[from] EditorError),
 }

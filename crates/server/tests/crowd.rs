@@ -1,7 +1,6 @@
 //! A crowd of clients at once, most of them up to no good. A program of its own, as its memory is measured.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-#[path = "../../../tests/support/toy.rs"]
 mod toy;
 
 use std::io::Write;

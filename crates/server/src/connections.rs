@@ -1,6 +1,6 @@
 //! Who is connected, who has to go for another, and how much is worked on at a time.
 
-use super::deadline::LOOK;
+use crate::deadline::LOOK;
 use platewash_workcell::cancel::CancelToken;
 use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};

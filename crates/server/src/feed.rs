@@ -1,6 +1,6 @@
 //! Samples of a simulation into a live run, in real time.
 
-use super::live::{LiveRun, Row};
+use crate::live::{LiveRun, Row};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_simulator::simulate::Sample;
 use platewash_workcell::cancel::CancelToken;

@@ -1,7 +1,7 @@
 //! The server as its clients meet it, good ones and others, over TCP.
 
 use crate::wire::{is, read_until};
-use platewash_viewer::server::{Listener, LiveEnd, LiveRun, Page, Server, ServerError, Site};
+use platewash_server::{Listener, LiveEnd, LiveRun, Page, Server, ServerError, Site};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Token with which a page proves that it is from this server.
 
-use super::error::ServerError;
+use crate::error::ServerError;
 use rand::TryRng;
 use rand::rngs::SysRng;
 use std::fmt::Write;

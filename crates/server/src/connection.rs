@@ -1,12 +1,12 @@
 //! One connection, from request to answer. Each serves one request, so that no client holds a thread for longer than its deadlines.
 
-use super::answer::{self, LINES, Refusal};
-use super::connections::{Place, Turns};
-use super::deadline::{Deadline, HEARTBEAT, LONG, LOOK, SHORT};
-use super::names::Names;
-use super::request::{self, Request, RequestKind};
-use super::service::{NoListener, Service};
-use super::site::{Site, SiteAnswer};
+use crate::answer::{self, LINES, Refusal};
+use crate::connections::{Place, Turns};
+use crate::deadline::{Deadline, HEARTBEAT, LONG, LOOK, SHORT};
+use crate::names::Names;
+use crate::request::{self, Request, RequestKind};
+use crate::service::{NoListener, Service};
+use crate::site::{Site, SiteAnswer};
 use platewash_workcell::cancel::CancelToken;
 use std::io::{ErrorKind, Read, Result, Write};
 use std::net::{Shutdown, TcpStream};

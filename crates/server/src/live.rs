@@ -1,7 +1,7 @@
 //! A live run that several pages follow: one sender, many followers, each from its own position, by server-sent events.
 
-use super::answer::{self, Refusal};
-use super::deadline::{Deadline, HEARTBEAT, LOOK, SHORT};
+use crate::answer::{self, Refusal};
+use crate::deadline::{Deadline, HEARTBEAT, LOOK, SHORT};
 use platewash_workcell::cancel::CancelToken;
 use serde::Serialize;
 use serde_json::json;
@@ -93,7 +93,7 @@ impl LiveRun {
     }
 
     /// Checks that the query of a request is the one of this run.
-    pub(super) fn is_asked_for(&self, query: &str) -> bool {
+    pub(crate) fn is_asked_for(&self, query: &str) -> bool {
         query.strip_prefix("run=") == Some(&self.tag)
     }
 
@@ -116,7 +116,7 @@ impl LiveRun {
     }
 
     /// Tells followers that the server has ended.
-    pub(super) fn close(&self) {
+    pub(crate) fn close(&self) {
         self.tell(|told| told.is_closed = true);
     }
 
@@ -135,7 +135,7 @@ impl LiveRun {
 
     /// Sends the run as events to its end, from behind the event with the given id or from the beginning. Each event has its own
     /// deadline: a client that is too slow for one is dropped; when it connects again it gets the events that it missed.
-    pub(super) fn send(&self, stream: &TcpStream, last_event_id: Option<&str>) -> Result<()> {
+    pub(crate) fn send(&self, stream: &TcpStream, last_event_id: Option<&str>) -> Result<()> {
         let out = || Deadline::after(stream, SHORT);
         let Some(_follower) = self.enter() else {
             return Refusal::Followed.write(&mut out(), true);
@@ -215,7 +215,7 @@ impl LiveRun {
 
     /// All rows so far.
     #[cfg(test)]
-    pub(super) fn rows(&self) -> Vec<Row> {
+    pub(crate) fn rows(&self) -> Vec<Row> {
         self.lock().rows.clone()
     }
 }

@@ -1,9 +1,9 @@
 //! Contents that are served.
 
-use super::answer::Refusal;
-use super::live::{EVENTS, LiveRun};
-use super::request::Request;
-use super::service::Service;
+use crate::answer::Refusal;
+use crate::live::{EVENTS, LiveRun};
+use crate::request::Request;
+use crate::service::Service;
 use std::borrow::Cow;
 use std::error::Error;
 use std::fmt;
