@@ -23,7 +23,7 @@ function word(text: string | null): string | null {
 
 /** Reads a URL's hash. */
 export function parseLink(hash: string): Place {
-  const entries = new URLSearchParams(hash.replace(/^#/, "").slice(0, 500));
+  const entries = new URLSearchParams(hash.replace(/^#/, ""));
   const show = entries.get("show");
   return {
     t: number(entries.get("t")),
@@ -34,11 +34,11 @@ export function parseLink(hash: string): Place {
   };
 }
 
-/** The hash of a place, without what is null. */
-export function linkTo(place: Place): string {
+/** The hash of a place, without what is null, and of further entries. */
+export function linkTo(place: Place, further: Readonly<Record<string, string>> = {}): string {
   const text = (value: number | string): string => (typeof value === "number" ? String(Number(value.toFixed(3))) : value);
   const entries = Object.entries(place).flatMap(([key, value]) => (value === null ? [] : [[key, text(value)]]));
-  return `#${new URLSearchParams(entries)}`;
+  return `#${new URLSearchParams([...entries, ...Object.entries(further)])}`;
 }
 
 /** How long the page rests before its address is changed [ms]. */
@@ -48,6 +48,7 @@ export class Address {
   readonly #current: () => Place | null;
   #timer = 0;
   #written = location.hash;
+  #further: Readonly<Record<string, string>> = {};
 
   /** `current` is null while there is no place to link to. */
   constructor(current: () => Place | null) {
@@ -61,7 +62,13 @@ export class Address {
   /** Something has changed. */
   touch(): void {
     clearTimeout(this.#timer);
-    this.#timer = window.setTimeout(() => this.#write(), SETTLED_MS);
+    this.#timer = window.setTimeout(() => this.#write(this.#current()), SETTLED_MS);
+  }
+
+  /** Writes further entries, now and whenever the address changes. */
+  keep(further: Readonly<Record<string, string>>): void {
+    this.#further = further;
+    this.#write(this.#current() ?? this.place);
   }
 
   /** Someone has changed the address by hand or by a link. */
@@ -71,10 +78,9 @@ export class Address {
     });
   }
 
-  #write(): void {
-    const place = this.#current();
+  #write(place: Place | null): void {
     if (place === null) return;
-    this.#written = linkTo(place);
+    this.#written = linkTo(place, this.#further);
     try {
       history.replaceState(history.state, "", this.#written);
     } catch {

@@ -2,7 +2,7 @@
 import { Address, type Place } from "./address.ts";
 import { Controls } from "./controls.ts";
 import { PLATE_KEYS } from "./edit/commands.ts";
-import { Editor } from "./edit/editor.ts";
+import { Editor, type Playground } from "./edit/editor.ts";
 import type { EditDocument } from "./edit/protocol.ts";
 import { quantity } from "./format.ts";
 import { type Handle, handleOf } from "./handle.ts";
@@ -52,8 +52,8 @@ export class App {
   /** Everything has to be shown anew with the next frame. */
   #anew = true;
 
-  /** `edit`: what makes the page one of a live cell; null where it only shows. */
-  constructor(view: View, edit: EditDocument | null) {
+  /** `edit`: what makes the page one of a live cell; null where it only shows. `playground`: what stands in the place of a server. */
+  constructor(view: View, edit: EditDocument | null, playground: Playground | null = null) {
     this.#player = new Player(view);
     // A live cell's film comes and goes: its place is always there.
     const film = this.#player.duration > 0 || edit !== null;
@@ -85,7 +85,7 @@ export class App {
     this.#requirements = new Requirements(view, (check) => this.#choose(check));
     this.#plots = new Plots(this.#player, () => this.#theme.palette, (t) => this.#controls.seek(t));
     this.#plates = new Plates(this.#player, coverages, (plate) => this.#toPlate(plate));
-    this.#editor = edit === null ? null : this.#makeEditor(edit, view);
+    this.#editor = edit === null ? null : this.#makeEditor(edit, view, playground);
     this.#about.replaceChildren(about(view));
     this.#panels = new Panels([...(this.#editor?.panels ?? []), ...this.#makePanels(film)], this.#address.place.panel, () => this.#address.touch());
     this.#listen();
@@ -138,7 +138,7 @@ export class App {
     return (plate, t) => coverages.shareAt(plate, this.#player.coverageKind, t);
   }
 
-  #makeEditor(edit: EditDocument, view: View): Editor {
+  #makeEditor(edit: EditDocument, view: View, playground: Playground | null): Editor {
     const { canvas, scene } = this.#stage;
     return new Editor(edit, view, {
       edit: (actions) => scene?.edit(actions) ?? null,
@@ -148,7 +148,8 @@ export class App {
         this.#header.say(said, stale);
         this.#hold(stale);
       },
-    });
+      link: (entries) => this.#address.keep(entries),
+    }, playground);
   }
 
   /** While something is changed that the plan does not have, its film stands still. */

@@ -352,9 +352,13 @@ function parsed(text: string, what: string, remedy: string): unknown {
   }
 }
 
-/** What the text holds. Its format is checked; what it holds beyond that is platewash's own word. */
+/** What the text holds. */
 export function parseView(text: string): View {
-  const view = parsed(text, "plan", "Write it again with “platewash run”.");
+  return checkedView(parsed(text, "plan", "Write it again with “platewash run”."));
+}
+
+/** A document. Its format is checked; what it holds beyond that is platewash's own word. */
+export function checkedView(view: unknown): View {
   if (!isObject(view)) throw new DocumentError(NO_PLAN);
   if (view["format"] !== VIEW) {
     const found = typeof view["format"] === "string" ? `“${view["format"].slice(0, 40)}”` : "none";
@@ -373,8 +377,12 @@ export function readView(page: Document): View {
 /** The block of a live cell; null in a page that only shows. */
 export function readEdit(page: Document): EditDocument | null {
   const text = page.getElementById("platewash-edit")?.textContent ?? null;
-  if (text === null) return null;
-  const edit = parsed(text, "live cell", "Open it again with “platewash edit”.") as Partial<EditDocument> | null;
+  return text === null ? null : checkedEdit(parsed(text, "live cell", "Open it again with “platewash edit”."));
+}
+
+/** A block of a live cell, its format checked. */
+export function checkedEdit(block: unknown): EditDocument {
+  const edit = block as Partial<EditDocument> | null;
   if (edit?.format !== EDIT || typeof edit.text !== "string" || !Array.isArray(edit.keys)) {
     throw new DocumentError(`The live cell in this page has another format than this page reads: it is not “${EDIT}”.`);
   }

@@ -53,6 +53,32 @@ export interface EditorHost {
   replace(view: View): void;
   /** `stale`: something is changed that the plan does not have. */
   say(verdict: Verdict, stale: boolean): void;
+  /** Writes further entries into the page's address. */
+  link(entries: Readonly<Record<string, string>>): void;
+}
+
+/** What tools of the playground do with the cell. */
+export interface PlaygroundCell {
+  /** The scenario; null while changes are not written out, or refused. */
+  text(): string | null;
+  /** Name of the scenario. */
+  name(): string;
+  /** Takes another text, as a step. */
+  take(text: string, label: string): void;
+  /** Says something in passing. */
+  notice(words: string): void;
+  /** Writes entries into the page's address. */
+  link(entries: Readonly<Record<string, string>>): void;
+}
+
+/** What stands in the place of a server and its file. */
+export interface Playground {
+  channel: Channel;
+  /** The cell is there; tools to show beside undo and redo. */
+  begin(cell: PlaygroundCell): HTMLElement[];
+  /** Another text stands. */
+  changed(text: string): void;
+  save(): void;
 }
 
 /** How long a verdict stands before it is read out [ms]. */
@@ -65,6 +91,7 @@ export class Editor {
   readonly panels: Panel[];
   readonly #document: EditDocument;
   readonly #host: EditorHost;
+  readonly #playground: Playground | null;
   readonly #cell: Cell;
   readonly #disk: Disk;
   readonly #keeper: Keeper;
@@ -87,11 +114,13 @@ export class Editor {
   /** Somebody wants to save what is not written out yet. */
   #saveSoon = false;
 
-  constructor(edit: EditDocument, view: View, host: EditorHost) {
+  constructor(edit: EditDocument, view: View, host: EditorHost, playground: Playground | null) {
     this.#document = edit;
     this.#host = host;
+    this.#playground = playground;
     this.#file = edit.file;
-    this.#keeper = new Keeper(tabStore(), edit.file ?? edit.text);
+    // The address of a playground has its scenario, and decides.
+    this.#keeper = new Keeper(playground === null ? tabStore() : null, edit.file ?? edit.text);
     const channel = this.#channel();
     const session = newSession();
     const kept = this.#keeper.load();
@@ -109,7 +138,8 @@ export class Editor {
     this.#commands = new Commands(this.#cell, () => this.#shown.view, () => this.#scene, () => host.size(), touch, (words) => this.#say(words));
     this.#map = new MapAsker(channel, session, () => this.#scene, touch);
     this.#drawings = new Drawings(this.#cell);
-    this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() });
+    const tools = playground?.begin(this.#forPlayground()) ?? [];
+    this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() }, tools);
     this.#cellPanel = new CellPanel(this.#commands, {
       map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
       clearMap: () => this.#map.clear(),
@@ -138,7 +168,7 @@ export class Editor {
       plate: (event) => this.#key(event),
     });
     addEventListener("beforeunload", (event) => {
-      if (!this.#keeper.works && this.#disk.unsaved) event.preventDefault();
+      if (this.#playground === null && !this.#keeper.works && this.#disk.unsaved) event.preventDefault();
     });
     this.#cell.start();
     if (this.#file !== null) this.#disk.watch(() => !document.hidden);
@@ -191,7 +221,18 @@ export class Editor {
     };
   }
 
+  #forPlayground(): PlaygroundCell {
+    return {
+      text: () => (this.#cell.version.edits.length > 0 ? null : this.#cell.text),
+      name: () => this.#shown.view.heading.scenario,
+      take: (text, label) => this.#cell.setText(text, label),
+      notice: (words) => this.#say(words),
+      link: (entries) => this.#host.link(entries),
+    };
+  }
+
   #channel(): Channel {
+    if (this.#playground !== null) return this.#playground.channel;
     if (this.#document.channel === "frame") return new FrameChannel(window, (text) => this.#cell.setText(text, "From the notebook"));
     takeToken();
     return new HttpChannel(keptToken, ({ file }) => {
@@ -218,6 +259,7 @@ export class Editor {
 
   /** Saves, with what is being typed. */
   #save(): void {
+    if (this.#playground !== null) return this.#playground.save();
     if (document.activeElement instanceof HTMLElement && document.activeElement.dataset["dirty"] === "true") document.activeElement.blur();
     this.#saveSoon = this.#cell.version.edits.length > 0 && !this.#cell.settled;
     if (!this.#saveSoon) void this.#disk.save();
@@ -277,6 +319,7 @@ export class Editor {
     const { known } = this.#disk;
     if (version === this.#kept?.version && known === this.#kept.known) return;
     this.#kept = { version, known };
+    if (version.edits.length === 0) this.#playground?.changed(version.text);
     this.#keeper.save({ steps, at, ...known });
   }
 }

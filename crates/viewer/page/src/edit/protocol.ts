@@ -33,8 +33,8 @@ export interface Key {
 /** The block `platewash-edit` in the page. */
 export interface EditDocument {
   format: "platewash-edit/1";
-  /** `server`: questions go to the page's own address; `frame`: to the window around it, by messages. */
-  channel: "server" | "frame";
+  /** `server`: questions go to the page's own address; `frame`: to the window around it, by messages; `worker`: to workers of the browser. */
+  channel: "server" | "frame" | "worker";
   /** Where it is saved, in words; null where it cannot be. */
   file: string | null;
   /** SHA-256 of what stands on disk there; null where there is nothing. */

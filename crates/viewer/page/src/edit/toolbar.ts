@@ -31,7 +31,8 @@ export class Toolbar {
   readonly #activity = new TextCell();
   readonly #notice = new TextCell();
 
-  constructor(actions: ToolbarActions) {
+  /** `tools`: further ones beside undo, redo and save. */
+  constructor(actions: ToolbarActions, tools: readonly HTMLElement[]) {
     this.#undo = button({ class: "button text-button" }, () => actions.undo(), icon("undo"), "Undo");
     this.#redo = button({ class: "button text-button" }, () => actions.redo(), icon("redo"), "Redo");
     this.#save = button({ class: "button text-button" }, () => actions.save(), this.#saveWord.node);
@@ -41,6 +42,7 @@ export class Toolbar {
       this.#undo,
       this.#redo,
       this.#save,
+      ...tools,
       el("span", { class: "edit-activity", set: { "aria-hidden": "true" } }, this.#activity.node),
       el("p", { class: "edit-notice", set: { role: "status" } }, el("bdi", {}, this.#notice.node)),
     );
