@@ -16,10 +16,10 @@ after(async () => (await browser)?.close());
 export const address = (file) => pathToFileURL(file).href;
 
 /**
- * Opens a page and waits until it is ready. `quiet()` fails where the page asked anything of anybody but its own place, or where an
+ * A page that will be opened at an address. `quiet()` fails where the page asked anything of anybody but its own place, or where an
  * error came up in it.
  */
-export async function open(test, url, { size = SIZE, ...context } = {}) {
+export async function watch(test, url, { size = SIZE, ...context } = {}) {
   const own = await (await shared()).newContext({ viewport: size, reducedMotion: "reduce", ...context });
   test.after(() => own.close());
   const page = await own.newPage();
@@ -35,11 +35,17 @@ export async function open(test, url, { size = SIZE, ...context } = {}) {
     if (message.type() === "error") wrong.push(`console: ${message.text()}`);
   });
   page.on("pageerror", (error) => wrong.push(`error: ${error.message}`));
+  return { page, wrong, quiet: () => assert.deepEqual(wrong, []) };
+}
+
+/** Opens a page and waits until it is ready; `quiet` as of `watch`. */
+export async function open(test, url, settings = {}) {
+  const { page, wrong, quiet } = await watch(test, url, settings);
   await page.goto(url);
   const began = await page.evaluate(() => window.platewash !== undefined);
   if (!began) throw new Error(`the page does not begin: ${wrong.join("; ")} ${await text(page)}`);
   await page.evaluate(() => window.platewash.ready);
-  return { page, quiet: () => assert.deepEqual(wrong, []) };
+  return { page, quiet };
 }
 
 /** Draws one frame at a time of the plan. */

@@ -19,6 +19,8 @@ export class OpenPlayground implements Playground {
   /** In the address. */
   #link: CellLink | null = linkedCell(location.hash);
   #timer = 0;
+  /** What is wrong with the address that the page was opened at. */
+  #wrong: string | null = null;
 
   constructor(channel: Channel, shipped: readonly ShippedScenario[]) {
     this.channel = channel;
@@ -33,13 +35,14 @@ export class OpenPlayground implements Playground {
       return (await this.#textOf(this.#link)) ?? fallback!.text;
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
-      complain(`${error.message} “${fallback!.name}” is shown instead.`);
+      this.#wrong = `${error.message} “${fallback!.name}” is shown instead.`;
       return fallback!.text;
     }
   }
 
   begin(cell: PlaygroundCell): HTMLElement[] {
     this.#cell = cell;
+    if (this.#wrong !== null) complain(this.#wrong);
     this.#tools = new Tools(this.channel, cell, this.#shipped, () => this.#write());
     return this.#tools.elements;
   }
