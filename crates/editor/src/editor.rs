@@ -164,6 +164,7 @@ impl Editor {
         let scenario = match scenario {
             Some(scenario) => scenario,
             None => Scenario {
+                name: subject.name.clone(),
                 files: subject.files.clone(),
                 ..Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?
             },

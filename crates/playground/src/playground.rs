@@ -3,7 +3,7 @@
 use crate::files::{FileQuestion, files};
 use platewash_editor::{Editor, Host, LastResult};
 use platewash_kinematics::urdf::{Files, HeldFiles};
-use platewash_scenario::SHIPPED;
+use platewash_scenario::{Program, SHIPPED, Scenario};
 use platewash_workcell::cancel::{CancelToken, Clock};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -36,6 +36,8 @@ struct ShippedLine {
     name: &'static str,
     /// The first sentence of its comment.
     about: String,
+    /// True for the paper's program, which a live cell does not run.
+    is_paper: bool,
     text: &'static str,
 }
 
@@ -72,6 +74,8 @@ impl Playground {
                 let lines = SHIPPED.iter().map(|shipped| ShippedLine {
                     name: shipped.name,
                     about: shipped.about(),
+                    is_paper: Scenario::parse(shipped.text, shipped.name)
+                        .is_ok_and(|scenario| scenario.job.program == Program::Paper),
                     text: shipped.text,
                 });
                 serde_json::to_string(&lines.collect::<Vec<_>>())

@@ -91,7 +91,7 @@ export interface Standing {
 export function standing(answers: Answers): Standing {
   const { failed, refused, proof, unplanned, plan } = answers;
   if (failed !== null) return { kind: "failed", words: failed };
-  if (refused !== null) return { kind: "refused", words: refused.words };
+  if (refused !== null) return { kind: "refused", words: refused.line === null ? refused.words : `line ${refused.line}: ${refused.words}` };
   if (proof !== null) return { kind: proof.certificate.passes ? "proved" : "not proved", words: proof.headline };
   if (unplanned !== null) return { kind: "unplanned", words: unplanned.headline };
   if (plan !== null) return { kind: "planned", words: plan.headline };

@@ -8,6 +8,8 @@ import { download, FILES, type FileKind, filesOf, scenarioFile } from "./files.t
 export interface ShippedScenario {
   name: string;
   about: string;
+  /** Whether it is the paper's program, which a live cell does not run. */
+  is_paper: boolean;
   text: string;
 }
 
@@ -43,7 +45,7 @@ export class Tools {
       file.value = "";
       if (chosen !== undefined) void this.#open(chosen);
     });
-    const scenarios = shipped.map(({ name, about }) => [name, name, about] as const);
+    const scenarios = shipped.map(({ name, about, is_paper }) => [name, is_paper ? `${name} (not planned here)` : name, about] as const);
     const files = Object.entries(FILES).map(([kind, words]) => [kind, words, words] as const);
     this.elements = [
       chooser("Scenario", scenarios, (name) => {
