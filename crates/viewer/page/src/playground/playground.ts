@@ -21,6 +21,8 @@ export class OpenPlayground implements Playground {
   #timer = 0;
   /** What is wrong with the address that the page was opened at. */
   #wrong: string | null = null;
+  /** Says that something is wrong with a link. */
+  #bar: HTMLElement | null = null;
 
   constructor(channel: Channel, shipped: readonly ShippedScenario[]) {
     this.channel = channel;
@@ -42,13 +44,14 @@ export class OpenPlayground implements Playground {
 
   begin(cell: PlaygroundCell): HTMLElement[] {
     this.#cell = cell;
-    if (this.#wrong !== null) complain(this.#wrong);
+    if (this.#wrong !== null) this.#complain(this.#wrong);
     this.#tools = new Tools(this.channel, cell, this.#shipped, () => this.#write());
     return this.#tools.elements;
   }
 
   changed(text: string): void {
     if (text === this.#text) return;
+    if (this.#text !== "") this.#bar?.remove();
     this.#text = text;
     clearTimeout(this.#timer);
     this.#timer = window.setTimeout(() => void this.#write(), SETTLED_MS);
@@ -78,7 +81,7 @@ export class OpenPlayground implements Playground {
       if (text !== null) this.#cell?.take(text, "Open the link");
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
-      complain(error.message);
+      this.#complain(error.message);
     }
   }
 
@@ -90,16 +93,12 @@ export class OpenPlayground implements Playground {
     if (named === undefined) throw new LinkError(`No scenario “${link.scenario.slice(0, 40)}” comes with platewash.`);
     return named.text;
   }
-}
 
-/** Says that something is wrong, until it is closed. */
-function complain(words: string): void {
-  const bar = el(
-    "div",
-    { class: "edit-bar notice tone-not_proved", set: { role: "alert" } },
-    icon("question"),
-    el("p", {}, isolated(words)),
-    button({ class: "button bare-button", label: "Close" }, () => bar.remove(), icon("cross")),
-  );
-  byId("header").append(bar);
+  /** Says that something is wrong with a link, until it is closed or another scenario stands. */
+  #complain(words: string): void {
+    this.#bar?.remove();
+    const close = button({ class: "button bare-button", label: "Close" }, () => this.#bar?.remove(), icon("cross"));
+    this.#bar = el("div", { class: "edit-bar notice tone-not_proved", set: { role: "alert" } }, icon("question"), el("p", {}, isolated(words)), close);
+    byId("header").append(this.#bar);
+  }
 }
