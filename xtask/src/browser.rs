@@ -1,15 +1,23 @@
 //! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
+use crate::web;
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, Workshop, root, target};
 use std::fs;
 use std::path::PathBuf;
 
-/// Runs the tests with the release build of the command, which has the page in it.
+/// Runs the tests with the release build of the command, which has the page in it, and with the folder of the playground where it can
+/// be made.
 pub fn tests() -> Result<()> {
+    let playground = web::folder()?;
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "test"];
-    in_browser(node.npm("tests in a browser", workshop.folder(), &line)).run()
+    let step = with_command(node.npm("tests in a browser", workshop.folder(), &line));
+    let step = match playground {
+        Some(folder) => step.with("PLATEWASH_WEB", folder),
+        None => step,
+    };
+    step.run()
 }
 
 /// Saves pictures of the pages of some shipped scenarios, or of all, in `target/screenshots`.
@@ -26,7 +34,7 @@ pub fn screenshots(scenarios: &[String]) -> Result<()> {
         &scenarios.iter().map(String::as_str).collect::<Vec<_>>(),
     ]
     .concat();
-    in_browser(node.npm("pictures of pages", workshop.folder(), &line)).run()
+    with_command(node.npm("pictures of pages", workshop.folder(), &line)).run()
 }
 
 /// Node, and the sources and packages of what looks at pages.
@@ -41,7 +49,7 @@ fn workshop() -> Result<(Node, Workshop)> {
 }
 
 /// Names the release build of the command and the project's folder to a step.
-fn in_browser(step: Step) -> Step {
+pub fn with_command(step: Step) -> Step {
     let command: PathBuf = target()
         .join("release")
         .join(format!("platewash{}", std::env::consts::EXE_SUFFIX));

@@ -6,6 +6,7 @@
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 //!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
+//!     cargo xtask web                               makes the playground, the live cell for a static host, in target/playground
 //!     cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
 //!     cargo xtask docs                              writes the pages that are made from the program
 
@@ -18,6 +19,7 @@ mod page;
 mod python;
 mod sources;
 mod suite;
+mod web;
 mod wheel;
 
 use anyhow::{Result, bail};
@@ -32,6 +34,7 @@ cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; argume
 cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
+cargo xtask web                               makes the playground, the live cell for a static host, in target/playground
 cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
@@ -42,6 +45,7 @@ enum Chore {
     Ledger,
     Screenshots(Vec<String>),
     Page,
+    Web,
     Docs,
     Help,
 }
@@ -61,6 +65,7 @@ fn main() -> ExitCode {
         Chore::Ledger => ledger::run(),
         Chore::Screenshots(scenarios) => browser::screenshots(&scenarios),
         Chore::Page => page::make(),
+        Chore::Web => web::make(),
         Chore::Docs => suite::docs(),
         Chore::Help => {
             println!("{USAGE}");
@@ -84,6 +89,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["ledger"] => Ok(Chore::Ledger),
         ["screenshots", ..] => Ok(Chore::Screenshots(arguments[1..].to_vec())),
         ["page"] => Ok(Chore::Page),
+        ["web"] => Ok(Chore::Web),
         ["docs"] => Ok(Chore::Docs),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),
@@ -129,6 +135,7 @@ mod tests {
             Some(Chore::Screenshots(vec!["rack".to_owned()]))
         );
         assert_eq!(parsed("page"), Some(Chore::Page));
+        assert_eq!(parsed("web"), Some(Chore::Web));
         assert_eq!(parsed("docs"), Some(Chore::Docs));
         assert_eq!(parsed(""), Some(Chore::Help));
     }
@@ -142,6 +149,7 @@ mod tests {
             "test --without-browser --only",
             "test now",
             "rings",
+            "web now",
         ] {
             assert_eq!(parsed(line), None, "{line}");
         }

@@ -1,6 +1,6 @@
 //! Everything that must pass: in order, and side by side where that saves time.
 
-use crate::{benches, browser, page, python, wheel};
+use crate::{benches, browser, page, python, web, wheel};
 use anyhow::{Result, anyhow, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
@@ -25,7 +25,7 @@ pub enum Part {
     Rust,
     /// The tests in Python, of the finished command and the finished wheel.
     Python,
-    /// The page: its types, its tests, and in a browser what it shows.
+    /// The page and the playground: types, tests, and in a browser what they show.
     Browser,
 }
 
@@ -65,7 +65,14 @@ pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
         Some(Part::Lint) => all(&LINT)?,
         Some(Part::Rust) => all(&RUST)?,
         Some(Part::Python) => all(&[page::make, release_alone]).and_then(|()| all(&PYTHON))?,
-        Some(Part::Browser) => all(&[page::make, release_alone, page::tested, page::again, in_browser])?,
+        Some(Part::Browser) => all(&[
+            page::make,
+            release_alone,
+            page::tested,
+            page::again,
+            web::tested,
+            in_browser,
+        ])?,
     }
     println!("\nAll steps passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
@@ -94,8 +101,8 @@ fn whole(in_browser: Check) -> Result<()> {
     std::thread::spawn(python::environment);
     page::make()?;
     let compiled = [&LINT[..], &RUST, &[release]].concat();
-    beside(&[page::tested, page::again], &compiled)?;
-    beside(&[in_browser], &PYTHON)
+    beside(&[page::tested, page::again, web::built], &compiled)?;
+    beside(&[web::tested, in_browser], &PYTHON)
 }
 
 fn left_out() -> Result<()> {

@@ -2,12 +2,11 @@
 
 use crate::files::{FileQuestion, files};
 use platewash_editor::{Editor, Host, LastResult};
-use platewash_kinematics::urdf::{Files, HeldFiles};
+use platewash_kinematics::urdf::Files;
 use platewash_scenario::{Program, SHIPPED, Scenario};
 use platewash_workcell::cancel::{CancelToken, Clock};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use std::sync::Arc;
 
 /// Name of the scenario in messages.
 const NAME: &str = "the scenario";
@@ -45,12 +44,15 @@ impl Playground {
     /// A playground with a clock. It has no files: scenarios that name some are refused.
     #[must_use]
     pub fn new(clock: Clock) -> Self {
-        let files = Files::held(Arc::new(HeldFiles::new()));
+        let host = Host {
+            clock,
+            files: Files::none(),
+        };
         let editor = SHIPPED
             .first()
             .and_then(|first| Editor::of_text(NAME, first.text, None).ok());
         Self {
-            editor: editor.map(|editor| editor.with_memory().with_host(Host { clock, files })),
+            editor: editor.map(|editor| editor.with_memory().with_host(host)),
         }
     }
 
@@ -118,7 +120,11 @@ impl Playground {
         latest().ok_or_else(|| {
             let line: Value = serde_json::from_str(&last).unwrap_or_default();
             let words = line.get("words").and_then(Value::as_str);
-            words.unwrap_or("the scenario was not planned").to_owned()
+            let words = words.unwrap_or("it was not planned");
+            match line.get("line").and_then(Value::as_u64) {
+                Some(line) => format!("{NAME}, line {line}: {words}"),
+                None => format!("{NAME}: {words}"),
+            }
         })
     }
 }

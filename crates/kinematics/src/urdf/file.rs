@@ -21,6 +21,9 @@ pub enum FileError {
     /// The path is a folder, pipe, socket or device.
     #[error("not a regular file, but a folder, pipe, socket or device")]
     NotRegular,
+    /// The host has no files.
+    #[error("a page in a browser reads no files; platewash on your computer does")]
+    NoFiles,
     /// The file is too long.
     #[error("longer than {limit} bytes, the most that are read")]
     TooLong {

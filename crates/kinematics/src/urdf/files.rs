@@ -1,4 +1,4 @@
-//! Source of input files: the disk, or files that were read from it before, for programs without a disk.
+//! Source of input files: the disk, files that were read from it before, or none, for a page in a browser.
 
 use crate::urdf::file::{self, FileError};
 use std::collections::BTreeMap;
@@ -24,6 +24,7 @@ enum FileSource {
     /// The disk; everything that is read is kept, and so is the first file that could not be read.
     Recorded(Arc<Mutex<Record>>),
     Held(Arc<HeldFiles>),
+    None,
 }
 
 #[derive(Debug, Default)]
@@ -51,6 +52,12 @@ impl Files {
     #[must_use]
     pub fn held(files: Arc<HeldFiles>) -> Self {
         Self::of(FileSource::Held(files))
+    }
+
+    /// Returns a source without files, for a host that has none.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::of(FileSource::None)
     }
 
     fn of(source: FileSource) -> Self {
@@ -97,12 +104,18 @@ impl Files {
         }
     }
 
+    /// True if this source has no files at all.
+    pub(crate) fn are_none(&self) -> bool {
+        matches!(self.source, FileSource::None)
+    }
+
     /// True if there is such a regular file.
     #[must_use]
     pub fn is_file(&self, path: &Path) -> bool {
         match &self.source {
             FileSource::Disk => path.is_file(),
             FileSource::Held(files) => files.contains_key(path),
+            FileSource::None => false,
             FileSource::Recorded(record) => {
                 let is_there = path.is_file();
                 if is_there {
@@ -145,6 +158,7 @@ impl Files {
                     code: None,
                 }),
             },
+            FileSource::None => Err(FileError::NoFiles),
         }
     }
 
@@ -177,5 +191,12 @@ mod tests {
         assert!(matches!(held.read_text(&none, 3), Err(FileError::System { .. })));
         assert!(recording.read_bytes(&none, 3).is_err());
         assert_eq!(recording.recorded().unwrap_err().0, none);
+    }
+
+    #[test]
+    fn a_source_without_files_refuses_those_of_the_disk() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        assert!(!Files::none().is_file(file.path()));
+        assert_eq!(Files::none().read_bytes(file.path(), 3), Err(FileError::NoFiles));
     }
 }

@@ -168,6 +168,10 @@ impl MeshSource {
     }
 
     fn find(&self, file: &str) -> Result<PathBuf, MeshError> {
+        if self.files.are_none() {
+            // Reading it says why it is not there.
+            return Ok(file.into());
+        }
         let is_file = |path: &PathBuf| self.files.is_file(path);
         let shown = |path: PathBuf| path.display().to_string();
         let Some(inside) = file.strip_prefix("package://") else {

@@ -1,0 +1,99 @@
+//! The playground: the engine as a WebAssembly module, the folder of the page around it, and the test of the module.
+
+use crate::{browser, page};
+use anyhow::{Context, Result, bail};
+use platewash_bundler::{Node, Packages, Step, alone, python_program, root, target, workshop};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const TRIPLE: &str = "wasm32-unknown-unknown";
+/// Installs what is needed beside the toolchain.
+const INSTALL: &str = "rustup target add wasm32-unknown-unknown";
+
+/// Makes the folder of the playground, and says how to look at it.
+pub fn make() -> Result<()> {
+    let Some(folder) = folder()? else {
+        bail!("the playground needs the WebAssembly target: {INSTALL}");
+    };
+    println!(
+        "\n{}: {:.1} MB; to serve it:",
+        shown(&folder),
+        1e-6 * size(&folder)? as f64
+    );
+    println!("{} -m http.server --directory {}", python_program(), shown(&folder));
+    Ok(())
+}
+
+/// The finished folder of the playground; `None` where the target is missing.
+pub fn folder() -> Result<Option<PathBuf>> {
+    let Some(module) = module()? else {
+        return Ok(None);
+    };
+    page::make()?;
+    let _alone = alone()?;
+    let node = Node::found(Packages::Bundled)?;
+    let workshop = workshop()?;
+    workshop.fetch(&node, Packages::Bundled)?;
+    let folder = target().join("playground");
+    let (module, out) = (module.to_string_lossy(), folder.to_string_lossy());
+    let line = ["build.mjs", "--playground", &module, "--out", &out];
+    node.node("playground", workshop.folder(), &line).run()?;
+    Ok(Some(folder))
+}
+
+/// Builds the module; `None` where the target is missing.
+fn module() -> Result<Option<PathBuf>> {
+    if !is_installed()? {
+        return Ok(None);
+    }
+    let line = ["build", "--release", "--target", TRIPLE, "-p", "platewash-playground"];
+    Step::cargo("module of the playground", &line).run()?;
+    Ok(Some(target().join(TRIPLE).join("release/platewash_playground.wasm")))
+}
+
+/// Builds the module where the target is installed, so that later steps find it built.
+pub fn built() -> Result<()> {
+    module().map(drop)
+}
+
+/// Compares what the module answers with what the release build of the command writes.
+pub fn tested() -> Result<()> {
+    let Some(module) = module()? else {
+        println!("\n==> playground: LEFT OUT: {INSTALL} installs what it needs");
+        return Ok(());
+    };
+    let node = Node::found(Packages::All)?;
+    let line = ["--test", "--test-reporter=spec", "tests/playground/same.mjs"];
+    let step = node.node("module and command side by side", &root(), &line);
+    browser::with_command(step).with("PLATEWASH_MODULE", module).run()
+}
+
+/// True if the toolchain in use compiles for WebAssembly.
+fn is_installed() -> Result<bool> {
+    let rustc = std::env::var_os("RUSTC").unwrap_or("rustc".into());
+    let line = ["--print", "target-libdir", "--target", TRIPLE];
+    let output = Command::new(rustc).args(line).current_dir(root()).output();
+    let output = output.context("cannot run rustc")?;
+    let folder = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    Ok(output.status.success() && Path::new(&folder).is_dir())
+}
+
+/// Bytes of all files in a folder.
+fn size(folder: &Path) -> Result<u64> {
+    let mut bytes = 0;
+    for entry in fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let place = entry?.path();
+        bytes += if place.is_dir() {
+            size(&place)?
+        } else {
+            place.metadata()?.len()
+        };
+    }
+    Ok(bytes)
+}
+
+/// A place as one types it at the root of the repository.
+fn shown(place: &Path) -> String {
+    place.strip_prefix(root()).unwrap_or(place).display().to_string()
+}
