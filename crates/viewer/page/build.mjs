@@ -99,7 +99,7 @@ function replaced(text, from, to) {
 function playgroundPage(page) {
   const escaped = page["notices.txt"].replaceAll("&", "&amp;").replaceAll("<", "&lt;");
   const changes = [
-    ["script-src 'unsafe-inline'; style-src 'unsafe-inline'", "script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self' 'unsafe-inline'"],
+    ["script-src 'unsafe-inline'; style-src 'unsafe-inline'", "script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'"],
     ["This page draws a plan with JavaScript, which is switched off in this browser. The report beside it has the same numbers as text.", "This page plans with JavaScript and WebAssembly, which are switched off in this browser."],
     ["<!--platewash:title-->", "platewash playground"],
     ["<!--platewash:style-->", '<link rel="stylesheet" href="page/page.css">'],
@@ -127,7 +127,7 @@ async function playgroundFiles(module) {
   };
   const hash = createHash("sha256");
   for (const [name, content] of Object.entries(files)) hash.update(name).update("\0").update(content).update("\0");
-  const values = { FILES: JSON.stringify(["./", ...Object.keys(files)]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 16)) };
+  const values = { FILES: JSON.stringify(["./", ...Object.keys(files).filter((name) => name !== "index.html")]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 16)) };
   const { text } = await script("src/playground/service-worker.ts", values);
   return { ...files, "service-worker.js": text };
 }
@@ -138,7 +138,11 @@ async function main() {
   if (!existsSync(join(HERE, "node_modules"))) throw new Error("no packages: run “npm ci --ignore-scripts” first");
   const { out, playground } = values;
   const files = playground === undefined ? await pageFiles() : await playgroundFiles(playground);
-  if (playground !== undefined) rmSync(out, { recursive: true, force: true });
+  if (playground !== undefined) {
+    const standing = existsSync(out) ? readdirSync(out) : [];
+    if (standing.length > 0 && !standing.includes("engine.bin")) throw new Error(`${out}: has files that are not of a playground: name an empty folder`);
+    rmSync(out, { recursive: true, force: true });
+  }
   for (const [name, content] of Object.entries(files)) {
     mkdirSync(dirname(join(out, name)), { recursive: true });
     writeFileSync(join(out, name), content);

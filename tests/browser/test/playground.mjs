@@ -12,7 +12,7 @@ import { text, watch } from "../lib/watched.mjs";
 
 const WEB = process.env["PLATEWASH_WEB"];
 const SIZE = { width: 1000, height: 640 };
-const options = { skip: WEB === undefined ? "the playground is not built: cargo xtask web" : false };
+const options = { timeout: 120_000, skip: WEB === undefined ? "the playground is not built: cargo xtask web" : false };
 
 /** Waits until the engine is there, and everything is planned and drawn. */
 async function ready(page) {
@@ -53,7 +53,11 @@ async function dragged(page) {
 const hashOf = (page) => page.evaluate(() => window.platewash.view.heading.hash);
 
 /** Chooses a line of a list of the toolbar. */
-const choose = (page, list, value) => page.locator(`select[aria-label="${list}"]`).selectOption(value);
+async function choose(page, list, value) {
+  const menu = page.locator("details.tool-menu", { has: page.locator("summary", { hasText: list }) });
+  await menu.locator("summary").click();
+  await menu.locator(`[data-value="${value}"]`).click();
+}
 
 /** The files that come of a choice in the list of downloads, by name. */
 async function downloads(page, value, count = 1) {
@@ -133,12 +137,38 @@ test("a scenario is chosen, opened from a file and taken back", options, async (
   quiet();
 });
 
+test("address and downloads have the cell as it is, with what is being typed", options, async (t) => {
+  const { page, quiet } = await open(t, "#scenario=dessert");
+  await page.evaluate(() => window.platewash.edit.change([{ key: "wash.speed_m_s", value: 0.2 }]));
+  await page.waitForFunction(() => location.hash.includes("cell="));
+  await page.locator("a.skip").focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => location.hash.includes("cell="));
+  const before = await page.evaluate(() => location.hash);
+  await page.getByRole("tab", { name: "Text" }).click();
+  const area = page.locator("textarea.scenario-text");
+  await area.fill(`${await scenario(page)}# typed last\n`);
+  const downloaded = page.waitForEvent("download");
+  await page.keyboard.press("Control+s");
+  const file = await downloaded;
+  assert.equal(file.suggestedFilename(), "dessert.toml");
+  assert.match(await readFile(await file.path(), "utf8"), /# typed last\n$/);
+  // A reload keeps the cell, and what can be undone.
+  await settled(page);
+  const text = await scenario(page);
+  await page.waitForFunction((before) => location.hash.replace(/^.*cell=/, "") !== before.replace(/^.*cell=/, ""), before);
+  await page.reload();
+  await ready(page);
+  assert.equal(await scenario(page), text);
+  assert.equal(await page.evaluate(() => window.platewash.edit.undo()), true);
+  quiet();
+});
+
 test("a link that is broken, or has a broken scenario, is reported", options, async (t) => {
   const server = await serveFolder(t, WEB);
   const { page, quiet } = await open(t, "#cell=nothing", server);
   assert.match(await text(page), /The scenario in this link cannot be read.*“kitchen” is shown instead/);
   assert.equal((await verdict(page)).kind, "proved");
-  // As text behind the deflated form's head, so that it needs no compressor here.
   const broken = await page.evaluate(async () => {
     const stream = new Blob(["seed = 1\nwash.tuns = 3\n"]).stream().pipeThrough(new CompressionStream("deflate-raw"));
     const bytes = new Uint8Array(await new Response(stream).arrayBuffer());

@@ -40,8 +40,10 @@ test("a link that grows beyond the longest scenario is refused before it fills t
 });
 
 test("a scenario's file has a name that every system takes", () => {
-  assert.equal(scenarioFile("kitchen"), "kitchen.toml");
-  assert.equal(scenarioFile("../my cell: a/b"), "my-cell-a-b.toml");
-  assert.equal(scenarioFile("…"), "scenario.toml");
-  assert.equal(scenarioFile("Küche 2"), "Küche-2.toml");
+  const named = (name: string): string => scenarioFile(`# a comment\nname = "${name}"\nseed = 1\n`);
+  assert.equal(named("kitchen"), "kitchen.toml");
+  assert.equal(named("../my cell: a/b"), "my-cell-a-b.toml");
+  assert.equal(named("…"), "scenario.toml");
+  assert.equal(named("Küche 2"), "Küche-2.toml");
+  assert.equal(scenarioFile("seed = 1\n[[obstacle]]\nname = \"box\"\n"), "scenario.toml");
 });

@@ -59,10 +59,8 @@ export interface EditorHost {
 
 /** What tools of the playground do with the cell. */
 export interface PlaygroundCell {
-  /** The scenario; null while changes are not written out, or refused. */
-  text(): string | null;
-  /** Name of the scenario. */
-  name(): string;
+  /** The scenario with what is being typed; null while changes are not written out, or refused. */
+  commit(): string | null;
   /** Takes another text, as a step. */
   take(text: string, label: string): void;
   /** Says something in passing. */
@@ -119,17 +117,18 @@ export class Editor {
     this.#host = host;
     this.#playground = playground;
     this.#file = edit.file;
-    // The address of a playground has its scenario, and decides.
-    this.#keeper = new Keeper(playground === null ? tabStore() : null, edit.file ?? edit.text);
+    this.#keeper = new Keeper(tabStore(), playground === null ? (edit.file ?? edit.text) : "playground");
     const channel = this.#channel();
     const session = newSession();
-    const kept = this.#keeper.load();
+    const stored = this.#keeper.load();
+    // The address of a playground has its scenario, and decides.
+    const kept = playground === null || stored?.steps[stored.at]?.version.text === edit.text ? stored : null;
     const steps = kept?.steps ?? [{ version: { text: edit.text, edits: [] }, label: "" }];
     const touch = (): void => this.#touch();
     this.#cell = new Cell({ channel, time: BROWSER_TIME, session, steps, at: kept?.at ?? 0, onChange: touch });
     const known = kept === null ? { disk: edit.disk, saved: edit.saved } : { disk: kept.disk, saved: kept.saved };
     this.#disk = new Disk(channel, BROWSER_TIME, session, known, {
-      text: () => (this.#cell.version.edits.length > 0 ? null : this.#cell.text),
+      text: () => this.#writtenText(),
       take: (text, words) => this.#cell.setText(text, words),
       notice: (words) => this.#say(words),
       changed: touch,
@@ -223,8 +222,10 @@ export class Editor {
 
   #forPlayground(): PlaygroundCell {
     return {
-      text: () => (this.#cell.version.edits.length > 0 ? null : this.#cell.text),
-      name: () => this.#shown.view.heading.scenario,
+      commit: () => {
+        this.#endTyping();
+        return this.#writtenText();
+      },
       take: (text, label) => this.#cell.setText(text, label),
       notice: (words) => this.#say(words),
       link: (entries) => this.#host.link(entries),
@@ -259,10 +260,21 @@ export class Editor {
 
   /** Saves, with what is being typed. */
   #save(): void {
-    if (this.#playground !== null) return this.#playground.save();
-    if (document.activeElement instanceof HTMLElement && document.activeElement.dataset["dirty"] === "true") document.activeElement.blur();
+    this.#endTyping();
     this.#saveSoon = this.#cell.version.edits.length > 0 && !this.#cell.settled;
-    if (!this.#saveSoon) void this.#disk.save();
+    if (this.#saveSoon) return;
+    if (this.#playground === null) void this.#disk.save();
+    else this.#playground.save();
+  }
+
+  /** Takes what is being typed. */
+  #endTyping(): void {
+    if (document.activeElement instanceof HTMLElement && document.activeElement.dataset["dirty"] === "true") document.activeElement.blur();
+  }
+
+  /** The scenario; null while changes to it are not written out, or refused. */
+  #writtenText(): string | null {
+    return this.#cell.version.edits.length > 0 ? null : this.#cell.text;
   }
 
   #touch(): void {

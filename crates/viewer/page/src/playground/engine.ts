@@ -7,9 +7,10 @@ export class EngineError extends Error {
   override name = "EngineError";
 }
 
+const NOT_ALLOWED = "This browser cannot compile the engine: it is too old, or the server’s Content-Security-Policy does not allow WebAssembly.";
 const TOO_OLD =
   "This browser cannot run platewash, which needs WebAssembly and web workers: take Chrome or Edge 111, Firefox 113, Safari 16.4, or a later one.";
-const NO_SERVER = "This page needs a web server: run “python3 -m http.server” in its folder, and open the address that it prints.";
+const NO_SERVER = "This page needs a web server: run “python3 -m http.server --bind 127.0.0.1” in its folder, and open the address that it prints.";
 
 /** Loads and compiles the module; `onShare` is told the share of it that is there. */
 export async function loadEngine(bytes: number, onShare: (share: number) => void): Promise<WebAssembly.Module> {
@@ -34,9 +35,16 @@ export async function loadEngine(bytes: number, onShare: (share: number) => void
   try {
     return await WebAssembly.compileStreaming(new Response(plain, { headers: { "Content-Type": "application/wasm" } }));
   } catch (error) {
-    if (error instanceof WebAssembly.CompileError) throw new EngineError(TOO_OLD);
+    if (error instanceof WebAssembly.CompileError) throw new EngineError(NOT_ALLOWED);
     throw new EngineError("The engine cannot be read: the file is damaged, or the connection was lost. Load the page again.");
   }
+}
+
+/** Loads the program of the workers once, so that no later one depends on the network. */
+export async function loadWorker(): Promise<string> {
+  const answer = await fetch("worker.js").catch(() => null);
+  if (answer?.ok !== true) throw new EngineError(`The engine cannot be loaded: the server answers ${answer?.status ?? "nothing"} for worker.js.`);
+  return URL.createObjectURL(new Blob([await answer.text()], { type: "text/javascript" }));
 }
 
 /** What a worker is told. */
@@ -49,8 +57,7 @@ const FAULT = "a fault of the program: the console of the browser says more";
 
 /** Questions that wait for each other share a lane. */
 function laneOf(path: string, question: object): string {
-  if (path === "/cell") return (question as CellQuestion).want;
-  return path === "/map" ? path : "proof";
+  return path === "/cell" ? (question as CellQuestion).want : path;
 }
 
 /** One question at a time, on a worker of its own. */
@@ -102,12 +109,15 @@ class Lane {
 /** Asks workers of this browser in place of a server. */
 export class WorkerChannel implements Channel {
   readonly #module: WebAssembly.Module;
+  /** Address of the workers' program. */
+  readonly #program: string;
   readonly #lanes = new Map<string, Lane>();
   /** Ready for the lane that needs one next. */
   #spare: Worker;
 
-  constructor(module: WebAssembly.Module) {
+  constructor(module: WebAssembly.Module, program: string) {
     this.#module = module;
+    this.#program = program;
     this.#spare = this.#begin();
   }
 
@@ -128,7 +138,7 @@ export class WorkerChannel implements Channel {
   }
 
   #begin(): Worker {
-    const worker = new Worker("worker.js");
+    const worker = new Worker(this.#program);
     worker.postMessage({ module: this.#module } satisfies ToWorker);
     return worker;
   }

@@ -43,7 +43,7 @@ export async function filesOf(channel: Channel, text: string, file: FileKind): P
     if (told.kind === "file") files.push(told);
     else words = told.words;
   }, new AbortController().signal);
-  if (words !== "" || files.length === 0) throw new Error(words);
+  if (words !== "" || files.length === 0) throw new Error(words === "" ? "the engine gave no file" : words);
   return files;
 }
 
@@ -58,7 +58,9 @@ export function download({ name, text }: NamedText): void {
 }
 
 /** Name of a scenario's file: the name that its text states, as far as a file can have it. */
-export function scenarioFile(name: string): string {
+export function scenarioFile(text: string): string {
+  const head = text.split(/^\s*\[/m, 1)[0]!;
+  const name = /^\s*name\s*=\s*["']([^"'\n]*)["']/m.exec(head)?.[1] ?? "";
   const plain = name.replace(/[^\p{L}\p{N}_.-]+/gu, "-").replace(/^[-.]+|[-.]+$/g, "").slice(0, 80);
   return `${plain === "" ? "scenario" : plain}.toml`;
 }

@@ -4,7 +4,7 @@
 export type CellLink = { scenario: string } | { cell: string };
 
 /** Longest text of a scenario that platewash reads [bytes]. */
-const MOST_BYTES = 1 << 20;
+export const MOST_BYTES = 1 << 20;
 
 /** Reason that a link has no scenario. */
 export class LinkError extends Error {

@@ -1,4 +1,4 @@
-/** The playground between page and engine: its tools, and the link in the page's address, which always leads to the cell that is shown. */
+/** The playground between page and engine: its tools, and the link in the page's address, which leads to the cell that is shown. */
 import type { Channel } from "../edit/channel.ts";
 import type { Playground, PlaygroundCell } from "../edit/editor.ts";
 import { button, byId, el, icon, isolated } from "../shell/dom.ts";
@@ -8,17 +8,15 @@ import { type ShippedScenario, Tools } from "./tools.ts";
 /** How long a text stands before it goes into the address [ms]. */
 const SETTLED_MS = 300;
 
-const SAME = (one: CellLink | null, other: CellLink | null): boolean => JSON.stringify(one) === JSON.stringify(other);
-
-export class OpenPlayground implements Playground {
+export class BrowserPlayground implements Playground {
   readonly channel: Channel;
   readonly #shipped: readonly ShippedScenario[];
   #cell: PlaygroundCell | null = null;
   #tools: Tools | null = null;
   #text = "";
-  /** In the address. */
-  #link: CellLink | null = linkedCell(location.hash);
   #timer = 0;
+  /** Counts links that were followed: the last one counts. */
+  #followed = 0;
   /** What is wrong with the address that the page was opened at. */
   #wrong: string | null = null;
   /** Says that something is wrong with a link. */
@@ -34,7 +32,7 @@ export class OpenPlayground implements Playground {
   async linkedText(): Promise<string> {
     const [fallback] = this.#shipped;
     try {
-      return (await this.#textOf(this.#link)) ?? fallback!.text;
+      return (await this.#textOf(linkedCell(location.hash))) ?? fallback!.text;
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
       this.#wrong = `${error.message} “${fallback!.name}” is shown instead.`;
@@ -45,7 +43,7 @@ export class OpenPlayground implements Playground {
   begin(cell: PlaygroundCell): HTMLElement[] {
     this.#cell = cell;
     if (this.#wrong !== null) this.#complain(this.#wrong);
-    this.#tools = new Tools(this.channel, cell, this.#shipped, () => this.#write());
+    this.#tools = new Tools(this.channel, cell, this.#shipped, (text) => this.#address(text));
     return this.#tools.elements;
   }
 
@@ -61,26 +59,38 @@ export class OpenPlayground implements Playground {
     void this.#tools?.download("scenario");
   }
 
-  /** Writes the link to the text into the address. */
-  async #write(): Promise<void> {
-    const text = this.#text;
+  /** The link to a text: by name where it is a shipped one. */
+  async #linkTo(text: string): Promise<CellLink> {
     const shipped = this.#shipped.find((one) => one.text === text);
-    const link = shipped === undefined ? { cell: await packed(text) } : { scenario: shipped.name };
-    if (text !== this.#text) return;
-    this.#link = link;
-    this.#cell?.link(link);
+    return shipped === undefined ? { cell: await packed(text) } : { scenario: shipped.name };
   }
 
-  /** Somebody has opened another link in this tab. */
+  /** The address of this page with a text. */
+  async #address(text: string): Promise<string> {
+    const address = new URL(location.href);
+    address.hash = String(new URLSearchParams({ ...(await this.#linkTo(text)) }));
+    return address.href;
+  }
+
+  /** Writes the link to the text that stands into the address. */
+  async #write(): Promise<void> {
+    const text = this.#text;
+    const link = await this.#linkTo(text);
+    if (text === this.#text) this.#cell?.link(link);
+  }
+
+  /** The address has changed: another link was opened in this tab, or the page was left for a place within it. */
   async #follow(): Promise<void> {
-    const link = linkedCell(location.hash);
-    if (link === null || SAME(link, this.#link)) return;
-    this.#link = link;
+    const number = ++this.#followed;
+    const cell = this.#cell;
     try {
-      const text = await this.#textOf(link);
-      if (text !== null) this.#cell?.take(text, "Open the link");
+      const text = await this.#textOf(linkedCell(location.hash));
+      if (number !== this.#followed || cell === null) return;
+      if (text === null) await this.#write();
+      else if (text !== cell.commit()) cell.take(text, "Open the link");
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
+      await this.#write();
       this.#complain(error.message);
     }
   }

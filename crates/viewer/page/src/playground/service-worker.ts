@@ -1,4 +1,4 @@
-/** Keeps the folder of the playground in the browser, so that it works without a network after the first visit. */
+/** Keeps the folder of the playground in the browser, so that it works without a network after the first visit. The network goes first. */
 
 /** Put in by the build: the files of the folder, and a hash of them. */
 declare const FILES: readonly string[];
@@ -8,12 +8,12 @@ declare const VERSION: string;
 interface Scope {
   addEventListener(type: string, listener: (event: { request: Request; waitUntil(done: Promise<unknown>): void; respondWith(answer: Promise<Response>): void }) => void): void;
   skipWaiting(): Promise<void>;
-  clients: { claim(): Promise<void> };
   location: Location;
 }
 
 const scope = globalThis as unknown as Scope;
-const PREFIX = `platewash ${new URL(".", scope.location.href).pathname} `;
+const HOME = new URL("./", scope.location.href).href;
+const PREFIX = `platewash ${HOME} `;
 const OWN = PREFIX + VERSION;
 
 async function install(): Promise<void> {
@@ -25,17 +25,23 @@ async function install(): Promise<void> {
 async function activate(): Promise<void> {
   const others = (await caches.keys()).filter((name) => name.startsWith(PREFIX) && name !== OWN);
   await Promise.all(others.map((name) => caches.delete(name)));
-  await scope.clients.claim();
 }
 
+/** The server's answer, whatever it is; without a server the kept one. */
 async function answer(request: Request): Promise<Response> {
-  const cache = await caches.open(OWN);
-  return (await cache.match(request, { ignoreSearch: true })) ?? fetch(request);
+  try {
+    return await fetch(request);
+  } catch (error) {
+    const cache = await caches.open(OWN);
+    const kept = await cache.match(request.mode === "navigate" ? HOME : request, { ignoreSearch: true });
+    if (kept === undefined) throw error;
+    return kept;
+  }
 }
 
 scope.addEventListener("install", (event) => event.waitUntil(install()));
 scope.addEventListener("activate", (event) => event.waitUntil(activate()));
 scope.addEventListener("fetch", (event) => {
   const { method, url } = event.request;
-  if (method === "GET" && new URL(url).origin === scope.location.origin) event.respondWith(answer(event.request));
+  if (method === "GET" && url.startsWith(HOME)) event.respondWith(answer(event.request));
 });
