@@ -8,6 +8,7 @@
 
 use super::*;
 use platewash::kinematics::sha256_hex;
+use platewash::scenario::SHIPPED;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -24,11 +25,7 @@ fn golden() -> PathBuf {
 }
 
 fn scenarios() -> Vec<String> {
-    let files = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios")).unwrap();
-    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let mut names: Vec<_> = names
-        .map(|name| name.strip_suffix(".toml").unwrap().to_owned())
-        .collect();
+    let mut names: Vec<_> = SHIPPED.iter().map(|shipped| shipped.name.to_owned()).collect();
     names.sort();
     names
 }

@@ -15,6 +15,7 @@ mod browser;
 #[cfg(test)]
 mod comments;
 mod ledger;
+mod packages;
 mod page;
 mod python;
 mod sources;

@@ -1,6 +1,6 @@
 //! Everything that must pass: in order, and side by side where that saves time.
 
-use crate::{benches, browser, page, python, web, wheel};
+use crate::{benches, browser, packages, page, python, web, wheel};
 use anyhow::{Result, anyhow, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
@@ -80,7 +80,7 @@ pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
 
 const LINT: [Check; 3] = [format, clippy, documentation];
 const RUST: [Check; 3] = [page::make, tests, benches::once];
-const PYTHON: [Check; 3] = [wheel::install, wheel::package, python::tests];
+const PYTHON: [Check; 4] = [wheel::install, wheel::package, packages::tested, python::tests];
 
 fn all(steps: &[Check]) -> Result<()> {
     steps.iter().try_for_each(|step| step())

@@ -40,7 +40,7 @@ pub fn package() -> Result<()> {
     Step::program("source package", &tests, &line).run()?;
     let package = only_file(&folder, "gz")?;
     no_larger(&package, LARGEST_SOURCE)?;
-    let outside = emptied(outside())?;
+    let outside = emptied(outside("source"))?;
     let line = ["-m", "tarfile", "-e", &text(&package), &text(&outside)];
     Step::program("source package unpacked", &tests, &line).run()?;
     let name = package.file_name().unwrap_or_default().to_string_lossy();
@@ -66,10 +66,10 @@ fn wheels() -> PathBuf {
 }
 
 /// A folder outside the checkout, always the same for this checkout: cargo replaces what it built there the last time.
-fn outside() -> PathBuf {
+pub fn outside(what: &str) -> PathBuf {
     let mut hasher = DefaultHasher::new();
     root().hash(&mut hasher);
-    std::env::temp_dir().join(format!("platewash-source-{:016x}", hasher.finish()))
+    std::env::temp_dir().join(format!("platewash-{what}-{:016x}", hasher.finish()))
 }
 
 /// The wheel of the checkout.
@@ -109,7 +109,7 @@ fn pip(title: &'static str, python: &Path, arguments: &[&str]) -> Step {
 }
 
 /// A folder that is not there any more.
-fn emptied(folder: PathBuf) -> Result<PathBuf> {
+pub fn emptied(folder: PathBuf) -> Result<PathBuf> {
     if folder.exists() {
         std::fs::remove_dir_all(&folder).with_context(|| folder.display().to_string())?;
     }
@@ -126,6 +126,6 @@ fn only_file(folder: &Path, extension: &str) -> Result<PathBuf> {
     }
 }
 
-fn text(path: &Path) -> String {
+pub fn text(path: &Path) -> String {
     path.to_string_lossy().into_owned()
 }

@@ -16,10 +16,7 @@ pub enum EmbeddedModelError {
     Srdf(#[from] SrdfError),
 }
 
-/// Text of the embedded description of the ABB IRB 120.
-pub const IRB120_URDF: &str = include_str!("../../../urdf/irb120.urdf");
-/// Text of the embedded list of its link pairs that need no collision check.
-pub const IRB120_SRDF: &str = include_str!("../../../urdf/irb120.srdf");
+pub use platewash_urdf::{IRB120_SRDF, IRB120_URDF};
 
 impl RobotModel {
     /// The embedded ABB IRB 120, with its list of link pairs that may be ignored.

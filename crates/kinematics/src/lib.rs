@@ -79,3 +79,8 @@ pub type JointVector = nalgebra::Vector6<f64>;
 
 /// A rigid transform `T_a_b`: rotation as a unit quaternion, translation in metres.
 pub type Pose = nalgebra::Isometry3<f64>;
+
+/// The example in the README, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct ReadmeExample;

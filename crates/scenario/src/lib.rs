@@ -38,7 +38,7 @@ pub use crate::failure::Failure;
 pub use crate::keys::document::{FormDomain, FormKey, form, reference};
 pub use crate::keys::value::values_of;
 pub use crate::keys::{LISTS, List};
-pub use crate::load::{SHIPPED, ScenarioSource, ShippedScenario, source};
+pub use crate::load::{ScenarioSource, source};
 pub use crate::obstacle_file::{MeshPlaces, ObstacleText};
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
 pub use crate::resolve::arm::{ArmError, load_arm, load_arm_with_fixed};
@@ -56,3 +56,4 @@ pub use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, BodyFrame, HandleName, To
 pub use crate::sections::wash::WashSection;
 pub use crate::suggest::Suggestion;
 pub use crate::units::Note;
+pub use platewash_scenarios::{SHIPPED, ShippedScenario};

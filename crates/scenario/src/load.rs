@@ -15,6 +15,7 @@ use crate::scenario::{Scenario, check_seed};
 use crate::sections::motion::Program;
 use platewash_kinematics::Pose;
 use platewash_kinematics::urdf::file::{self, FileError};
+use platewash_scenarios::SHIPPED;
 use platewash_workcell::job::OrderRule;
 use serde::ser::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
@@ -276,102 +277,6 @@ pub(crate) fn unread(error: FileError) -> Problem {
         },
     }
 }
-
-/// A scenario that comes with the program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ShippedScenario {
-    /// The name under which it is found.
-    pub name: &'static str,
-    /// Its commented TOML text.
-    pub text: &'static str,
-}
-
-impl ShippedScenario {
-    /// The first sentence of the comment at its head.
-    #[must_use]
-    pub fn about(&self) -> String {
-        let lines = self.text.lines().map_while(|line| line.strip_prefix('#'));
-        let words = lines.map(str::trim).collect::<Vec<_>>().join(" ");
-        let sentence = words.split(". ").next().unwrap_or_default();
-        sentence.trim_end_matches('.').replace('`', "")
-    }
-}
-
-/// All shipped scenarios; the first is the default.
-pub static SHIPPED: &[ShippedScenario] = &[
-    ShippedScenario {
-        name: "kitchen",
-        text: include_str!("../../../scenarios/kitchen.toml"),
-    },
-    ShippedScenario {
-        name: "kitchen-spiral",
-        text: include_str!("../../../scenarios/kitchen-spiral.toml"),
-    },
-    ShippedScenario {
-        name: "kitchen-roomy",
-        text: include_str!("../../../scenarios/kitchen-roomy.toml"),
-    },
-    ShippedScenario {
-        name: "kitchen-rim",
-        text: include_str!("../../../scenarios/kitchen-rim.toml"),
-    },
-    ShippedScenario {
-        name: "coupe",
-        text: include_str!("../../../scenarios/coupe.toml"),
-    },
-    ShippedScenario {
-        name: "rim",
-        text: include_str!("../../../scenarios/rim.toml"),
-    },
-    ShippedScenario {
-        name: "deep",
-        text: include_str!("../../../scenarios/deep.toml"),
-    },
-    ShippedScenario {
-        name: "dessert",
-        text: include_str!("../../../scenarios/dessert.toml"),
-    },
-    ShippedScenario {
-        name: "angled-tool",
-        text: include_str!("../../../scenarios/angled-tool.toml"),
-    },
-    ShippedScenario {
-        name: "bracket-tool",
-        text: include_str!("../../../scenarios/bracket-tool.toml"),
-    },
-    ShippedScenario {
-        name: "sink",
-        text: include_str!("../../../scenarios/sink.toml"),
-    },
-    ShippedScenario {
-        name: "pedestal",
-        text: include_str!("../../../scenarios/pedestal.toml"),
-    },
-    ShippedScenario {
-        name: "ceiling",
-        text: include_str!("../../../scenarios/ceiling.toml"),
-    },
-    ShippedScenario {
-        name: "wall",
-        text: include_str!("../../../scenarios/wall.toml"),
-    },
-    ShippedScenario {
-        name: "rack",
-        text: include_str!("../../../scenarios/rack.toml"),
-    },
-    ShippedScenario {
-        name: "sizes",
-        text: include_str!("../../../scenarios/sizes.toml"),
-    },
-    ShippedScenario {
-        name: "paper-appendix",
-        text: include_str!("../../../scenarios/paper-appendix.toml"),
-    },
-    ShippedScenario {
-        name: "paper-text",
-        text: include_str!("../../../scenarios/paper-text.toml"),
-    },
-];
 
 /// A path with U+FFFD in place of bytes that are not UTF-8.
 pub(crate) fn serialize_lossy<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
