@@ -21,7 +21,11 @@ pub fn make() -> Result<()> {
         shown(&folder),
         1e-6 * size(&folder)? as f64
     );
-    println!("{} -m http.server --bind 127.0.0.1 --directory {}", python_program(), shown(&folder));
+    println!(
+        "{} -m http.server --bind 127.0.0.1 --directory {}",
+        python_program(),
+        shown(&folder)
+    );
     Ok(())
 }
 
