@@ -1,6 +1,6 @@
 //! The playground: the engine as a WebAssembly module, the folder of the page around it, and the test of the module.
 
-use crate::{browser, page};
+use crate::browser;
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{Node, Packages, Step, alone, python_program, root, target, workshop};
 use std::fs;
@@ -34,7 +34,6 @@ pub fn folder() -> Result<Option<PathBuf>> {
     let Some(module) = module()? else {
         return Ok(None);
     };
-    page::make()?;
     let _alone = alone()?;
     let node = Node::found(Packages::Bundled)?;
     let workshop = workshop()?;

@@ -55,9 +55,10 @@ export type FromWorker = { line: string } | { end: true } | { error: string };
 
 const FAULT = "a fault of the program: the console of the browser says more";
 
-/** Questions that wait for each other share a lane. */
+/** Questions that wait for each other share a lane: all that come before the first proof are asked on its worker. */
 function laneOf(path: string, question: object): string {
-  return path === "/cell" ? (question as CellQuestion).want : path;
+  if (path === "/cell") return (question as CellQuestion).want;
+  return path === "/map" || path === "/file" ? path : "proof";
 }
 
 /** One question at a time, on a worker of its own. */
