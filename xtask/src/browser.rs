@@ -20,6 +20,14 @@ pub fn tests() -> Result<()> {
     step.run()
 }
 
+/// Reads the website of the documentation as its readers do.
+pub fn read_site() -> Result<()> {
+    let (node, workshop) = workshop()?;
+    let line = ["run", "--silent", "site"];
+    let step = node.npm("website in a browser", workshop.folder(), &line);
+    step.with("PLATEWASH_SITE", target().join("site")).run()
+}
+
 /// Saves pictures of the pages of some shipped scenarios, or of all, in `target/screenshots`.
 pub fn screenshots(scenarios: &[String]) -> Result<()> {
     Step::cargo("command", &["build", "--release", "-p", "platewash"]).run()?;

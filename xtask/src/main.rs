@@ -1,12 +1,13 @@
 //! The project's own chores.
 //!
 //!     cargo xtask test [OPTIONS]                    every test there is
-//!         --only lint|rust|python|browser           one part of them
+//!         --only lint|rust|python|browser|site      one part of them
 //!         --without-browser                         all but what is looked at in a browser
 //!     cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 //!     cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 //!     cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 //!     cargo xtask web                               makes the playground, the live cell for a static host, in target/playground
+//!     cargo xtask site                              makes the website of the documentation, in target/site
 //!     cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
 //!     cargo xtask docs                              writes the pages that are made from the program
 
@@ -18,6 +19,7 @@ mod ledger;
 mod packages;
 mod page;
 mod python;
+mod site;
 mod sources;
 mod suite;
 mod web;
@@ -29,13 +31,14 @@ use suite::{BrowserTests, Part};
 
 const USAGE: &str = "\
 cargo xtask test [OPTIONS]                    every test there is
-    --only lint|rust|python|browser           one part of them
+    --only lint|rust|python|browser|site      one part of them
     --without-browser                         all but what is looked at in a browser
 cargo xtask bench [ARGUMENTS]                 the benchmarks at the root; arguments go to criterion
 cargo xtask ledger                            counts instructions and writes them to docs/benchmarks.md; needs valgrind
 cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 cargo xtask web                               makes the playground, the live cell for a static host, in target/playground
+cargo xtask site                              makes the website of the documentation, in target/site
 cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
@@ -47,6 +50,7 @@ enum Chore {
     Screenshots(Vec<String>),
     Page,
     Web,
+    Site,
     Docs,
     Help,
 }
@@ -67,6 +71,7 @@ fn main() -> ExitCode {
         Chore::Screenshots(scenarios) => browser::screenshots(&scenarios),
         Chore::Page => page::make(),
         Chore::Web => web::make(),
+        Chore::Site => site::make(),
         Chore::Docs => suite::docs(),
         Chore::Help => {
             println!("{USAGE}");
@@ -91,6 +96,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["screenshots", ..] => Ok(Chore::Screenshots(arguments[1..].to_vec())),
         ["page"] => Ok(Chore::Page),
         ["web"] => Ok(Chore::Web),
+        ["site"] => Ok(Chore::Site),
         ["docs"] => Ok(Chore::Docs),
         [] | ["help" | "--help" | "-h"] => Ok(Chore::Help),
         _ => bail!("unknown arguments: {}", words.join(" ")),

@@ -1,6 +1,6 @@
 //! Everything that must pass: in order, and side by side where that saves time.
 
-use crate::{benches, browser, packages, page, python, web, wheel};
+use crate::{benches, browser, packages, page, python, site, web, wheel};
 use anyhow::{Result, anyhow, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
@@ -27,6 +27,8 @@ pub enum Part {
     Python,
     /// The page and the playground: types, tests, and in a browser what they show.
     Browser,
+    /// The website of the documentation, in a browser, too.
+    Site,
 }
 
 /// Whether the tests in a browser are run, which need one.
@@ -46,6 +48,7 @@ impl Part {
             "rust" => Ok(Self::Rust),
             "python" => Ok(Self::Python),
             "browser" => Ok(Self::Browser),
+            "site" => Ok(Self::Site),
             other => bail!("unknown part '{other}'"),
         }
     }
@@ -56,15 +59,15 @@ impl Part {
 /// The page is made first, so that all that is compiled after it has it. The Python packages are fetched while crates compile.
 pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
     let start = Instant::now();
-    let in_browser: Check = match in_browser {
-        BrowserTests::Run => browser::tests,
-        BrowserTests::LeftOut => left_out,
+    let (in_browser, site_in_browser): (Check, Check) = match in_browser {
+        BrowserTests::Run => (browser::tests, browser::read_site),
+        BrowserTests::LeftOut => (left_out, left_out),
     };
     match only {
-        None => whole(in_browser)?,
+        None => whole(in_browser, site_in_browser)?,
         Some(Part::Lint) => all(&LINT)?,
         Some(Part::Rust) => all(&RUST)?,
-        Some(Part::Python) => all(&[page::make, release_alone]).and_then(|()| all(&PYTHON))?,
+        Some(Part::Python) => all(&[page::make, release_alone, wheel::install]).and_then(|()| all(&PYTHON))?,
         Some(Part::Browser) => all(&[
             page::make,
             release_alone,
@@ -73,6 +76,7 @@ pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
             web::tested,
             in_browser,
         ])?,
+        Some(Part::Site) => all(&[site::make, site_in_browser])?,
     }
     println!("\nAll steps passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
@@ -80,7 +84,8 @@ pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
 
 const LINT: [Check; 3] = [format, clippy, documentation];
 const RUST: [Check; 3] = [page::make, tests, benches::once];
-const PYTHON: [Check; 4] = [wheel::install, wheel::package, packages::tested, python::tests];
+/// With the wheel installed.
+const PYTHON: [Check; 3] = [wheel::package, packages::tested, python::tests];
 
 fn all(steps: &[Check]) -> Result<()> {
     steps.iter().try_for_each(|step| step())
@@ -96,13 +101,14 @@ fn beside(others: &[Check], steps: &[Check]) -> Result<()> {
     })
 }
 
-fn whole(in_browser: Check) -> Result<()> {
+fn whole(in_browser: Check, site_in_browser: Check) -> Result<()> {
     // The step that needs them waits for the end of this, and tells what goes wrong.
     std::thread::spawn(python::environment);
     page::make()?;
     let compiled = [&LINT[..], &RUST, &[release]].concat();
     beside(&[page::tested, page::again, web::built], &compiled)?;
-    beside(&[web::tested, in_browser], &PYTHON)
+    wheel::install()?;
+    beside(&[web::tested, in_browser, site::built, site_in_browser], &PYTHON)
 }
 
 fn left_out() -> Result<()> {
@@ -135,7 +141,8 @@ fn clippy() -> Result<()> {
     Step::cargo("clippy", &line).with(NO_PYTHON.0, NO_PYTHON.1).run()
 }
 
-fn documentation() -> Result<()> {
+/// Makes rustdoc's pages.
+pub fn documentation() -> Result<()> {
     let line = [&["doc"], &CRATES[..], &["--no-deps"]].concat();
     Step::cargo("documentation", &line)
         .with("RUSTDOCFLAGS", "-D warnings")

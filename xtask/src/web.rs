@@ -21,11 +21,7 @@ pub fn make() -> Result<()> {
         shown(&folder),
         1e-6 * size(&folder)? as f64
     );
-    println!(
-        "{} -m http.server --bind 127.0.0.1 --directory {}",
-        python_program(),
-        shown(&folder)
-    );
+    println!("{}", serving(&folder));
     Ok(())
 }
 
@@ -80,6 +76,15 @@ fn is_installed() -> Result<bool> {
     let output = output.context("cannot run rustc")?;
     let folder = String::from_utf8_lossy(&output.stdout).trim().to_owned();
     Ok(output.status.success() && Path::new(&folder).is_dir())
+}
+
+/// A command that serves a folder on this machine.
+pub fn serving(folder: &Path) -> String {
+    format!(
+        "{} -m http.server --bind 127.0.0.1 --directory {}",
+        python_program(),
+        shown(folder)
+    )
 }
 
 /// Bytes of all files in a folder.

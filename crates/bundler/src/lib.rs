@@ -13,4 +13,4 @@ pub use make::{Outcome, alone, bundle, make, sources, workshop};
 pub use node::{Node, Packages};
 pub use python::{interpreter, program as python_program};
 pub use step::{Step, root, target};
-pub use workshop::{Workshop, removed};
+pub use workshop::{Workshop, copied, removed};

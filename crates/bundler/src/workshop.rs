@@ -99,15 +99,16 @@ impl Workshop {
     }
 }
 
-fn copied(from: &Path, to: &Path) -> Result<()> {
+/// Copies a file, or a folder with all but its fetched packages.
+pub fn copied(from: &Path, to: &Path) -> Result<()> {
+    if !from.is_dir() {
+        return fs::copy(from, to).map(drop).with_context(|| from.display().to_string());
+    }
     fs::create_dir_all(to).with_context(|| to.display().to_string())?;
     for entry in fs::read_dir(from).with_context(|| from.display().to_string())? {
-        let entry = entry?;
-        let (name, place) = (entry.file_name(), entry.path());
-        if place.is_dir() && name != PACKAGES {
-            copied(&place, &to.join(name))?;
-        } else if !place.is_dir() {
-            fs::copy(&place, to.join(name)).with_context(|| place.display().to_string())?;
+        let name = entry?.file_name();
+        if name != PACKAGES {
+            copied(&from.join(&name), &to.join(name))?;
         }
     }
     Ok(())

@@ -1,0 +1,61 @@
+//! The documentation as a website: pages, Rust and Python API, playground. Links that lead nowhere are errors.
+
+use crate::{page, python, suite, web, wheel};
+use anyhow::{Context, Result};
+use platewash_bundler::{Node, Packages, Step, Workshop, copied, removed, root, target};
+use std::fs;
+use std::path::Path;
+
+/// What pages link to beside those of `docs`, at the same places as in the repository.
+const LINKED: [&str; 6] = [
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+    "docs",
+    "examples",
+    "notebooks",
+];
+const NO_PLAYGROUND: &str =
+    "The playground was left out: the WebAssembly target was missing when this website was built.";
+
+/// Makes all that the website holds, then the website, and says how to look at it.
+pub fn make() -> Result<()> {
+    page::make()?;
+    suite::documentation()?;
+    wheel::install()?;
+    built()?;
+    println!("\nto look at it: {}", web::serving(&target().join("site")));
+    Ok(())
+}
+
+/// Builds the website from what is made: rustdoc's pages, and the wheel in the environment of the tests.
+pub fn built() -> Result<()> {
+    let node = Node::found(Packages::All)?;
+    let workshop = Workshop::new("the website", &root().join("docs/site"), target().join("site-sources"))?;
+    workshop.fetch(&node, Packages::All)?;
+    let folder = workshop.folder();
+    for name in LINKED {
+        copied(&root().join(name), &folder.join("pages").join(name))?;
+    }
+    removed(&folder.join("pages/docs/site"))?;
+    let line = ["-m", "zensical", "build", "--clean", "--strict"];
+    let pages = Step::program("website", python::environment()?, &line).at(folder);
+    pages.with("NO_COLOR", "1").run()?;
+    let site = folder.join("site");
+    copied(&target().join("doc"), &site.join("rust"))?;
+    playground(&site.join("playground"))?;
+    for (name, script) in [("formulas", "formulas"), ("links of the website", "links")] {
+        node.npm(name, folder, &["run", "--silent", script]).run()?;
+    }
+    removed(&target().join("site"))?;
+    fs::rename(&site, target().join("site")).with_context(|| site.display().to_string())
+}
+
+fn playground(folder: &Path) -> Result<()> {
+    if let Some(made) = web::folder()? {
+        return copied(&made, folder);
+    }
+    println!("\n==> {NO_PLAYGROUND}");
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("index.html"), NO_PLAYGROUND).with_context(|| folder.display().to_string())
+}
