@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, value_parser};
 use platewash::kinematics::urdf::Files;
-use platewash::planner::PlanError;
+use platewash::planner::{PlanError, Watch};
 use platewash::scenario::{Note, Program, RobotSection, SHIPPED, ScenarioError, form};
 use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
@@ -150,7 +150,9 @@ impl Options {
         scenario.files = self.files.clone();
         if self.urdf.is_some() {
             scenario.robot = self.robot_section(scenario.robot);
-            self.leave_home_open(&mut scenario)?;
+            if self.is_for_irb120(&scenario)? {
+                (scenario.robot.start_deg, scenario.robot.home_deg) = (None, None);
+            }
         }
         if let Some(link) = &self.tool_mount {
             scenario.tool.mounted_on = Some(link.clone());
@@ -171,18 +173,43 @@ impl Options {
         }
     }
 
-    /// Removes the home of a shipped scenario, which is the IRB 120's, from a job of another arm.
-    fn leave_home_open(&self, scenario: &mut Scenario) -> Result<()> {
+    /// True where a shipped scenario, whose home and places are the IRB 120's, is to be done by another arm.
+    fn is_for_irb120(&self, scenario: &Scenario) -> Result<bool> {
         let is_shipped = SHIPPED.iter().any(|shipped| shipped.name == self.scenario_name());
         if !is_shipped || scenario.job.program != Program::Certified {
-            return Ok(());
+            return Ok(false);
         }
         let arm = scenario.arm().map_err(|error| self.failure(error))?;
         let own = RobotModel::irb120()?;
-        if (arm.folded(), arm.limits()) != (own.folded(), own.limits()) {
-            (scenario.robot.start_deg, scenario.robot.home_deg) = (None, None);
+        Ok((arm.folded(), arm.limits()) != (own.folded(), own.limits()))
+    }
+
+    /// The scenario, fitted to the arm of the options where no scenario is named.
+    pub fn fitted_scenario(&self) -> Result<Scenario> {
+        let scenario = self.scenario()?;
+        if self.urdf.is_none() || self.scenario.is_some() || !self.is_for_irb120(&scenario)? {
+            return Ok(scenario);
         }
-        Ok(())
+        let arm = scenario.arm().map_err(|error| self.failure(error))?;
+        let fitted = self.during("looking for a home and a region for this arm", || {
+            scenario.fitted_to(&arm, &Watch::silent(&self.cancel))
+        });
+        let Some(fitted) = fitted.map_err(|error| self.failure(error))? else {
+            return Ok(scenario);
+        };
+        let layout = &fitted.layout;
+        self.say(&format!(
+            "chosen for this arm; to keep or change it, write it into a scenario (platewash scenario {} > mine.toml):\n\
+             [robot]\nstart_deg = {:?}\n\
+             [layout]\ncount = {}\nrho_m = {:?}\nazimuth_deg = {:?}\nbase_radius_m = {}\nonly_washable = true",
+            self.scenario_name(),
+            fitted.robot.start_deg.unwrap_or_default(),
+            layout.count,
+            layout.rho_m.unwrap_or_default(),
+            layout.azimuth_deg.unwrap_or_default(),
+            layout.base_radius_m,
+        ));
+        Ok(fitted)
     }
 
     /// The arm of a scenario.

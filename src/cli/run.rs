@@ -101,7 +101,7 @@ struct Waypoints {
 
 /// Plans the scenario and writes the plan and its CSV; nothing is proved.
 pub fn plan(options: &Options, arguments: &MotionArguments) -> Result<ExitCode> {
-    let scenario = options.scenario()?;
+    let scenario = options.fitted_scenario()?;
     check_places(&[options.folder().join("plan.json"), arguments.csv_file(options)])?;
     let ended = match scenario.job.program {
         Program::Certified => plan_washing(options, &scenario, arguments),
@@ -150,7 +150,7 @@ fn plan_paper(options: &Options, scenario: &Scenario, arguments: &MotionArgument
 
 /// Plans and judges the scenario; writes the plan, both motions and the report.
 pub fn run(options: &Options, arguments: &RunArguments) -> Result<ExitCode> {
-    let scenario = options.scenario()?;
+    let scenario = options.fitted_scenario()?;
     let folder = options.folder();
     let places = RESULTS[..6].iter().map(|name| folder.join(name));
     let csv = arguments.motion.csv_file(options);

@@ -8,9 +8,11 @@ use crate::sections::motion::Program;
 use crate::sections::obstacle::HeldPlates;
 use platewash_kinematics::RobotModel;
 use platewash_planner::Watch;
-use platewash_planner::suggest::{SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region};
+use platewash_planner::suggest::{
+    SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region, suggest_sector,
+};
 use platewash_workcell::clearance::TouchingPairs;
-use platewash_workcell::job::JobError;
+use platewash_workcell::job::{JobError, WashJob};
 use platewash_workcell::plate::Plate;
 use std::sync::Arc;
 
@@ -45,13 +47,53 @@ impl Scenario {
             );
             return Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }).into());
         }
+        let plate_m = match self.plate.first().and_then(|plate| plate.at_m) {
+            Some([x, y, _]) => [x, y],
+            None => place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount()),
+        };
+        let job = self.with_one_plate(arm, plate_m)?;
+        let [plate, ..] = job.terms().plates[..] else {
+            return Err(JobError::PlateCount { found: 0 }.into());
+        };
+        Ok(Suggestion {
+            home: suggest_home(arm, job.terms(), watch.cancel)?,
+            plate,
+            region: suggest_region(&job, watch)?,
+            pairs: TouchingPairs::of(arm)?,
+        })
+    }
+
+    /// The same scenario for another arm: a home, and a region in which plates like its own can be washed, are looked for and stated.
+    /// Where fewer plates than it asks for have room there, it has fewer. `None` where no such region was found.
+    ///
+    /// # Errors
+    /// [`Failure`]: no home, or a scenario that is refused.
+    pub fn fitted_to(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Option<Self>, Failure> {
+        let front_m = place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount());
+        let job = self.with_one_plate(arm, front_m)?;
+        let Some(sector) = suggest_sector(&job, watch)? else {
+            return Ok(None);
+        };
+        let mut fitted = self.clone();
+        let layout = &mut fitted.layout;
+        (layout.region, layout.x_m, layout.y_m) = (None, None, None);
+        (layout.rho_m, layout.azimuth_deg) = (Some(sector.rho_m), Some(sector.azimuth_deg));
+        layout.base_radius_m = layout.base_radius_m.min(sector.rho_m[0]);
+        layout.only_washable = true;
+        let middle_m = 0.5 * (sector.rho_m[0] + sector.rho_m[1]);
+        let home = suggest_home(arm, self.with_one_plate(arm, [middle_m, 0.0])?.terms(), watch.cancel)?;
+        (fitted.robot.start_deg, fitted.robot.home_deg) = (Some(home.q_deg), None);
+        while fitted.layout.count > 1 && fitted.layout(arm).is_err() {
+            fitted.layout.count -= 1;
+        }
+        Ok(Some(fitted))
+    }
+
+    /// The job of this scenario on its first plate alone, at a place, from the home that is found there.
+    fn with_one_plate(&self, arm: &Arc<RobotModel>, plate_m: [f64; 2]) -> Result<WashJob, Failure> {
         let mut alone = self.clone();
         alone.job.program = Program::Certified;
         (alone.robot.start_deg, alone.robot.home_deg) = (None, None);
-        let plate_m = match alone.plate.first().and_then(|plate| plate.at_m) {
-            Some([x, y, _]) => [x, y],
-            None => place_in_front(arm, &self.tool_on(arm)?, &alone.robot.mount()),
-        };
         let layout = &mut alone.layout;
         // A plate that stands at an angle stays at its stated place.
         alone.plate.truncate(1);
@@ -71,16 +113,7 @@ impl Scenario {
         (layout.region, layout.only_washable) = (None, false);
         (layout.x_m, layout.y_m, layout.rho_m, layout.azimuth_deg) = (None, None, None, None);
         let placed = alone.layout(arm)?;
-        let job = alone.job_on(arm, &placed)?;
-        let [plate, ..] = job.terms().plates[..] else {
-            return Err(JobError::PlateCount { found: 0 }.into());
-        };
-        Ok(Suggestion {
-            home: suggest_home(arm, job.terms(), watch.cancel)?,
-            plate,
-            region: suggest_region(&job, watch)?,
-            pairs: TouchingPairs::of(arm)?,
-        })
+        alone.job_on(arm, &placed)
     }
 }
 

@@ -196,6 +196,26 @@ pub fn washable_map(
     Ok(())
 }
 
+/// Checks, place by place, that a plate could be washed with its centre there \[m\]: the answers of a map.
+///
+/// # Errors
+/// [`PlanError`] of the input, [`PlanError::Plate`] and [`PlanError::Cancelled`].
+pub(crate) fn washable_centres(
+    job: &WashJob,
+    plate: usize,
+    centres: &[[f64; 2]],
+    watch: &Watch<'_>,
+) -> Result<Vec<bool>, PlanError> {
+    let pipeline = Pipeline::here(job, watch)?;
+    pipeline.check_plate(plate)?;
+    let scene = pipeline.scene()?;
+    let (order, _) = pipeline.order(&scene)?;
+    let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
+    let path = pipeline.path_of(&scene, &order, turn);
+    let [near, _] = &pipeline.terms.home_rad;
+    Ok(pipeline.suitable_centres(&pipeline.moved_plate(&scene, &path, near), centres)?)
+}
+
 impl Pipeline<'_> {
     /// Checks, place by place, that the plate suits with its centre there \[m\], and leaves the arm room at home.
     fn suitable_centres(&self, moved: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
