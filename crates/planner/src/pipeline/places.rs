@@ -196,7 +196,8 @@ pub fn washable_map(
     Ok(())
 }
 
-/// Checks, place by place, that a plate could be washed with its centre there \[m\]: the answers of a map.
+/// Checks, place by place, that a plate could be washed with its centre there \[m\], with `spare_m` more clearance than the job asks for:
+/// the answers of a map.
 ///
 /// # Errors
 /// [`PlanError`] of the input, [`PlanError::Plate`] and [`PlanError::Cancelled`].
@@ -204,6 +205,7 @@ pub(crate) fn washable_centres(
     job: &WashJob,
     plate: usize,
     centres: &[[f64; 2]],
+    spare_m: f64,
     watch: &Watch<'_>,
 ) -> Result<Vec<bool>, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
@@ -213,7 +215,11 @@ pub(crate) fn washable_centres(
     let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
     let path = pipeline.path_of(&scene, &order, turn);
     let [near, _] = &pipeline.terms.home_rad;
-    Ok(pipeline.suitable_centres(&pipeline.moved_plate(&scene, &path, near), centres)?)
+    let moved = MovedPlate {
+        clearance_m: pipeline.clearance_m() + spare_m,
+        ..pipeline.moved_plate(&scene, &path, near)
+    };
+    Ok(pipeline.suitable_centres(&moved, centres)?)
 }
 
 impl Pipeline<'_> {

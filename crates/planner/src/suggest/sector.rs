@@ -7,15 +7,18 @@ use crate::trig::{atan2, sin_cos};
 use crate::washable_map::MapArea;
 use crate::watch::Watch;
 use platewash_workcell::job::WashJob;
+use std::ops::Range;
 
 /// Steps along a ray, across the reach.
 const STEPS: usize = 24;
 /// Steps to each side of the first ray, and the angle of one \[deg\].
 const TURNS: usize = 11;
 const TURN_DEG: f64 = 15.0;
+/// More clearance than is asked for \[m\], so that transits find a way, too; none where no places have as much.
+const SPARE_M: f64 = 2e-3;
 
-/// Looks for a sector in which the first plate of a job could be washed from its home, were it alone: the longest row of places on the ray
-/// through the plate, and the turn about axis 1 to each side within which the ends and the middle of that row are washed. `None` where no
+/// Looks for a sector in which the first plate of a job could be washed from its home, were it alone: the row of places on the ray through
+/// the plate whose ring is the largest, and the turn about axis 1 to each side within which the ends and the middle of that row are washed. `None` where no
 /// two places in a row are. An estimate: only these places are checked, and transits are not.
 ///
 /// # Errors
@@ -32,8 +35,15 @@ pub fn suggest_sector(job: &WashJob, watch: &Watch<'_>) -> Result<Option<Sector>
     };
     let steps: Vec<f64> = (1..=STEPS).map(|k| area.radius_m * k as f64 / STEPS as f64).collect();
     let places: Vec<_> = steps.iter().map(|&rho_m| at(rho_m, ahead_deg)).collect();
-    let answers = washable_centres(&alone, 0, &places, watch)?;
-    let Some(row) = longest_row(&answers) else {
+    let row = |spare_m: f64| -> Result<_, PlanError> {
+        let answers = washable_centres(&alone, 0, &places, spare_m, watch)?;
+        Ok(widest_row(&answers).map(|row| (row, spare_m)))
+    };
+    let found = match row(SPARE_M)? {
+        None => row(0.0)?,
+        found => found,
+    };
+    let Some((row, spare_m)) = found else {
         return Ok(None);
     };
     let rho_m = [steps[row.start], steps[row.end - 1]];
@@ -42,20 +52,19 @@ pub fn suggest_sector(job: &WashJob, watch: &Watch<'_>) -> Result<Option<Sector>
     for (end, side) in azimuth_deg.iter_mut().zip([-1.0, 1.0]) {
         let turn = |k: usize| ahead_deg + side * TURN_DEG * k as f64;
         let places: Vec<_> = (1..=TURNS).flat_map(|k| ends.map(|rho_m| at(rho_m, turn(k)))).collect();
-        let answers = washable_centres(&alone, 0, &places, watch)?;
+        let answers = washable_centres(&alone, 0, &places, spare_m, watch)?;
         let all = answers.chunks(ends.len()).take_while(|all| all.iter().all(|&one| one));
         *end = turn(all.count());
     }
     Ok(Some(Sector { rho_m, azimuth_deg }))
 }
 
-/// The longest row of at least two; of equals the first.
-fn longest_row(answers: &[bool]) -> Option<std::ops::Range<usize>> {
+/// The row of at least two, in steps from the axis, whose ring has the greatest area; of equals the first.
+fn widest_row(answers: &[bool]) -> Option<Range<usize>> {
     let starts = (0..answers.len()).filter(|&k| answers[k] && (k == 0 || !answers[k - 1]));
     let rows = starts.map(|start| start..start + answers[start..].iter().take_while(|&&one| one).count());
-    rows.rev()
-        .max_by_key(ExactSizeIterator::len)
-        .filter(|row| row.len() > 1)
+    let area = |row: &Range<usize>| row.end * row.end - (row.start + 1) * (row.start + 1);
+    rows.rev().max_by_key(area).filter(|row| row.len() > 1)
 }
 
 #[cfg(test)]
@@ -65,10 +74,10 @@ mod tests {
     use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 
     #[test]
-    fn the_longest_row_is_found() {
-        let row = |text: &str| longest_row(&text.chars().map(|c| c == '1').collect::<Vec<_>>());
+    fn of_all_rows_the_one_with_the_largest_ring_is_found() {
+        let row = |text: &str| widest_row(&text.chars().map(|c| c == '1').collect::<Vec<_>>());
         assert_eq!(row("0110111011"), Some(4..7));
-        assert_eq!(row("0110011"), Some(1..3));
+        assert_eq!(row("0111000000000011"), Some(14..16));
         assert_eq!(row("11"), Some(0..2));
         assert_eq!(row("01010"), None);
         assert_eq!(row(""), None);
