@@ -143,6 +143,12 @@ impl Options {
 
     /// The scenario with what the options override.
     pub fn scenario(&self) -> Result<Scenario> {
+        let scenario = self.overridden()?;
+        self.warn(&scenario.notes());
+        Ok(scenario)
+    }
+
+    fn overridden(&self) -> Result<Scenario> {
         let mut scenario = Scenario::load(self.scenario_name())?;
         if let Some(seed) = self.seed {
             scenario.seed = seed;
@@ -158,7 +164,6 @@ impl Options {
             scenario.tool.mounted_on = Some(link.clone());
         }
         scenario.validate().map_err(|error| self.of_file(error))?;
-        self.warn(&scenario.notes());
         Ok(scenario)
     }
 
@@ -186,20 +191,22 @@ impl Options {
 
     /// The scenario, fitted to the arm of the options where no scenario is named.
     pub fn fitted_scenario(&self) -> Result<Scenario> {
-        let scenario = self.scenario()?;
+        let scenario = self.overridden()?;
         if self.urdf.is_none() || self.scenario.is_some() || !self.is_for_irb120(&scenario)? {
-            return Ok(scenario);
+            return self.scenario();
         }
         let arm = scenario.arm().map_err(|error| self.failure(error))?;
         let fitted = self.during("looking for a home and a region for this arm", || {
             scenario.fitted_to(&arm, &Watch::silent(&self.cancel))
         });
         let Some(fitted) = fitted.map_err(|error| self.failure(error))? else {
-            return Ok(scenario);
+            return self.scenario();
         };
+        self.warn(&fitted.notes());
         let layout = &fitted.layout;
         self.say(&format!(
-            "chosen for this arm; to keep or change it, write it into a scenario (platewash scenario {} > mine.toml):\n\
+            "chosen for this arm; to keep or change it, put these lines in place of start_deg, count, region and base_radius_m of \
+             a scenario (platewash scenario {} > mine.toml), and name it with --scenario:\n\
              [robot]\nstart_deg = {:?}\n\
              [layout]\ncount = {}\nrho_m = {:?}\nazimuth_deg = {:?}\nbase_radius_m = {}\nonly_washable = true",
             self.scenario_name(),

@@ -10,15 +10,19 @@ use platewash::kinematics::tool_mount::ToolMount;
 use platewash::kinematics::words::{decimals_down, decimals_up};
 use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
-use platewash::planner::suggest::Sector;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, arm_outlines, draw_region};
+use platewash::workcell::cancel::system_clock;
 use platewash::workcell::clearance::TouchingPairs;
 use platewash::workcell::workcell::Obstacle;
 use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::time::Duration;
+
+/// Time after which the map of `--suggest` is left as it is.
+const MAP_TIME: Duration = Duration::from_secs(40);
 
 /// Arguments of `robot`.
 #[derive(Debug, Args)]
@@ -335,6 +339,8 @@ struct RobotSuggestions {
     washable_rho_m: Option<[f64; 2]>,
     /// Area that the centres of washable plates cover \[m²\].
     washable_area_m2: f64,
+    /// False where the map was stopped for lack of time: squares are missing.
+    is_complete: bool,
     /// Edge of the finest squares examined \[m\].
     square_m: f64,
     /// The largest sector of such centres, as `layout.rho_m` and `layout.azimuth_deg`.
@@ -354,7 +360,7 @@ fn suggest(options: &Options) -> Result<ExitCode> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let found = options.during("looking where plates can be washed", || {
-        scenario.suggest(&robot, &Watch::silent(&options.cancel))
+        scenario.suggest(&robot, &Watch::silent(&options.cancel.within(MAP_TIME, system_clock)))
     });
     let found = found.map_err(|error| options.failure(error))?;
     let tool = scenario.tool_on(&robot)?;
@@ -387,19 +393,11 @@ fn map(scenario: &Scenario, robot: &RobotModel, tool: &Tool, found: &Suggestion)
     }
 }
 
-/// The sector rounded inwards to whole centimetres and degrees.
-fn whole_units(sector: &Sector) -> ([f64; 2], [f64; 2]) {
-    let within =
-        |[from, to]: [f64; 2], unit: f64| [(from / unit - 1e-9).ceil() * unit, (to / unit + 1e-9).floor() * unit];
-    let millimetres = |m: f64| (1e3 * m).round() / 1e3;
-    let rho_m = within(sector.rho_m, 0.01).map(millimetres);
-    (rho_m, within(sector.azimuth_deg, 1.0))
-}
-
 impl RobotSuggestions {
     fn new(scenario: &Scenario, robot: &RobotModel, found: Suggestion, written: Vec<PathBuf>) -> Self {
         let (home, region) = (found.home, found.region);
-        let (rho_m, azimuth_deg) = region.sector.as_ref().map(whole_units).unzip();
+        let sector = region.sector.map(|sector| sector.in_whole_units());
+        let (rho_m, azimuth_deg) = sector.map(|sector| (sector.rho_m, sector.azimuth_deg)).unzip();
         Self {
             robot: robot.name().to_owned(),
             scenario: scenario.name.clone(),
@@ -412,6 +410,7 @@ impl RobotSuggestions {
             plate_height_m: found.plate.centre().z,
             washable_rho_m: region.rho_m,
             washable_area_m2: region.area_m2,
+            is_complete: region.is_complete,
             square_m: region.step_m,
             rho_m,
             azimuth_deg,
@@ -432,11 +431,17 @@ impl RobotSuggestions {
         let from_axis = self.washable_rho_m.map_or_else(String::new, |[near, far]| {
             format!(" from {near:.2} to {far:.2} m from axis 1,")
         });
+        let partial = match self.is_complete {
+            true => "",
+            false => {
+                "; the map is not complete, as it took too long: places far from the plate in front of the arm are missing"
+            }
+        };
         let washed = match area > 0.0 {
             true => format!(
-                "washed{from_axis} with centres over {area:.2} m² in all: a guess, as transits are not looked at"
+                "washed{from_axis} with centres over {area:.2} m² in all: a guess, as transits are not looked at{partial}"
             ),
-            false => "washed nowhere from this home".to_owned(),
+            false => format!("washed nowhere from this home{partial}"),
         };
         let sector = self
             .rho_m

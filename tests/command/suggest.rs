@@ -63,3 +63,37 @@ fn a_cell_without_a_home_is_run_from_one_that_is_found() {
     let ran = platewash(dir, &["verify", "out/plan.json", "--against", "cell.toml"]);
     assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
 }
+
+/// An arm twice as large as the IRB 120, and nothing else: the plates lie where it can wash them. The lines that are printed, in a
+/// scenario, give the same plan.
+#[test]
+fn another_arm_alone_is_enough_for_a_proved_wash() {
+    let folder = folder();
+    let dir = folder.path();
+    let urdf = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/crates/kinematics/tests/fixtures/kr5_lengths.urdf"
+    );
+    let ran = platewash(dir, &["run", "--urdf", urdf]);
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+    assert!(ran.stdout.starts_with("PROVED: 4 plates"), "{}", ran.stdout);
+    let (_, lines) = ran.stderr.split_once("[robot]\n").expect("lines to keep");
+    let (start, layout) = lines.split_once("\n[layout]\n").unwrap();
+    let own: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("out/plan.json")).unwrap()).unwrap();
+    // Only these keys of the layout are other ones.
+    let layout = layout.lines().take(5).collect::<Vec<_>>().join("\n");
+    let file = kitchen(
+        dir,
+        &[
+            ("start_deg = [0, 0, 0, 0, 90, 0]", start),
+            ("region = \"appendix\"", &layout),
+            ("count = 4", ""),
+            ("base_radius_m = 0.28", ""),
+        ],
+    );
+    let file = file.to_str().unwrap();
+    let ran = platewash(dir, &["plan", "--urdf", urdf, "--scenario", file, "--out", "again"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+    let again: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("again/plan.json")).unwrap()).unwrap();
+    assert_eq!(own["hash"], again["hash"]);
+}

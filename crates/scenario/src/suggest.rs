@@ -74,6 +74,7 @@ impl Scenario {
         let Some(sector) = suggest_sector(&job, watch)? else {
             return Ok(None);
         };
+        let sector = sector.in_whole_units();
         let mut fitted = self.clone();
         let layout = &mut fitted.layout;
         (layout.region, layout.x_m, layout.y_m) = (None, None, None);

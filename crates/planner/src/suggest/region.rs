@@ -46,11 +46,27 @@ pub struct Sector {
     pub azimuth_deg: [f64; 2],
 }
 
+impl Sector {
+    /// The sector in whole centimetres and degrees, rounded inwards.
+    #[must_use]
+    pub fn in_whole_units(&self) -> Self {
+        let within =
+            |[from, to]: [f64; 2], unit: f64| [(from / unit - 1e-9).ceil() * unit, (to / unit + 1e-9).floor() * unit];
+        let millimetres = |m: f64| (1e3 * m).round() / 1e3;
+        Self {
+            rho_m: within(self.rho_m, 0.01).map(millimetres),
+            azimuth_deg: within(self.azimuth_deg, 1.0),
+        }
+    }
+}
+
 /// Region in which a plate can be washed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SuggestedRegion {
     /// The map: coarse squares, and finer ones along the border.
     pub squares: Vec<RegionSquare>,
+    /// False where the time ended before the map was done: squares are missing, the farthest from the plate first.
+    pub is_complete: bool,
     /// Edge of the finest squares \[m\].
     pub step_m: f64,
     /// Total area of the squares with a washable plate \[m²\].
@@ -78,7 +94,8 @@ pub fn place_in_front(arm: &RobotModel, tool: &Tool, mount: &Pose) -> [f64; 2] {
 }
 
 /// Computes the region in which the first plate of a job could be washed from its home, were it alone: a map that takes a second
-/// or two, and a summary of it. It is an estimate, as [`washable_map`] is: transits are not checked, and a search may wash more.
+/// or two, longer for arms whose inverse kinematics is a search, and a summary of it. It is an estimate, as [`washable_map`] is: transits are
+/// not checked, and a search may wash more. Where the token's time passes, the map is that of the squares checked until then.
 ///
 /// # Errors
 /// As [`washable_map`].
@@ -90,10 +107,16 @@ pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegio
         ..reach
     };
     let mut map = Map::of(&area);
-    washable_map(&alone, 0, &area, &mut |patch| map.add(&patch), watch)?;
+    let done = washable_map(&alone, 0, &area, &mut |patch| map.add(&patch), watch);
+    let is_complete = done.is_ok();
+    match done {
+        Err(PlanError::Cancelled(_)) if watch.cancel.is_late() => {}
+        done => done?,
+    }
     let axis = alone.terms().workcell.mount.rotation * Vector3::z();
     let (region, is_vertical) = (map.region(), axis.xy().norm() <= UPRIGHT);
     Ok(SuggestedRegion {
+        is_complete,
         // Seen from above, only a vertical axis 1 is a place.
         sector: region.sector.filter(|_| is_vertical),
         rho_m: region.rho_m.filter(|_| is_vertical),
@@ -162,6 +185,7 @@ impl<'a> Map<'a> {
             [least.min(rho), most.max(rho)]
         });
         SuggestedRegion {
+            is_complete: true,
             step_m: self.area.step_m,
             area_m2: washable.iter().map(|square| square.edge_m * square.edge_m).sum(),
             rho_m: (!washable.is_empty()).then_some(ends),
