@@ -200,6 +200,10 @@ impl Options {
             scenario.fitted_to(&arm, &Watch::silent(&self.cancel))
         });
         let Some(fitted) = fitted.map_err(|error| self.failure(error))? else {
+            self.say(&format!(
+                "no region was found in which this arm washes plates with their faces at {} m; the places of {} are tried",
+                scenario.layout.plate_height_m, scenario.name
+            ));
             return self.scenario();
         };
         self.warn(&fitted.notes());

@@ -7,7 +7,7 @@ use crate::trig::atan2;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
+use platewash_kinematics::{AXES, Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
 
 /// Greatest overlap of bodies that counts as touching: the rounding of positions \[m\].
@@ -181,6 +181,13 @@ impl Tool {
             mounted_on: on.filter(|link| link != ToolFrame::Tool0.name()),
             ..self
         }
+    }
+
+    /// Returns the tool of an arm that carries none. Any arm has one: it is on the link that joint 6 moves.
+    #[must_use]
+    pub fn none(robot: &RobotModel) -> Self {
+        let last = robot.joints()[AXES - 1].child.clone();
+        Self::from(StraightTool::default()).mounted(Some(last))
     }
 
     /// Returns the tool as an arm carries it: on the stated link, or on the one that the description tells.

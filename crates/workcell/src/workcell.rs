@@ -9,8 +9,8 @@ pub use crate::obstacle::{Obstacle, ObstacleShape};
 
 use crate::clearance::{self, ClearanceError};
 use crate::pose;
-use crate::tool::{StraightTool, Tool};
-use platewash_kinematics::{AXES, Pose, RobotModel};
+use crate::tool::Tool;
+use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -117,10 +117,7 @@ impl Workcell {
     /// # Errors
     /// As [`Workcell::new`].
     pub fn without_tool(robot: &RobotModel, mount: Pose, obstacles: Vec<Obstacle>) -> Result<Self, ClearanceError> {
-        // No link needs to be named for a tool that is not there.
-        let last = robot.joints()[AXES - 1].child.clone();
-        let tool = Tool::from(StraightTool::default()).mounted(Some(last));
-        Self::new(robot, tool, mount, obstacles)
+        Self::new(robot, Tool::none(robot), mount, obstacles)
     }
 
     /// Returns the workcell of an arm that stands on the floor at the world's origin, with its tool.

@@ -7,7 +7,7 @@
 use crate::clearance::body::{Body, BodyKind, keeps_its_height, part_pairs, place, world};
 use crate::clearance::distance::separation;
 use crate::clearance::model::ClearanceError;
-use crate::tool::{StraightTool, Tool};
+use crate::tool::Tool;
 use crate::workcell::{Exclusion, ExclusionReason, Obstacle};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
@@ -169,8 +169,7 @@ impl TouchingPairs {
     /// # Errors
     /// [`ClearanceError`] for an invalid shape.
     pub fn of(robot: &RobotModel) -> Result<Self, ClearanceError> {
-        let bare = Tool::from(StraightTool::default());
-        let found = exclusions(&robot.clone().without_disabled_pairs(), &bare, &[])?;
+        let found = exclusions(&robot.clone().without_disabled_pairs(), &Tool::none(robot), &[])?;
         let of = |reason: ExclusionReason| {
             let found = found.iter().filter(move |e: &&Exclusion| e.reason == reason);
             found.map(|e| e.pair.clone()).collect()
@@ -244,6 +243,16 @@ mod tests {
     use crate::fixtures::kitchen_tool;
     use crate::workcell::Obstacle;
     use platewash_kinematics::DisabledPairs;
+    use platewash_kinematics::irb120::IRB120_URDF;
+    use platewash_kinematics::urdf::MeshSource;
+
+    #[test]
+    fn an_arm_without_a_link_for_tools_has_the_same_pairs() {
+        let robot = RobotModel::irb120().unwrap();
+        let renamed = IRB120_URDF.replace("\"tool0\"", "\"hand\"");
+        let other = RobotModel::from_urdf(&renamed, &MeshSource::none()).unwrap();
+        assert_eq!(TouchingPairs::of(&robot).unwrap(), TouchingPairs::of(&other).unwrap());
+    }
 
     /// An SRDF that is read back excludes the pairs that were found.
     #[test]
