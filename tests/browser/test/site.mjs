@@ -9,7 +9,7 @@ import { watch } from "../lib/watched.mjs";
 const SITE = process.env["PLATEWASH_SITE"];
 const NARROW = { width: 390, height: 300 };
 
-test("every page of the website asks nothing of anybody else and fits on a narrow screen", { timeout: 120_000 }, async (t) => {
+test("every page of the website asks nothing of anybody else and fits on a narrow screen", { timeout: 240_000 }, async (t) => {
   const { url } = await serveFolder(t, SITE);
   const { page, quiet } = await watch(t, url, { size: NARROW });
   const { items } = JSON.parse(await readFile(join(SITE, "search.json"), "utf8"));
