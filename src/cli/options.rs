@@ -143,9 +143,12 @@ impl Options {
 
     /// The scenario with what the options override.
     pub fn scenario(&self) -> Result<Scenario> {
-        let scenario = self.overridden()?;
+        Ok(self.warned(self.overridden()?))
+    }
+
+    fn warned(&self, scenario: Scenario) -> Scenario {
         self.warn(&scenario.notes());
-        Ok(scenario)
+        scenario
     }
 
     fn overridden(&self) -> Result<Scenario> {
@@ -192,8 +195,9 @@ impl Options {
     /// The scenario, fitted to the arm of the options where no scenario is named.
     pub fn fitted_scenario(&self) -> Result<Scenario> {
         let scenario = self.overridden()?;
-        if self.urdf.is_none() || self.scenario.is_some() || !self.is_for_irb120(&scenario)? {
-            return self.scenario();
+        // The scenario that is taken then states a home for the IRB 120, and none for other arms.
+        if self.scenario.is_some() || scenario.robot.start_deg.is_some() {
+            return Ok(self.warned(scenario));
         }
         let arm = scenario.arm().map_err(|error| self.failure(error))?;
         let fitted = self.during("looking for a home and a region for this arm", || {
@@ -204,9 +208,9 @@ impl Options {
                 "no region was found in which this arm washes plates with their faces at {} m; the places of {} are tried",
                 scenario.layout.plate_height_m, scenario.name
             ));
-            return self.scenario();
+            return Ok(self.warned(scenario));
         };
-        self.warn(&fitted.notes());
+        let fitted = self.warned(fitted);
         let layout = &fitted.layout;
         self.say(&format!(
             "chosen for this arm; to keep or change it, put these lines in place of start_deg, count, region and base_radius_m of \

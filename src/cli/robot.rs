@@ -12,7 +12,6 @@ use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, arm_outlines, draw_region};
-use platewash::workcell::cancel::system_clock;
 use platewash::workcell::clearance::TouchingPairs;
 use platewash::workcell::workcell::Obstacle;
 use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
@@ -360,7 +359,7 @@ fn suggest(options: &Options) -> Result<ExitCode> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
     let found = options.during("looking where plates can be washed", || {
-        scenario.suggest(&robot, &Watch::silent(&options.cancel.within(MAP_TIME, system_clock)))
+        scenario.suggest(&robot, MAP_TIME, &Watch::silent(&options.cancel))
     });
     let found = found.map_err(|error| options.failure(error))?;
     let tool = scenario.tool_on(&robot)?;

@@ -11,10 +11,12 @@ use platewash_planner::Watch;
 use platewash_planner::suggest::{
     SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region, suggest_sector,
 };
+use platewash_workcell::cancel::system_clock;
 use platewash_workcell::clearance::TouchingPairs;
 use platewash_workcell::job::{JobError, WashJob};
 use platewash_workcell::plate::Plate;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Home, plate and region that suit an arm with its tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,11 +33,11 @@ pub struct Suggestion {
 
 impl Scenario {
     /// Suggests a home, a plate and a region that suit the arm with the scenario's tool, its kind of plates and its requirements;
-    /// its own home and places have no effect.
+    /// its own home and places have no effect. The map of the region ends after `map_time`.
     ///
     /// # Errors
     /// [`Failure`]: no home, or a scenario that is refused.
-    pub fn suggest(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Suggestion, Failure> {
+    pub fn suggest(&self, arm: &Arc<RobotModel>, map_time: Duration, watch: &Watch<'_>) -> Result<Suggestion, Failure> {
         if self.job.program == Program::Paper && self.wash.height_m != 0.0 {
             let height_m = self.wash.height_m;
             let (keys, detail) = (
@@ -55,10 +57,12 @@ impl Scenario {
         let [plate, ..] = job.terms().plates[..] else {
             return Err(JobError::PlateCount { found: 0 }.into());
         };
+        let home = suggest_home(arm, job.terms(), watch.cancel)?;
+        let cancel = &watch.cancel.within(map_time, system_clock);
         Ok(Suggestion {
-            home: suggest_home(arm, job.terms(), watch.cancel)?,
+            home,
             plate,
-            region: suggest_region(&job, watch)?,
+            region: suggest_region(&job, &Watch { cancel, ..*watch })?,
             pairs: TouchingPairs::of(arm)?,
         })
     }
@@ -81,9 +85,14 @@ impl Scenario {
         (layout.rho_m, layout.azimuth_deg) = (Some(sector.rho_m), Some(sector.azimuth_deg));
         layout.base_radius_m = layout.base_radius_m.min(sector.rho_m[0]);
         layout.only_washable = true;
-        let middle_m = 0.5 * (sector.rho_m[0] + sector.rho_m[1]);
-        let home = suggest_home(arm, self.with_one_plate(arm, [middle_m, 0.0])?.terms(), watch.cancel)?;
-        (fitted.robot.start_deg, fitted.robot.home_deg) = (Some(home.q_deg), None);
+        // The home is that for a plate ahead, in the middle of the row.
+        let ([x, y], [front_x, front_y]) = (self.foot_m(), front_m);
+        let (ahead_x, ahead_y) = (front_x - x, front_y - y);
+        let part = 0.5 * (sector.rho_m[0] + sector.rho_m[1]) / ahead_x.hypot(ahead_y);
+        let job = self.with_one_plate(arm, [x + part * ahead_x, y + part * ahead_y])?;
+        let [home, _] = job.terms().home_rad;
+        let start_deg = home.map(|rad| rad.to_degrees().round() + 0.0).into();
+        (fitted.robot.start_deg, fitted.robot.home_deg) = (Some(start_deg), None);
         while fitted.layout.count > 1 && fitted.layout(arm).is_err() {
             fitted.layout.count -= 1;
         }
@@ -154,7 +163,9 @@ mod tests {
     fn suggested_homes_are_accepted() {
         let (scenario, cancel) = (Scenario::load("angled-tool").unwrap(), CancelToken::new());
         let arm = scenario.arm().unwrap();
-        let suggestion = scenario.suggest(&arm, &Watch::silent(&cancel)).unwrap();
+        let suggestion = scenario
+            .suggest(&arm, Duration::from_secs(600), &Watch::silent(&cancel))
+            .unwrap();
         let sector = suggestion.region.sector.unwrap();
         let mut like = scenario.clone();
         like.robot.start_deg = Some(suggestion.home.q_deg);

@@ -160,54 +160,46 @@ pub fn washable_map(
     tell: &mut dyn FnMut(MapPatch),
     watch: &Watch<'_>,
 ) -> Result<(), PlanError> {
-    let pipeline = Pipeline::here(job, watch)?;
-    pipeline.check_plate(plate)?;
-    map.check()?;
-    let scene = pipeline.scene()?;
-    let (order, _) = pipeline.order(&scene)?;
-    let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
-    let path = pipeline.path_of(&scene, &order, turn);
-    let [near, _] = &pipeline.terms.home_rad;
-    let asked = pipeline.moved_plate(&scene, &path, near);
-    let here = Vector2::from(scene.centre_in_world(&pipeline.plates[plate]));
-    let mut levels = Levels::new(map);
-    while let Some((step_m, mut squares)) = levels.next() {
-        let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
-        squares.sort_by(|a, b| away(a).total_cmp(&away(b)));
-        let mut answers: Vec<(Square, bool)> = Vec::with_capacity(squares.len());
-        for some in squares.chunks(IN_A_PATCH) {
-            let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();
-            let washable = pipeline.suitable_centres(&asked, &centres)?;
-            answers.extend(some.iter().copied().zip(washable.iter().copied()));
-            let of_answer = |wanted: bool| {
-                let told = centres.iter().zip(&washable).filter(|(_, answer)| **answer == wanted);
-                told.map(|(centre, _)| *centre).collect()
-            };
-            tell(MapPatch {
-                step_m,
-                washable_m: of_answer(true),
-                unwashable_m: of_answer(false),
-                done: answers.len(),
-                of: squares.len(),
-            });
+    with_moved_plate(job, plate, watch, |pipeline, asked| {
+        map.check()?;
+        let here = Vector2::from(asked.scene.centre_in_world(&pipeline.plates[plate]));
+        let mut levels = Levels::new(map);
+        while let Some((step_m, mut squares)) = levels.next() {
+            let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
+            squares.sort_by(|a, b| away(a).total_cmp(&away(b)));
+            let mut answers: Vec<(Square, bool)> = Vec::with_capacity(squares.len());
+            for some in squares.chunks(IN_A_PATCH) {
+                let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();
+                let washable = pipeline.suitable_centres(asked, &centres)?;
+                answers.extend(some.iter().copied().zip(washable.iter().copied()));
+                let of_answer = |wanted: bool| {
+                    let told = centres.iter().zip(&washable).filter(|(_, answer)| **answer == wanted);
+                    told.map(|(centre, _)| *centre).collect()
+                };
+                tell(MapPatch {
+                    step_m,
+                    washable_m: of_answer(true),
+                    unwashable_m: of_answer(false),
+                    done: answers.len(),
+                    of: squares.len(),
+                });
+            }
+            levels.add(answers);
         }
-        levels.add(answers);
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
-/// Checks, place by place, that a plate could be washed with its centre there \[m\], with `spare_m` more clearance than the job asks for:
-/// the answers of a map.
+/// Calls a function with a plate as the subject of a search for another place: near home, on the wash path that planning would take.
 ///
 /// # Errors
-/// [`PlanError`] of the input, [`PlanError::Plate`] and [`PlanError::Cancelled`].
-pub(crate) fn washable_centres(
+/// [`PlanError`] of the input, [`PlanError::Plate`], and those of the function.
+pub(crate) fn with_moved_plate<T>(
     job: &WashJob,
     plate: usize,
-    centres: &[[f64; 2]],
-    spare_m: f64,
     watch: &Watch<'_>,
-) -> Result<Vec<bool>, PlanError> {
+    search: impl FnOnce(&Pipeline<'_>, &MovedPlate<'_>) -> Result<T, PlanError>,
+) -> Result<T, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
     pipeline.check_plate(plate)?;
     let scene = pipeline.scene()?;
@@ -215,16 +207,12 @@ pub(crate) fn washable_centres(
     let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
     let path = pipeline.path_of(&scene, &order, turn);
     let [near, _] = &pipeline.terms.home_rad;
-    let moved = MovedPlate {
-        clearance_m: pipeline.clearance_m() + spare_m,
-        ..pipeline.moved_plate(&scene, &path, near)
-    };
-    Ok(pipeline.suitable_centres(&moved, centres)?)
+    search(&pipeline, &pipeline.moved_plate(&scene, &path, near))
 }
 
 impl Pipeline<'_> {
     /// Checks, place by place, that the plate suits with its centre there \[m\], and leaves the arm room at home.
-    fn suitable_centres(&self, moved: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
+    pub fn suitable_centres(&self, moved: &MovedPlate<'_>, centres: &[[f64; 2]]) -> Result<Vec<bool>, Cancelled> {
         let look = |trial: &mut Trial<'_>, centre: &[f64; 2]| match trial.is_suitable(&(*centre).into()) {
             Ok(suits) => Ok(suits && self.check_homes_among(trial.bodies()).is_ok()),
             Err(RedundancyError::Cancelled(cancelled)) => Err(cancelled),

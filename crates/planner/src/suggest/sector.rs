@@ -1,7 +1,8 @@
 //! A part of a ring about axis 1 in which a plate can be washed, found from places on a few rays: quicker than a map.
 
 use crate::error::PlanError;
-use crate::pipeline::washable_centres;
+use crate::pipeline::with_moved_plate;
+use crate::redundancy::places::MovedPlate;
 use crate::suggest::region::Sector;
 use crate::trig::{atan2, sin_cos};
 use crate::washable_map::MapArea;
@@ -34,29 +35,31 @@ pub fn suggest_sector(job: &WashJob, watch: &Watch<'_>) -> Result<Option<Sector>
         [x + rho_m * c, y + rho_m * s]
     };
     let steps: Vec<f64> = (1..=STEPS).map(|k| area.radius_m * k as f64 / STEPS as f64).collect();
-    let places: Vec<_> = steps.iter().map(|&rho_m| at(rho_m, ahead_deg)).collect();
-    let row = |spare_m: f64| -> Result<_, PlanError> {
-        let answers = washable_centres(&alone, 0, &places, spare_m, watch)?;
-        Ok(widest_row(&answers).map(|row| (row, spare_m)))
-    };
-    let found = match row(SPARE_M)? {
-        None => row(0.0)?,
-        found => found,
-    };
-    let Some((row, spare_m)) = found else {
-        return Ok(None);
-    };
-    let rho_m = [steps[row.start], steps[row.end - 1]];
-    let ends = [rho_m[0], 0.5 * (rho_m[0] + rho_m[1]), rho_m[1]];
-    let mut azimuth_deg = [ahead_deg; 2];
-    for (end, side) in azimuth_deg.iter_mut().zip([-1.0, 1.0]) {
-        let turn = |k: usize| ahead_deg + side * TURN_DEG * k as f64;
-        let places: Vec<_> = (1..=TURNS).flat_map(|k| ends.map(|rho_m| at(rho_m, turn(k)))).collect();
-        let answers = washable_centres(&alone, 0, &places, spare_m, watch)?;
-        let all = answers.chunks(ends.len()).take_while(|all| all.iter().all(|&one| one));
-        *end = turn(all.count());
-    }
-    Ok(Some(Sector { rho_m, azimuth_deg }))
+    let ray: Vec<_> = steps.iter().map(|&rho_m| at(rho_m, ahead_deg)).collect();
+    with_moved_plate(&alone, 0, watch, |pipeline, asked| {
+        let washable = |centres: &[[f64; 2]], spare_m: f64| {
+            let clearance_m = asked.clearance_m + spare_m;
+            pipeline.suitable_centres(&MovedPlate { clearance_m, ..*asked }, centres)
+        };
+        let (row, spare_m) = match widest_row(&washable(&ray, SPARE_M)?) {
+            Some(row) => (row, SPARE_M),
+            None => match widest_row(&washable(&ray, 0.0)?) {
+                Some(row) => (row, 0.0),
+                None => return Ok(None),
+            },
+        };
+        let rho_m = [steps[row.start], steps[row.end - 1]];
+        let ends = [rho_m[0], 0.5 * (rho_m[0] + rho_m[1]), rho_m[1]];
+        let mut azimuth_deg = [ahead_deg; 2];
+        for (end, side) in azimuth_deg.iter_mut().zip([-1.0, 1.0]) {
+            let turn = |k: usize| ahead_deg + side * TURN_DEG * k as f64;
+            let places: Vec<_> = (1..=TURNS).flat_map(|k| ends.map(|rho_m| at(rho_m, turn(k)))).collect();
+            let answers = washable(&places, spare_m)?;
+            let all = answers.chunks(ends.len()).take_while(|all| all.iter().all(|&one| one));
+            *end = turn(all.count());
+        }
+        Ok(Some(Sector { rho_m, azimuth_deg }))
+    })
 }
 
 /// The row of at least two, in steps from the axis, whose ring has the greatest area; of equals the first.
