@@ -10,7 +10,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, value_parser};
 use platewash::kinematics::urdf::Files;
 use platewash::planner::{PlanError, Watch};
-use platewash::scenario::{Note, Program, RobotSection, SHIPPED, ScenarioError, form};
+use platewash::scenario::{Note, Program, ReducedClearanceSection, RobotSection, SHIPPED, ScenarioError, form};
 use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
@@ -216,9 +216,10 @@ impl Options {
             "chosen for this arm; to keep or change it, put these lines in place of start_deg, count, region and base_radius_m of \
              a scenario (platewash scenario {} > mine.toml), and name it with --scenario:\n\
              [robot]\nstart_deg = {:?}\n\
-             [layout]\ncount = {}\nrho_m = {:?}\nazimuth_deg = {:?}\nbase_radius_m = {}\nonly_washable = true",
+             {}[layout]\ncount = {}\nrho_m = {:?}\nazimuth_deg = {:?}\nbase_radius_m = {}\nonly_washable = true",
             self.scenario_name(),
             fitted.robot.start_deg.unwrap_or_default(),
+            reduced_text(&fitted),
             layout.count,
             layout.rho_m.unwrap_or_default(),
             layout.azimuth_deg.unwrap_or_default(),
@@ -300,6 +301,14 @@ impl Options {
             ..error
         }
     }
+}
+
+/// The sections of a scenario's reduced clearances, as a file states them.
+fn reduced_text(scenario: &Scenario) -> String {
+    let one = |ReducedClearanceSection { a, b, clearance_m }: &ReducedClearanceSection| {
+        format!("[[reduced_clearance]]\na = {a:?}\nb = {b:?}\nclearance_m = {clearance_m}\n")
+    };
+    scenario.reduced_clearance.iter().map(one).collect()
 }
 
 /// Source of the files of an arm: the disk, with the folders in which ROS has packages installed, as the environment states them:

@@ -128,7 +128,7 @@ pub fn prove_arm_motion(
     let mut clearance = pairs::judge_all(arm, rules.clearance_m, &model, &timeline, cancel)?;
     cancel.check()?;
     let mut checks = joint_checks(arm, &pieces, rules);
-    checks.push(pairs::check(rules.clearance_m, &clearance));
+    checks.extend(pairs::checks(rules.clearance_m, &clearance));
     let is_violated = checks.last().is_some_and(|check| check.status == Status::Violated);
     let least_at_knots_m = if is_violated {
         least_at_knots_m(&model, motion.pieces())

@@ -130,9 +130,9 @@ pub fn prove_program(
         in_program_time(speed, limits.speed_share),
         contact(&tips, &pieces, &schedule, limits.deviation_m),
         judged,
-        pairs::check(subject.limits.clearance_m, &clearance),
-        coverage::check(&subject, &swept),
     ];
+    checks.extend(pairs::checks(subject.limits.clearance_m, &clearance));
+    checks.push(coverage::check(&subject, &swept));
     // A tip is where it should be at any tilt, and the sponge is not.
     checks.extend(tilt);
     cancel.check()?;

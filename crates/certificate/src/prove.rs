@@ -107,7 +107,7 @@ pub fn prove_motion(
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits.joints, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
-    checks.push(pairs::check(subject.limits.clearance_m, &clearance));
+    checks.extend(pairs::checks(subject.limits.clearance_m, &clearance));
     world.checks_to_world(&mut checks);
     world.pairs_to_world(&mut clearance);
     Ok(MotionProof { checks, clearance })
@@ -180,7 +180,7 @@ impl PlanUnderProof<'_> {
         checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
         checks.push(landing::check(&arm, subject, (pieces, &along), schedule, &tips)); // 21: contact speed
         checks.extend(deviations); // 22, 23: path, line
-        checks.push(pairs::check(subject.limits.clearance_m, &clearance)); // 24
+        checks.extend(pairs::checks(subject.limits.clearance_m, &clearance)); // 24: all pairs, pairs of reduced clearance
         checks.push(reach::check(subject, &swept)); // 25
         checks.push(coverage::check(subject, &swept)); // 26
         checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: share, time, dose, strain, force

@@ -163,7 +163,9 @@ impl ControllerDemands {
 fn remedy(requirement: Requirement) -> &'static str {
     match requirement {
         Requirement::JointSpeed => "; a smaller share of the speed helps",
-        Requirement::Clearance | Requirement::ContactHeight | Requirement::Swept => "; a smaller tolerance may help",
+        Requirement::Clearance | Requirement::ReducedClearance | Requirement::ContactHeight | Requirement::Swept => {
+            "; a smaller tolerance may help"
+        }
         _ => "",
     }
 }

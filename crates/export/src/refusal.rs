@@ -110,7 +110,7 @@ impl Refusal {
             Self::NotKept { requirement, .. } => match requirement {
                 Requirement::JointSpeed => "joint_speed",
                 Requirement::PlanDeviation => "deviation",
-                Requirement::Clearance => "clearance",
+                Requirement::Clearance | Requirement::ReducedClearance => "clearance",
                 Requirement::Swept => "coverage",
                 Requirement::ContactHeight => "contact",
                 _ => "not_kept",

@@ -3,6 +3,7 @@
 use crate::infeasible::UnwashablePlate;
 use crate::joint_path::JointPathError;
 use crate::pattern::Shortfall;
+use crate::suggest::NearPair;
 use crate::timing::TimingError;
 use crate::transit::{ClearanceShortfall, LiftLineError, TransitError};
 use platewash_kinematics::LimitViolation;
@@ -77,13 +78,13 @@ pub enum PlanError {
     /// No end configuration was stated, and none was found that is clear.
     #[error(
         "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything{}",
-        most_frequent_pair(.in_the_way.as_ref())
+        most_frequent_pair(in_the_way, *tried)
     )]
     NoHome {
         /// Configurations that were tried.
         tried: usize,
-        /// The pair of bodies that is too near in most of them, and in how many.
-        in_the_way: Option<([String; 2], usize)>,
+        /// Pairs of bodies that are too near, those first that are so in most of them.
+        in_the_way: Vec<NearPair>,
     },
     /// The arm holds nothing that could touch a plate.
     #[error("the arm holds no tool; washing needs one that touches the plates")]
@@ -228,11 +229,21 @@ impl From<TransitError> for PlanError {
 }
 
 /// Names the pair that is in the way most often; empty where there is none.
-fn most_frequent_pair(in_the_way: Option<&([String; 2], usize)>) -> String {
-    in_the_way.map_or_else(String::new, |([a, b], count)| {
-        let [a, b] = [a, b].map(|name| printable(name));
-        format!("; most often too near are {a} and {b}, in {count} of them")
-    })
+fn most_frequent_pair(in_the_way: &[NearPair], tried: usize) -> String {
+    let names = |near: &NearPair| near.pair.each_ref().map(|name| printable(name)).join(" and ");
+    let Some(first) = in_the_way.first() else {
+        return String::new();
+    };
+    let most_often = format!("; most often too near are {}, in {} of them", names(first), first.count);
+    let by_design = in_the_way.iter().find(|near| near.is_by_design(tried));
+    let advice = by_design.map_or_else(String::new, |near| {
+        format!(
+            "; {} are at most {:.1} mm apart in all of them: state a clearance of their own ([[reduced_clearance]])",
+            names(near),
+            1e3 * near.most_m
+        )
+    });
+    most_often + &advice
 }
 
 /// The first of some overlaps, and how many more there are.

@@ -7,7 +7,7 @@ use crate::resolve::solids::Solids;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, Program, TransitionSection};
 use crate::sections::obstacle::ObstacleSection;
-use crate::sections::robot::RobotSection;
+use crate::sections::robot::{ReducedClearanceSection, RobotSection};
 use crate::sections::room::{FloorSection, TableSection};
 use crate::sections::simulation::{ControlSection, PlantSection};
 use crate::sections::tool::{ToolBodySection, ToolSection};
@@ -31,6 +31,9 @@ pub struct Scenario {
     pub job: JobSection,
     /// The arm.
     pub robot: RobotSection,
+    /// Pairs of bodies of arm and tool that keep less clearance than all others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reduced_clearance: Vec<ReducedClearanceSection>,
     /// Tool that the arm holds.
     pub tool: ToolSection,
     /// Further bodies of it.
@@ -99,6 +102,7 @@ impl Default for Scenario {
             seed: 1,
             job: JobSection::default(),
             robot: RobotSection::default(),
+            reduced_clearance: Vec::new(),
             tool: ToolSection::default(),
             tool_body: Vec::new(),
             floor: FloorSection::default(),

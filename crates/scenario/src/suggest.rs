@@ -6,11 +6,12 @@ use crate::failure::Failure;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::obstacle::HeldPlates;
+use crate::sections::robot::ReducedClearanceSection;
 use platewash_kinematics::RobotModel;
-use platewash_planner::Watch;
 use platewash_planner::suggest::{
     SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region, suggest_sector,
 };
+use platewash_planner::{PlanError, Watch};
 use platewash_workcell::cancel::system_clock;
 use platewash_workcell::clearance::TouchingPairs;
 use platewash_workcell::job::{JobError, WashJob};
@@ -74,12 +75,12 @@ impl Scenario {
     /// [`Failure`]: no home, or a scenario that is refused.
     pub fn fitted_to(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Option<Self>, Failure> {
         let front_m = place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount());
-        let job = self.with_one_plate(arm, front_m)?;
+        let mut fitted = self.clone();
+        let job = fitted.with_reduced_clearances(arm, front_m)?;
         let Some(sector) = suggest_sector(&job, watch)? else {
             return Ok(None);
         };
         let sector = sector.in_whole_units();
-        let mut fitted = self.clone();
         let layout = &mut fitted.layout;
         (layout.region, layout.x_m, layout.y_m) = (None, None, None);
         (layout.rho_m, layout.azimuth_deg) = (Some(sector.rho_m), Some(sector.azimuth_deg));
@@ -89,7 +90,7 @@ impl Scenario {
         let ([x, y], [front_x, front_y]) = (self.foot_m(), front_m);
         let (ahead_x, ahead_y) = (front_x - x, front_y - y);
         let part = 0.5 * (sector.rho_m[0] + sector.rho_m[1]) / ahead_x.hypot(ahead_y);
-        let job = self.with_one_plate(arm, [x + part * ahead_x, y + part * ahead_y])?;
+        let job = fitted.with_one_plate(arm, [x + part * ahead_x, y + part * ahead_y])?;
         let [home, _] = job.terms().home_rad;
         let start_deg = home.map(|rad| rad.to_degrees().round() + 0.0).into();
         (fitted.robot.start_deg, fitted.robot.home_deg) = (Some(start_deg), None);
@@ -97,6 +98,25 @@ impl Scenario {
             fitted.layout.count -= 1;
         }
         Ok(Some(fitted))
+    }
+
+    /// The job of [`Self::with_one_plate`]. Pairs that leave no home as they are too near in every configuration get a clearance of their
+    /// own: half of their greatest distance, so that the arm keeps room to move.
+    fn with_reduced_clearances(&mut self, arm: &Arc<RobotModel>, plate_m: [f64; 2]) -> Result<WashJob, Failure> {
+        let (tried, in_the_way) = match self.with_one_plate(arm, plate_m) {
+            Err(Failure::Plan(PlanError::NoHome { tried, in_the_way })) => (tried, in_the_way),
+            other => return other,
+        };
+        let pairs = in_the_way.iter().filter(|near| near.is_by_design(tried));
+        let required_m = self.wash.clearance_m;
+        self.reduced_clearance.extend(pairs.filter_map(|near| {
+            let [a, b] = near.pair.clone();
+            // In tenths of a millimetre, rounded down.
+            let half_m = (0.5e4 * near.most_m).floor() / 1e4;
+            let clearance_m = half_m.min(0.5 * required_m);
+            (clearance_m > 0.0).then_some(ReducedClearanceSection { a, b, clearance_m })
+        }));
+        self.with_one_plate(arm, plate_m)
     }
 
     /// The job of this scenario on its first plate alone, at a place, from the home that is found there.
@@ -157,6 +177,43 @@ mod tests {
         scenario.robot.start_deg = None;
         assert_eq!(scenario.notes(), []);
         assert_eq!(scenario.paper_job().unwrap().start_rad.amax(), 0.0);
+    }
+
+    /// The handle is never farther than 24 mm from the forearm.
+    #[test]
+    fn a_pair_that_is_always_near_gets_half_of_its_greatest_distance() {
+        let mut scenario = Scenario::load("kitchen").unwrap();
+        scenario.wash.clearance_m = 0.025;
+        scenario.robot.start_deg = None;
+        let said = scenario.job().unwrap_err().to_string();
+        let advice = "apart in all of them: state a clearance of their own ([[reduced_clearance]])";
+        assert!(said.contains(advice), "{said}");
+        let arm = scenario.arm().unwrap();
+        let job = scenario.with_reduced_clearances(&arm, [0.3, 0.0]).unwrap();
+        let [ReducedClearanceSection { a, b, clearance_m }] = &scenario.reduced_clearance[..] else {
+            panic!("{:?}", scenario.reduced_clearance)
+        };
+        assert_eq!((&**a, &**b, *clearance_m), ("link_4", "handle", 0.0118));
+        let own = &job.terms().workcell.reduced_clearances;
+        assert!(own.len() == 1 && (own[0].by_m - 0.0132).abs() < 1e-12, "{own:?}");
+        scenario.validate().unwrap();
+        let refused = |clearance_m: f64| {
+            let mut wrong = scenario.clone();
+            wrong.reduced_clearance[0].clearance_m = clearance_m;
+            wrong
+                .validate()
+                .map_err(Failure::from)
+                .and_then(|()| wrong.job().map(|_| ()))
+                .unwrap_err()
+                .to_string()
+        };
+        let words =
+            "reduced_clearance[0].clearance_m, wash.clearance_m: 0.025 m is not less than what all pairs keep, 0.025 m";
+        assert!(refused(0.025).contains(words), "{}", refused(0.025));
+        for found in [0.0, -1.0, f64::NAN] {
+            let words = "reduced_clearance[0].clearance_m must be a number above 0";
+            assert!(refused(found).contains(words), "{}", refused(found));
+        }
     }
 
     #[test]

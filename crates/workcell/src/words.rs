@@ -2,6 +2,12 @@
 
 use platewash_kinematics::words::is_hidden;
 
+/// Formats the names of two bodies, as from files: `"a" – "b"`.
+#[must_use]
+pub fn pair_text([a, b]: &[String; 2]) -> String {
+    format!("{} – {}", quoted(a), quoted(b))
+}
+
 /// Returns a text without the byte order mark that some editors put before it.
 #[must_use]
 pub fn without_mark(text: &str) -> &str {

@@ -32,6 +32,9 @@ pub struct Workcell {
     pub obstacles: Vec<Obstacle>,
     /// Pairs of bodies that need not keep clear of each other.
     pub exclusions: Vec<Exclusion>,
+    /// Pairs of bodies of arm and tool that keep less than the required clearance.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reduced_clearances: Vec<ReducedClearance>,
 }
 
 impl Workcell {
@@ -62,6 +65,22 @@ pub struct Exclusion {
     pub pair: [String; 2],
     /// Reason of the exclusion.
     pub reason: ExclusionReason,
+}
+
+/// Pair of bodies of arm and tool that keeps less than the required clearance, as those that are near each other in every configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReducedClearance {
+    /// Names of the bodies.
+    pub pair: [String; 2],
+    /// Part of the required clearance that the pair need not keep \[m\]; less than all of it.
+    pub by_m: f64,
+}
+
+/// True if a pair of names is that of the two bodies, in either order.
+pub(crate) fn is_pair(pair: &[String; 2], (a, b): (&str, &str)) -> bool {
+    let [x, y] = pair.each_ref().map(String::as_str);
+    (x, y) == (a, b) || (x, y) == (b, a)
 }
 
 /// Reason that two bodies need not keep clear of each other.
@@ -106,6 +125,7 @@ impl Workcell {
             tool,
             obstacles,
             exclusions: Vec::new(),
+            reduced_clearances: Vec::new(),
         };
         workcell.exclusions = workcell.own_exclusions(robot)?;
         Ok(workcell)

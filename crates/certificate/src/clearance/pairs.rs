@@ -43,6 +43,8 @@ pub enum PairRule {
     /// The pair should keep the required clearance, but the job waives it: the job excludes the pair, and neither the arm nor its SRDF
     /// does.
     Waived,
+    /// The pair keeps a part of the required clearance, as the job states for it: [`PairBound::required_m`].
+    Reduced,
     /// The pair may touch: the sponge and a plate, while it works on that plate or on one from which it is within reach.
     Touching,
 }
@@ -57,6 +59,9 @@ pub struct PairBound {
     /// Plates on which the sponge works meanwhile, for a pair that may touch.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub working_on: Vec<usize>,
+    /// Clearance required of a pair that keeps less than the others \[m\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub required_m: Option<f64>,
     /// Result of the check.
     pub status: Status,
     /// Lower bound on the distance, errors included \[m\].
@@ -118,7 +123,7 @@ pub(crate) fn judge_all(
     let whole = 0..timeline.count();
     let task = |pair| Task {
         pair,
-        rule: PairRule::Clearance,
+        rule: usual_rule(model, pair),
         during: Some(vec![whole.clone()]),
         working_on: Vec::new(),
     };
@@ -136,10 +141,11 @@ fn judge_tasks(
 ) -> Result<Vec<PairBound>, Cancelled> {
     let budget = (BUDGET / tasks.len().max(1)).clamp(LEAST_BUDGET, MOST_BUDGET);
     let poses = ArmPoses::new(robot, timeline);
+    let limit_of = |task: &Task| limit_m - model.reduced_by_m_of(task.pair);
     let search = |task: &Task, parts: &PartPairs<'_>, enough_m: Option<f64>| {
         let during = task.during.as_deref().unwrap_or_default();
         let goal = Goal {
-            limit_m,
+            limit_m: limit_of(task),
             enough_m,
             budget,
         };
@@ -165,10 +171,14 @@ fn judge_tasks(
                 None => searched(task),
             };
         });
-    // The pairs that might be the nearest one, once more and finely.
+    // The pairs that might be the nearest one, and those of reduced clearance, once more and finely.
     let least = least_seen(&found, tasks);
-    let enough_m = least - FINE_M;
     found.par_iter_mut().zip(tasks).for_each(|(found, task)| {
+        let least = match (task.rule, &found) {
+            (PairRule::Reduced, Some(found)) => found.seen_m,
+            _ => least,
+        };
+        let enough_m = least - FINE_M;
         if found.is_some_and(|f| f.at_least_m < enough_m) && least > 0.0 {
             let parts = model.parts_of(task.pair);
             // For bodies of many parts the limit is enough: a fine bound takes long.
@@ -181,8 +191,16 @@ fn judge_tasks(
     let names = model.pair_names();
     let lines = tasks.iter().zip(found);
     Ok(lines
-        .map(|(task, found)| line(names[task.pair], task, found, limit_m))
+        .map(|(task, found)| line(names[task.pair], task, found, limit_of(task)))
         .collect())
+}
+
+/// Rule of a pair that the job does not waive.
+fn usual_rule(model: &ClearanceModel, pair: usize) -> PairRule {
+    match model.reduced_by_m_of(pair) {
+        0.0 => PairRule::Clearance,
+        _ => PairRule::Reduced,
+    }
 }
 
 /// Distance from which on a pair counts as far \[m\]: obstacles that are never as near as the nearest of the other pairs need no closer
@@ -219,6 +237,7 @@ fn line((a, b): (&str, &str), task: &Task, found: Option<PairDistance>, limit_m:
         pair: [a.to_owned(), b.to_owned()],
         rule: task.rule,
         working_on: task.working_on.clone(),
+        required_m: (task.rule == PairRule::Reduced).then_some(limit_m),
         status,
         at_least_m: found.map(|f| f.at_least_m).filter(|b| b.is_finite()),
         seen_m: measured.map(|f| f.seen_m),
@@ -237,10 +256,37 @@ fn measure(limit_m: f64, found: &PairDistance) -> Measure {
     }
 }
 
-/// Checks the clearance over all lines that require it: the least bound, and the position of the least distance found.
-pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
-    let lines: Vec<_> = lines.iter().filter(|l| l.rule == PairRule::Clearance).collect();
-    let status = |status| lines.iter().any(|l| l.status == status);
+/// Checks the clearance over all lines that require it, with the least bound and the position of the least distance found; and, where there
+/// are such pairs, the reduced clearances, with those of the pair that has the least to spare.
+pub(crate) fn checks(limit_m: f64, lines: &[PairBound]) -> impl Iterator<Item = Check> {
+    let of = |rule| lines.iter().filter(|line| line.rule == rule).collect::<Vec<_>>();
+    let spare = |line: &&&PairBound| line.at_least_m.unwrap_or(f64::NEG_INFINITY) - line.required_m.unwrap_or(limit_m);
+    let reduced = of(PairRule::Reduced);
+    let scarcest = reduced.iter().min_by(|a, b| spare(a).total_cmp(&spare(b)));
+    let scarcest_m = scarcest.and_then(|line| line.required_m);
+    let reduced = scarcest_m.map(|required_m| {
+        let status = status(&reduced);
+        let shown: Vec<_> = scarcest.into_iter().copied().collect();
+        Check {
+            status,
+            ..check(Requirement::ReducedClearance, required_m, &shown)
+        }
+    });
+    std::iter::once(check(Requirement::Clearance, limit_m, &of(PairRule::Clearance))).chain(reduced)
+}
+
+/// Status of a requirement over its lines. Without collision geometry there is nothing to be clear of, and nothing is proved.
+fn status(lines: &[&PairBound]) -> Status {
+    let has = |status| lines.iter().any(|line| line.status == status);
+    match (has(Status::Violated), has(Status::NotProved)) {
+        (true, _) => Status::Violated,
+        (_, true) => Status::NotProved,
+        _ if lines.is_empty() => Status::NotProved,
+        _ => Status::Proved,
+    }
+}
+
+fn check(requirement: Requirement, limit_m: f64, lines: &[&PairBound]) -> Check {
     let least = |of: fn(&PairBound) -> Option<f64>| lines.iter().filter_map(|l| of(l)).min_by(f64::total_cmp);
     let worst = lines.iter().filter(|l| l.seen_m.is_some()).min_by(|a, b| {
         let key = |l: &PairBound| l.seen_m.unwrap_or(f64::INFINITY);
@@ -248,14 +294,8 @@ pub(crate) fn check(limit_m: f64, lines: &[PairBound]) -> Check {
     });
     let bounded = lines.iter().all(|l| l.at_least_m.is_some());
     Check {
-        requirement: Requirement::Clearance,
-        status: match (status(Status::Violated), status(Status::NotProved)) {
-            (true, _) => Status::Violated,
-            (_, true) => Status::NotProved,
-            // Without collision geometry there is nothing to be clear of, and nothing is proved.
-            _ if lines.is_empty() => Status::NotProved,
-            _ => Status::Proved,
-        },
+        requirement,
+        status: status(lines),
         measure: (!lines.is_empty()).then(|| Measure {
             bound: least(|l| l.at_least_m).filter(|_| bounded),
             seen: least(|l| l.seen_m),
@@ -288,7 +328,7 @@ fn tasks(
         let keeps = if waived.contains(&pair) {
             PairRule::Waived
         } else {
-            PairRule::Clearance
+            usual_rule(model, pair)
         };
         let mut add = |rule, during, working_on| {
             tasks.push(Task {

@@ -10,7 +10,7 @@ use crate::report::words::{number, rounded_bound};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_workcell::job::{ContactRequirements, Requirements};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::count_with_noun;
+use platewash_workcell::words::{count_with_noun, pair_text};
 
 /// Number of broken requirements that are shown with their numbers.
 const MOST_NUMBERS: usize = 3;
@@ -82,12 +82,16 @@ fn achieved_text(certificate: &Certificate) -> String {
     let number = |requirement| at_least(certificate.check(requirement)?.measure.as_ref()?);
     let share = number(requirement).map(|share| format!(", each {verb} {share}"));
     let clearance = number(Requirement::Clearance).map(|least| format!(", clearance {least}"));
+    let reduced = certificate.rests_on.workcell.reduced_clearances.iter();
+    let reduced: Vec<_> = reduced.map(|reduced| pair_text(&reduced.pair)).collect();
+    let reduced =
+        number(Requirement::ReducedClearance).map(|least| format!(", between {} {least}", reduced.join(", ")));
     let contact = if wanted.contact.is_some() || in_air {
         ""
     } else {
         ", contact not required"
     };
-    [share, clearance].into_iter().flatten().collect::<String>() + contact
+    [share, clearance, reduced].into_iter().flatten().collect::<String>() + contact
 }
 
 /// Formats a lower bound with its requirement: "at least 99.8 % (99.5 % required)".

@@ -78,6 +78,8 @@ requirements! {
     LineDeviation = "line_deviation",
     /// Clearance of every pair.
     Clearance = "clearance",
+    /// Clearance of the pairs that keep less than the others, as the job states. For jobs with such pairs only.
+    ReducedClearance = "reduced_clearance",
     /// Reach of the sponge beyond the rim of the plate that it washes.
     Reach = "reach",
     /// Share of each plate that the sponge sweeps.

@@ -13,7 +13,12 @@ use platewash_workcell::words::{plate_name, printable, quoted};
 use std::fmt;
 
 /// Requirements that the short report always shows.
-const MAIN: [Requirement; 3] = [Requirement::JointSpeed, Requirement::TipSpeed, Requirement::Clearance];
+const MAIN: [Requirement; 4] = [
+    Requirement::JointSpeed,
+    Requirement::TipSpeed,
+    Requirement::Clearance,
+    Requirement::ReducedClearance,
+];
 
 /// Requirements that it also shows for a washing. A dry run washes nothing.
 const OF_WASHING: [Requirement; 3] = [Requirement::Swept, Requirement::Pressed, Requirement::ContactForce];
@@ -358,6 +363,11 @@ fn pair_row(f: &mut impl fmt::Write, line: &PairBound) -> fmt::Result {
     }
     let mm = |v: Option<f64>| v.map_or("none".to_owned(), |v| decimals_down(1e3 * v, 2));
     let time = line.time_s.map_or(String::new(), |t| format!("at {t:.3} s"));
+    let required = line.required_m.map(|m| format!(" ({} mm required)", number(1e3 * m)));
     let (bound, status) = (mm(line.at_least_m), status_word(line.status));
-    writeln!(f, "  {pair:<26} {bound:>9} mm  {status:<10} {time}")
+    writeln!(
+        f,
+        "  {pair:<26} {bound:>9} mm  {status:<10} {time}{}",
+        required.unwrap_or_default()
+    )
 }

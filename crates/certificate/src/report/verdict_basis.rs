@@ -11,7 +11,7 @@ use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
-use platewash_workcell::words::{count_with_noun, plate_name, plate_number, printable, quoted};
+use platewash_workcell::words::{count_with_noun, pair_text, plate_name, plate_number, printable, quoted};
 use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -164,13 +164,25 @@ impl VerdictBasis {
             ("limits", limits(&self.limits)),
             ("requirements", requirements(&self.requirements)),
         ]);
+        let reduced = self.workcell.reduced_clearances.iter().map(|reduced| {
+            let required_m = self.requirements.clearance_m - reduced.by_m;
+            (
+                "less clearance",
+                format!("{} mm between {}", mm(required_m), pair_text(&reduced.pair)),
+            )
+        });
+        lines.extend(reduced);
         lines.extend(
             contact(&self.workcell.tool, &self.requirements, self.dry_run.as_ref()).map(|what| ("contact", what)),
         );
         lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
         lines.push(("not checked", left_out(&self.workcell.exclusions)));
         if !self.waived_pairs.is_empty() {
-            let pairs = self.waived_pairs.iter().map(pair).collect::<Vec<_>>();
+            let pairs = self
+                .waived_pairs
+                .iter()
+                .map(|exclusion| pair_text(&exclusion.pair))
+                .collect::<Vec<_>>();
             lines.push(("waived", format!("by the job: {}", pairs.join(", "))));
         }
         lines
@@ -489,7 +501,7 @@ fn left_out(pairs: &[Exclusion]) -> String {
         pairs
             .iter()
             .filter(move |e| e.reason == reason)
-            .map(pair)
+            .map(|exclusion| pair_text(&exclusion.pair))
             .collect::<Vec<_>>()
     };
     let said = reasons.map(|(reason, words)| (of(reason), words));
@@ -502,9 +514,4 @@ fn left_out(pairs: &[Exclusion]) -> String {
     } else {
         said.join("; ")
     }
-}
-
-fn pair(exclusion: &Exclusion) -> String {
-    let [a, b] = exclusion.pair.each_ref().map(|name| quoted(name));
-    format!("{a} – {b}")
 }

@@ -9,7 +9,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
-use platewash_workcell::workcell::{Exclusion, ExclusionReason};
+use platewash_workcell::workcell::{self, Exclusion, ExclusionReason};
 
 fn judged(plan: Plan) -> Certificate {
     prove(&resealed(plan), &irb120()).unwrap()
@@ -222,6 +222,43 @@ fn waiving_one_pair_does_not_waive_others() {
         rules,
         [(PairRule::Waived, Status::Proved), (PairRule::Touching, Status::Proved)]
     );
+}
+
+/// The handle is never farther than some 24 mm from the forearm, and comes as near as 20.8 mm.
+#[test]
+fn a_pair_with_a_reduced_clearance_is_proved_on_its_own() {
+    let reduced = |required_m: f64| {
+        let mut plan = good();
+        plan.job.requirements.clearance_m = 0.0212;
+        let pair = ["handle", "link_4"].map(str::to_owned);
+        let by_m = 0.0212 - required_m;
+        plan.job
+            .workcell
+            .reduced_clearances
+            .push(workcell::ReducedClearance { pair, by_m });
+        judged(plan)
+    };
+    let certificate = reduced(0.015);
+    assert_eq!(broken(&certificate), [], "{certificate}");
+    let measure = |requirement| certificate.check(requirement).unwrap().measure.unwrap();
+    let (own, all) = (measure(Requirement::ReducedClearance), measure(Clearance));
+    assert_eq!(own.limit, 0.015);
+    assert!(
+        own.bound > Some(0.0206) && own.bound <= own.seen && own.seen < Some(0.0209),
+        "{own:?}"
+    );
+    assert!(all.limit == 0.0212 && all.bound >= Some(0.0212), "{all:?}");
+    let line = certificate
+        .clearance
+        .iter()
+        .find(|line| line.rule == PairRule::Reduced)
+        .unwrap();
+    assert_eq!((line.required_m, line.status), (Some(own.limit), Status::Proved));
+    let words = "clearance at least 24.9 mm (21.2 mm required), between \"handle\" – \"link_4\" at least 20.6 mm (15 mm required)";
+    assert!(certificate.headline.contains(words), "{certificate}");
+    let words = "less clearance 15 mm between \"handle\" – \"link_4\"\n";
+    assert!(format!("{certificate:#}").contains(words), "{certificate:#}");
+    assert_eq!(broken(&reduced(0.021)), [Requirement::ReducedClearance]);
 }
 
 /// An obstacle in the way of the handle, and one that is far.

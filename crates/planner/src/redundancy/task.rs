@@ -210,7 +210,10 @@ impl<'a> Task<'a> {
             return Ok(());
         }
         match surroundings.too_near(q, stretch, required_m) {
-            Some(pair) => Err(Hindrance::Clearance { pair, required_m }),
+            Some(pair) => {
+                let required_m = pair.required_m(required_m);
+                Err(Hindrance::Clearance { pair, required_m })
+            }
             None => Ok(()),
         }
     }

@@ -222,6 +222,7 @@ mod tests {
                     distance_m: self.0,
                     place_m: [0.0; 3],
                     has_hull: false,
+                    reduced_by_m: 0.0,
                 };
                 let required_m = 0.0105;
                 Hindrance::Clearance { pair, required_m }.fmt_worst(f)

@@ -57,6 +57,27 @@ impl SuggestedHome {
     }
 }
 
+/// Two bodies that are too near in some of the configurations that were tried for a home.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearPair {
+    /// Names of the bodies.
+    pub pair: [String; 2],
+    /// Number of configurations in which they are too near.
+    pub count: usize,
+    /// Greatest distance in all of them \[m\].
+    pub most_m: f64,
+    /// True if both are of the arm or its tool.
+    pub is_of_arm: bool,
+}
+
+impl NearPair {
+    /// True if the bodies are of the arm or its tool, and too near in all of the configurations without touching in all of them.
+    #[must_use]
+    pub fn is_by_design(&self, tried: usize) -> bool {
+        self.is_of_arm && self.count == tried && self.most_m > 0.0
+    }
+}
+
 /// A candidate.
 struct Candidate {
     q_deg: [f64; AXES],
@@ -181,22 +202,26 @@ impl Search<'_> {
         })
     }
 
-    /// The pair that is too near in most of these configurations, of equals the first, and in how many; `None` where none is in any.
-    fn in_the_way(&self) -> Result<Option<([String; 2], usize)>, PlanError> {
-        let pairs = self.clearance.pair_names();
-        let at = |k: u32| {
+    /// The pairs that are too near in some of these configurations, those first that are so in most of them.
+    fn in_the_way(&self) -> Result<Vec<NearPair>, PlanError> {
+        let distances = |k: u32| {
             self.scene.check_cancelled()?;
-            let all = self.clearance.all(&self.spread(k));
-            Ok(all.iter().map(|pair| pair.distance_m < self.required_m()).collect())
+            Ok(self.clearance.all(&self.spread(k)))
         };
-        let near: Result<Vec<Vec<bool>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(at).collect();
-        let near = near?;
-        let count = |pair: usize| near.iter().filter(|near| near.get(pair) == Some(&true)).count();
-        let counts = pairs.iter().enumerate().map(|(pair, names)| (names, count(pair)));
-        let most = counts.rev().max_by_key(|(_, count)| *count);
-        Ok(most
-            .filter(|(_, count)| *count > 0)
-            .map(|((a, b), count)| ([(*a).to_owned(), (*b).to_owned()], count)))
+        let all: Result<Vec<Vec<PairClearance>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(distances).collect();
+        let (all, names) = (all?, self.clearance.pair_names());
+        let of = |(index, (a, b)): (usize, &(&str, &str))| {
+            let each = || all.iter().filter_map(|pairs| pairs.get(index));
+            NearPair {
+                pair: [(*a).to_owned(), (*b).to_owned()],
+                count: each().filter(|pair| !pair.is_clear(self.required_m())).count(),
+                is_of_arm: [a, b].iter().all(|name| self.clearance.is_of_arm(name)),
+                most_m: each().map(|pair| pair.distance_m).fold(f64::NEG_INFINITY, f64::max),
+            }
+        };
+        let mut near: Vec<_> = names.iter().enumerate().map(of).filter(|near| near.count > 0).collect();
+        near.sort_by_key(|near| std::cmp::Reverse(near.count));
+        Ok(near)
     }
 
     /// Clearance required of all pairs at a home \[m\].

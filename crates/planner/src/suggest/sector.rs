@@ -15,12 +15,14 @@ const STEPS: usize = 24;
 /// Steps to each side of the first ray, and the angle of one \[deg\].
 const TURNS: usize = 11;
 const TURN_DEG: f64 = 15.0;
+/// Width of a sector for which no shorter row is tried \[deg\].
+const WIDE_DEG: f64 = 120.0;
 /// More clearance than is asked for \[m\], so that transits find a way, too; none where no places have as much.
 const SPARE_M: f64 = 2e-3;
 
 /// Looks for a sector in which the first plate of a job could be washed from its home, were it alone: the row of places on the ray through
-/// the plate whose ring is the largest, and the turn about axis 1 to each side within which the ends and the middle of that row are washed. `None` where no
-/// two places in a row are. An estimate: only these places are checked, and transits are not.
+/// the plate whose ring is the largest, and the turn about axis 1 to each side within which the ends and the middle of that row are washed; where that
+/// is narrow, a shorter row whose sector is larger. `None` where no two places in a row are washed. An estimate: only these places are checked, and transits are not.
 ///
 /// # Errors
 /// [`PlanError`] of the input, and [`PlanError::Cancelled`].
@@ -48,18 +50,42 @@ pub fn suggest_sector(job: &WashJob, watch: &Watch<'_>) -> Result<Option<Sector>
                 None => return Ok(None),
             },
         };
-        let rho_m = [steps[row.start], steps[row.end - 1]];
-        let ends = [rho_m[0], 0.5 * (rho_m[0] + rho_m[1]), rho_m[1]];
-        let mut azimuth_deg = [ahead_deg; 2];
-        for (end, side) in azimuth_deg.iter_mut().zip([-1.0, 1.0]) {
-            let turn = |k: usize| ahead_deg + side * TURN_DEG * k as f64;
-            let places: Vec<_> = (1..=TURNS).flat_map(|k| ends.map(|rho_m| at(rho_m, turn(k)))).collect();
-            let answers = washable(&places, spare_m)?;
-            let all = answers.chunks(ends.len()).take_while(|all| all.iter().all(|&one| one));
-            *end = turn(all.count());
+        let turned = |row: &Range<usize>| {
+            let rho_m = [steps[row.start], steps[row.end - 1]];
+            let ends = [rho_m[0], 0.5 * (rho_m[0] + rho_m[1]), rho_m[1]];
+            let mut azimuth_deg = [ahead_deg; 2];
+            for (end, side) in azimuth_deg.iter_mut().zip([-1.0, 1.0]) {
+                let turn = |k: usize| ahead_deg + side * TURN_DEG * k as f64;
+                let places: Vec<_> = (1..=TURNS).flat_map(|k| ends.map(|rho_m| at(rho_m, turn(k)))).collect();
+                let answers = washable(&places, spare_m)?;
+                let all = answers.chunks(ends.len()).take_while(|all| all.iter().all(|&one| one));
+                *end = turn(all.count());
+            }
+            Ok::<_, PlanError>(Sector { rho_m, azimuth_deg })
+        };
+        let mut found = turned(&row)?;
+        // Places at the ends of the row may be washed on the first ray alone.
+        for ends in 1..row.len().div_ceil(2) {
+            if width_deg(&found) >= WIDE_DEG {
+                break;
+            }
+            let shorter = turned(&(row.start + ends..row.end - ends))?;
+            if area_m2(&shorter) > area_m2(&found) {
+                found = shorter;
+            }
         }
-        Ok(Some(Sector { rho_m, azimuth_deg }))
+        Ok(Some(found))
     })
+}
+
+fn width_deg(sector: &Sector) -> f64 {
+    sector.azimuth_deg[1] - sector.azimuth_deg[0]
+}
+
+/// Area of a sector \[m²\].
+fn area_m2(sector: &Sector) -> f64 {
+    let [near_m, far_m] = sector.rho_m;
+    0.5 * (far_m * far_m - near_m * near_m) * width_deg(sector).to_radians()
 }
 
 /// The row of at least two, in steps from the axis, whose ring has the greatest area; of equals the first.

@@ -127,8 +127,8 @@ impl ClearanceShortfall {
         let reserve_m = stretch.reserve_m();
         let pair = surroundings.too_near(q, stretch, asked_m + reserve_m)?;
         Some(Self {
+            asked_m: pair.required_m(asked_m),
             pair,
-            asked_m,
             reserve_m,
         })
     }

@@ -14,7 +14,7 @@ use crate::keys::key::key;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, TransitionSection};
 use crate::sections::obstacle::OBSTACLE_KEYS;
-use crate::sections::robot::RobotSection;
+use crate::sections::robot::{ReducedClearanceSection, RobotSection};
 use crate::sections::room::{FloorSection, TableSection};
 use crate::sections::simulation::{ControlSection, PlantSection};
 use crate::sections::tool::{TOOL_BODY_KEYS, ToolSection};
@@ -67,6 +67,11 @@ pub struct List {
 
 /// Every list, in the order of the reference.
 pub const LISTS: &[List] = &[
+    List {
+        name: "reduced_clearance",
+        most: 50,
+        keys: ReducedClearanceSection::KEYS,
+    },
     List {
         name: "tool_body",
         most: 50,

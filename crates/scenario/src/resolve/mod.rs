@@ -16,10 +16,12 @@ pub(crate) mod solids;
 pub(crate) mod surroundings;
 pub(crate) mod tool_on_arm;
 
+use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
 use crate::resolve::arm::load_arm;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
+use crate::sections::robot::ReducedClearanceSection;
 use crate::sections::wash::{PAPER_RADIUS_M, PAPER_TURNS};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -36,7 +38,7 @@ use platewash_workcell::job::{
 use platewash_workcell::layout::{Finding, Layout};
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::{Sponge, Tool};
-use platewash_workcell::workcell::Workcell;
+use platewash_workcell::workcell::{ReducedClearance, Workcell};
 use std::sync::Arc;
 
 impl Scenario {
@@ -249,7 +251,26 @@ impl Scenario {
     pub fn workcell(&self, arm: &RobotModel, plates: usize) -> Result<Workcell, Failure> {
         let tool = self.tool_on(arm)?;
         let obstacles = self.obstacles(arm, &tool, plates)?;
-        Ok(Workcell::new(arm, tool, self.robot.mount(), obstacles)?)
+        let mut workcell = Workcell::new(arm, tool, self.robot.mount(), obstacles)?;
+        workcell.reduced_clearances = self.reduced_clearances()?;
+        Ok(workcell)
+    }
+
+    fn reduced_clearances(&self) -> Result<Vec<ReducedClearance>, ScenarioError> {
+        let required_m = self.wash.clearance_m;
+        let reduced = |(index, section): (usize, &ReducedClearanceSection)| {
+            let ReducedClearanceSection { a, b, clearance_m } = section;
+            if *clearance_m >= required_m {
+                let keys = format!("reduced_clearance[{index}].clearance_m, wash.clearance_m");
+                let detail = format!("{clearance_m} m is not less than what all pairs keep, {required_m} m");
+                return Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }));
+            }
+            Ok(ReducedClearance {
+                pair: [a.clone(), b.clone()],
+                by_m: required_m - clearance_m,
+            })
+        };
+        self.reduced_clearance.iter().enumerate().map(reduced).collect()
     }
 
     fn requirements(&self) -> Requirements {

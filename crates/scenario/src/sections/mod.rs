@@ -2,7 +2,7 @@
 //!
 //! | section | module |
 //! | --- | --- |
-//! | `[robot]` | `robot` |
+//! | `[robot]`, `[[reduced_clearance]]` | `robot` |
 //! | `[tool]`, `[[tool_body]]` | `tool` |
 //! | `[layout]`, `[[plate]]` | `layout` |
 //! | `[floor]`, `[table]`; `[[obstacle]]` | `room`; `obstacle` |

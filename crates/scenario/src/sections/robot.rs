@@ -55,6 +55,23 @@ pub struct RobotSection {
     pub payload_kg: Option<f64>,
 }
 
+/// `[[reduced_clearance]]`: two bodies of arm and tool that keep less clearance than all others, as those that are near each other in every
+/// configuration. The clearance is proved and reported on its own (certified).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("reduced_clearance")]
+#[serde(default, deny_unknown_fields)]
+pub struct ReducedClearanceSection {
+    /// Name of the first body: a link, "handle", "sponge" or a body of the tool.
+    #[key(domain = Text)]
+    pub a: String,
+    /// Name of the second body.
+    #[key(domain = Text)]
+    pub b: String,
+    /// Clearance of the two: above 0 and below wash.clearance_m.
+    #[key(unit = "m", domain = NumberAbove(0.0, 1.0))]
+    pub clearance_m: f64,
+}
+
 /// Arms that are built in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

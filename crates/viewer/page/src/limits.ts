@@ -8,7 +8,7 @@ export type GroupName = "Washed" | "Safe" | "Within limits";
 /** Requirements by group, those that people look at first in front. What is not listed is within limits, before the joints. */
 const GROUPS: Readonly<Record<GroupName, readonly string[]>> = {
   Washed: ["pressed", "swept", "contact_time", "contact_dose", "contact_force", "contact_height", "path_deviation", "wash_paths", "every_plate_once"],
-  Safe: ["clearance", "contact_speed", "strain", "tilt", "reach", "line_deviation", "wrist", "rest_at_wash_ends", "plates_apart", "plates", "exclusions", "tool", "arm", "dry_run"],
+  Safe: ["clearance", "reduced_clearance", "contact_speed", "strain", "tilt", "reach", "line_deviation", "wrist", "rest_at_wash_ends", "plates_apart", "plates", "exclusions", "tool", "arm", "dry_run"],
   "Within limits": ["wash_speed", "wash_acceleration", "tip_speed", "tip_acceleration", "plan_deviation", "segments", "home_to_home"],
 };
 

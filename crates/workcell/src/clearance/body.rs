@@ -99,6 +99,13 @@ pub(crate) enum BodyKind {
     Plate(usize),
 }
 
+impl BodyKind {
+    /// True for the bodies of the arm and its tool.
+    pub fn is_of_arm(self) -> bool {
+        matches!(self, Self::Link(_) | Self::Tool | Self::Sponge)
+    }
+}
+
 /// True if joint 1 turns about the normal of a half-space, so that the body it moves keeps its height over it.
 pub(crate) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
     let poses = robot.fk(&JointVector::zeros());

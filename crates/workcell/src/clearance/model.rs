@@ -29,9 +29,29 @@ pub struct PairClearance {
     /// True if the shape of one of the bodies is the convex hull of a mesh, which can reach beyond the mesh.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub has_hull: bool,
+    /// Part of the required clearance that the pair need not keep \[m\].
+    #[serde(skip_serializing_if = "is_zero")]
+    pub reduced_by_m: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks for it
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 impl PairClearance {
+    /// Clearance required of the pair where `required_m` is required of most pairs \[m\].
+    #[must_use]
+    pub fn required_m(&self, required_m: f64) -> f64 {
+        required_of(required_m, self.reduced_by_m)
+    }
+
+    /// True if the pair keeps the clearance that is required of it where `required_m` is required of most pairs.
+    #[must_use]
+    pub fn is_clear(&self, required_m: f64) -> bool {
+        is_clear(self.distance_m, self.required_m(required_m))
+    }
+
     /// Words for a message on the pair: empty, or that a convex hull was compared.
     #[must_use]
     pub fn hull_note(&self) -> &'static str {
@@ -62,6 +82,8 @@ pub struct ClearanceModel {
     /// Spheres that hold the bodies.
     pub(crate) balls: Vec<Ball>,
     pub(crate) pairs: Vec<(usize, usize)>,
+    /// Pairs that need not keep all of the required clearance.
+    pub(crate) reduced: pairs::ReducedPairs,
     /// Pairs with bounded obstacles, and below all others.
     pub(crate) crowd: Crowd,
     pub(crate) others: Pairs,
@@ -78,7 +100,8 @@ impl ClearanceModel {
     /// workcell excludes are left out.
     ///
     /// # Errors
-    /// [`ClearanceError::FlatHull`] for a mesh without volume.
+    /// [`ClearanceError::FlatHull`] for a mesh without volume, [`ClearanceError::NotReducible`] for a pair that cannot have a clearance of
+    /// its own.
     pub fn new(robot: &RobotModel, workcell: &Workcell, plates: &[Plate]) -> Result<Self, ClearanceError> {
         let to_base = (!workcell.is_in_base_frame()).then(|| workcell.mount.inverse());
         let mut bodies = world(robot, &workcell.tool, &workcell.obstacles_from_base())?;
@@ -87,9 +110,11 @@ impl ClearanceModel {
             bodies.push(body);
         }
         let pairs = pairs::choose(&bodies, &workcell.exclusions);
+        let reduced = pairs::reduced(&bodies, &pairs, &workcell.reduced_clearances)?;
         let (crowd, others) = Crowd::among(&bodies, &pairs, &robot.fk(&JointVector::zeros()));
         Ok(Self {
             pairs,
+            reduced,
             crowd,
             others,
             robot: robot.clone(),
@@ -144,6 +169,14 @@ impl ClearanceModel {
         self.bodies.iter().any(|body| body.name == name && stands_around(body))
     }
 
+    /// True if the body of that name is of the arm or its tool.
+    #[must_use]
+    pub fn is_of_arm(&self, name: &str) -> bool {
+        self.bodies
+            .iter()
+            .any(|body| body.name == name && body.kind.is_of_arm())
+    }
+
     /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
     #[must_use]
     pub fn all(&self, q: &JointVector) -> Vec<PairClearance> {
@@ -163,14 +196,15 @@ impl ClearanceModel {
     /// `None` if there is nothing to check: a description without collision geometry.
     #[must_use]
     pub fn smallest(&self, q: &JointVector, working: &[usize]) -> Option<PairClearance> {
-        let (a, b, found) = self.least(q, working)?;
+        let (a, b, found) = self.least(q, |a, b| !self.exempt(a, b, working))?;
         Some(self.describe(a, b, found))
     }
 
-    /// Same as [`ClearanceModel::smallest`], with both of the nearest points.
+    /// Same as [`ClearanceModel::smallest`] among the pairs that must keep all of the required clearance, with both of the nearest points.
     #[must_use]
     pub fn nearest(&self, q: &JointVector, working: &[usize]) -> Option<NearestBodies> {
-        let (a, b, found) = self.least(q, working)?;
+        let counts = |a, b| !self.exempt(a, b, working) && self.reduced_by_m(a, b) == 0.0;
+        let (a, b, found) = self.least(q, counts)?;
         Some(NearestBodies {
             bodies: [a, b],
             distance_m: found.distance,
@@ -178,15 +212,15 @@ impl ClearanceModel {
         })
     }
 
-    /// Returns the pair with the smallest distance.
-    fn least(&self, q: &JointVector, working: &[usize]) -> Option<(usize, usize, Separation)> {
+    /// Returns the pair with the smallest distance, among those that count.
+    fn least(&self, q: &JointVector, counts: impl Fn(usize, usize) -> bool) -> Option<(usize, usize, Separation)> {
         let poses = self.robot.fk(q);
         let placed = place(&self.bodies, &poses);
         let mut best: Option<(usize, usize, Separation)> = None;
         let mut candidates: Vec<_> = self
             .pairs
             .iter()
-            .filter(|&&(a, b)| !self.exempt(a, b, working))
+            .filter(|&&(a, b)| counts(a, b))
             .flat_map(|&(a, b)| self.part_pairs(a, b).map(move |(p, r)| (a, b, p, r)))
             .map(|(a, b, p, r)| (placed[a][p].sphere_gap(&placed[b][r]), a, b, p, r))
             .collect();
@@ -215,13 +249,14 @@ impl ClearanceModel {
         let pairs = self.pairs.iter().filter(|&&(a, b)| !self.exempt(a, b, working));
         let near = pairs.map(|&(a, b)| {
             let candidates = self.part_pairs(a, b);
+            let required_m = required_of(required_m, self.reduced_by_m(a, b));
             let candidates = candidates.filter(|&(p, r)| placed[a][p].sphere_gap(&placed[b][r]) <= required_m);
             // A pair at this distance or beyond is not too near.
             let below = required_m.max(f64::MIN_POSITIVE);
             let found = candidates.filter_map(|parts| self.separation(a, b, parts, (&placed, &poses), below));
             self.describe(a, b, nearest(found))
         });
-        let mut near: Vec<_> = near.filter(|pair| !is_clear(pair.distance_m, required_m)).collect();
+        let mut near: Vec<_> = near.filter(|pair| !pair.is_clear(required_m)).collect();
         near.sort_by(|x, y| x.distance_m.total_cmp(&y.distance_m));
         near
     }
@@ -292,13 +327,29 @@ impl ClearanceModel {
             distance_m: found.distance,
             place_m: found.place,
             has_hull: [a, b].iter().any(|&body| self.bodies[body].has_hull()),
+            reduced_by_m: self.reduced_by_m(a, b),
         }
+    }
+
+    /// Part of the required clearance that a pair need not keep \[m\]: 0 for most pairs.
+    pub(crate) fn reduced_by_m(&self, a: usize, b: usize) -> f64 {
+        let of_pair = self.reduced.iter().find(|(pair, _)| *pair == (a, b));
+        of_pair.map_or(0.0, |(_, by_m)| *by_m)
     }
 }
 
 /// Converts a plate from the world to the base frame.
 pub(crate) fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
     to_base.map_or(*plate, |to_base| plate.seen_from(to_base))
+}
+
+/// Clearance required of a pair that need not keep all of it \[m\].
+pub(crate) fn required_of(required_m: f64, reduced_by_m: f64) -> f64 {
+    if reduced_by_m == 0.0 {
+        required_m
+    } else {
+        (required_m - reduced_by_m).max(0.0)
+    }
 }
 
 /// True if a distance \[m\] keeps the required clearance \[m\]. If that is 0, only contact breaks it. False for NaN.
@@ -348,6 +399,17 @@ pub enum ClearanceError {
         link: String,
         /// Number of corners.
         found: usize,
+    },
+    /// A pair cannot have a clearance of its own.
+    #[error(
+        "reduced clearance of '{}' and '{}': {fault}; it is for two bodies of the arm or its tool that are checked against each other",
+        printable(&.pair[0]), printable(&.pair[1])
+    )]
+    NotReducible {
+        /// Names of the bodies.
+        pair: [String; 2],
+        /// Reason.
+        fault: &'static str,
     },
     /// The arm has no link that carries the tool.
     #[error(transparent)]

@@ -142,6 +142,12 @@ impl ClearanceModel {
         }
     }
 
+    /// Part of the required clearance that a pair need not keep \[m\]: 0 for most pairs.
+    pub fn reduced_by_m_of(&self, pair: usize) -> f64 {
+        let (a, b) = self.pairs[pair];
+        self.reduced_by_m(a, b)
+    }
+
     /// True if one of a pair is a bounded obstacle, not a half-space.
     pub fn is_beside_obstacle(&self, pair: usize) -> bool {
         let (a, b) = self.pairs[pair];

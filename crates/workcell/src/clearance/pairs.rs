@@ -8,7 +8,7 @@ use crate::clearance::body::{Body, BodyKind, keeps_its_height, part_pairs, place
 use crate::clearance::distance::separation;
 use crate::clearance::model::ClearanceError;
 use crate::tool::Tool;
-use crate::workcell::{Exclusion, ExclusionReason, Obstacle};
+use crate::workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
@@ -23,16 +23,45 @@ const CARRIER: usize = 5;
 
 /// Returns all pairs (indices of bodies) that can meet, without the excluded ones.
 pub(crate) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, usize)> {
-    let name = |i: usize| &bodies[i].name;
-    let is_excluded = |&(a, b): &(usize, usize)| {
-        let pair = [name(a), name(b)];
-        let names = |e: &Exclusion| {
-            let [x, y] = &e.pair;
-            pair == [x, y] || pair == [y, x]
-        };
-        exclusions.iter().any(names)
-    };
+    let name = |i: usize| bodies[i].name.as_str();
+    let is_excluded = |&(a, b): &(usize, usize)| exclusions.iter().any(|e| is_pair(&e.pair, (name(a), name(b))));
     candidates(bodies).filter(|pair| !is_excluded(pair)).collect()
+}
+
+/// Pairs, by the indices of their bodies, each with the part of the required clearance that it need not keep \[m\].
+pub(crate) type ReducedPairs = Vec<((usize, usize), f64)>;
+
+/// Returns the pairs that need not keep all of the required clearance.
+///
+/// # Errors
+/// [`ClearanceError::NotReducible`]: a name of no body, or of a body that is not of the arm or its tool; a pair that is not checked, or is
+/// stated twice.
+pub(crate) fn reduced(
+    bodies: &[Body],
+    pairs: &[(usize, usize)],
+    stated: &[ReducedClearance],
+) -> Result<ReducedPairs, ClearanceError> {
+    let mut found = ReducedPairs::new();
+    for ReducedClearance { pair, by_m } in stated {
+        let refused = |fault| {
+            let pair = pair.clone();
+            Err(ClearanceError::NotReducible { pair, fault })
+        };
+        let is_of_arm = |name: &String| {
+            let mut named = bodies.iter().filter(|body| body.name == *name);
+            named.any(|body| body.kind.is_of_arm())
+        };
+        if !pair.iter().all(is_of_arm) {
+            return refused("one of them is not a body of the arm or its tool with a collision shape");
+        }
+        let is_named = |&&(a, b): &&(usize, usize)| is_pair(pair, (&bodies[a].name, &bodies[b].name));
+        match pairs.iter().find(is_named) {
+            None => return refused("the pair is not checked"),
+            Some(pair) if found.iter().any(|(other, _)| other == pair) => return refused("it is stated twice"),
+            Some(pair) => found.push((*pair, *by_m)),
+        }
+    }
+    Ok(found)
 }
 
 /// Returns the pairs that need not keep clear, with the reason: those that follow from an arm, its SRDF, its tool and its obstacles.

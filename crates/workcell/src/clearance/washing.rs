@@ -7,7 +7,7 @@
 
 use crate::clearance::body::{BodyKind, place};
 use crate::clearance::distance::{Separation, bracketed, separation, separation_below};
-use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest};
+use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest, required_of};
 use crate::clearance::motion::ROUNDING_M;
 use crate::clearance::part::PlacedPart;
 use platewash_kinematics::JointVector;
@@ -43,6 +43,7 @@ impl ClearanceModel {
             .iter()
             .filter(|&&(a, b)| self.counts_washing(working_on, a, b));
         let too_near = counting.filter_map(|&(a, b)| {
+            let required_m = required_of(required_m, self.reduced_by_m(a, b));
             let found = |measure: Measure| {
                 let parts = self.part_pairs(a, b);
                 nearest(parts.filter_map(|(p, r)| {
@@ -122,8 +123,9 @@ impl ClearanceModel {
             if is_apart(a, b, most) || !counts(a, b) {
                 continue;
             }
+            let reduced_by_m = self.reduced_by_m(a, b);
             for parts in self.part_pairs(a, b) {
-                levels = lowered(levels, |most| least_m((a, b), parts, most));
+                levels = lowered(levels, reduced_by_m, |most| least_m((a, b), parts, most));
             }
         }
         // Obstacles always count.
@@ -133,7 +135,7 @@ impl ClearanceModel {
                 let placed = part.place(&poses);
                 for b in self.crowd.obstacles_near(leaves, &placed, |gap| is_enough(gap, most)) {
                     for r in 0..self.bodies[b].outer().len() {
-                        levels = lowered(levels, |most| least_m((*a, b), (p, r), most));
+                        levels = lowered(levels, 0.0, |most| least_m((*a, b), (p, r), most));
                     }
                 }
             }
@@ -142,10 +144,12 @@ impl ClearanceModel {
     }
 }
 
-/// The levels of an ascending list that a distance keeps; it is measured for the last one.
-fn lowered(levels: &[f64], distance_m: impl Fn(f64) -> f64) -> &[f64] {
+/// The levels of an ascending list that the distance of a pair keeps, which need not keep all of them; it is measured for the last one.
+fn lowered(levels: &[f64], reduced_by_m: f64, distance_m: impl Fn(f64) -> f64) -> &[f64] {
     let Some(&most) = levels.last() else { return levels };
     let distance_m = distance_m(most);
-    let kept = levels.iter().rposition(|level| is_clear(distance_m, *level));
+    let kept = levels
+        .iter()
+        .rposition(|level| is_clear(distance_m, required_of(*level, reduced_by_m)));
     &levels[..kept.map_or(0, |last| last + 1)]
 }

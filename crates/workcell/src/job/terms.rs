@@ -130,6 +130,18 @@ impl JobTerms {
         }
         self.check_tool()?;
         check_workcell(&self.workcell, self.plates.len())?;
+        for reduced in &self.workcell.reduced_clearances {
+            let (name, by_m) = ("workcell.reduced_clearances.by_m", reduced.by_m);
+            positive(name, by_m)?;
+            if by_m >= wanted.clearance_m {
+                let expected = format!("below requirements.clearance_m, {}", wanted.clearance_m);
+                return Err(JobError::Number {
+                    name,
+                    expected,
+                    found: by_m,
+                });
+            }
+        }
         self.check_dry_run()?;
         let count = self.plates.len();
         if !(1..=MAX_PLATES).contains(&count) {

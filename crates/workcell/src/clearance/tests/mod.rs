@@ -7,6 +7,7 @@ use crate::clearance::part::Part;
 use crate::clearance::*;
 use crate::fixtures::{kitchen_plate, kitchen_tool, workcell};
 use crate::tool::{StraightTool, Tool};
+use crate::workcell::ReducedClearance;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
@@ -56,6 +57,58 @@ fn segment_distance(a: [Point3<f64>; 2], b: [Point3<f64>; 2]) -> f64 {
         if best_t(m) < best_t(n) { high = n } else { low = m }
     }
     best_t((low + high) / 2.0)
+}
+
+/// A pair that must keep less than all others, and the pairs that cannot.
+#[test]
+fn a_reduced_clearance_counts_for_its_pair_alone() {
+    let robot = RobotModel::irb120().unwrap();
+    let plates = [kitchen_plate([0.3, 0.1])];
+    let q = JointVector::from([0.0, 0.0, 0.0, 0.0, FRAC_PI_2, 0.0]);
+    let model = |pairs: &[[&str; 2]], by_m: f64| {
+        let mut world = workcell(&robot, kitchen_tool());
+        let reduced = |pair: &[&str; 2]| ReducedClearance {
+            pair: pair.map(str::to_owned),
+            by_m,
+        };
+        world.reduced_clearances = pairs.iter().map(reduced).collect();
+        ClearanceModel::new(&robot, &world, &plates)
+    };
+    let plain = model(&[], 0.0).unwrap();
+    let near = plain.smallest(&q, &[]).unwrap();
+    let (pair, own_m) = ([&*near.a, &*near.b], near.distance_m);
+    let next_m = plain.too_near(&q, &[], 1.0)[1].distance_m;
+    assert!(next_m > own_m + 2e-3, "{own_m} {next_m}");
+    let reduced = model(&[[pair[1], pair[0]]], 2e-3).unwrap();
+    for (required_m, kept) in [(own_m + 1.9e-3, true), (own_m + 2.1e-3, false)] {
+        assert_eq!(reduced.keeps_clearance(&q, required_m), kept);
+        assert_eq!(reduced.too_near(&q, &[], required_m).is_empty(), kept);
+        assert_eq!(reduced.nearest_washing(&q, 0, required_m).is_none(), kept);
+        assert!(!plain.keeps_clearance(&q, required_m));
+    }
+    assert_eq!(reduced.smallest(&q, &[]).unwrap().reduced_by_m, 2e-3);
+    // Most of the requirement may be waived, contact never.
+    assert!(!reduced.keeps_clearance(&q, next_m + 1e-3));
+    assert_eq!(reduced.nearest(&q, &[]).unwrap().distance_m, next_m);
+    for (pairs, words) in [
+        (
+            vec![["handle", "floor"]],
+            "one of them is not a body of the arm or its tool",
+        ),
+        (
+            vec![["link_3", "plate 1"]],
+            "one of them is not a body of the arm or its tool",
+        ),
+        (
+            vec![["link_3", "elbow"]],
+            "one of them is not a body of the arm or its tool",
+        ),
+        (vec![["link_3", "link_4"]], "the pair is not checked"),
+        (vec![pair, [pair[1], pair[0]]], "it is stated twice"),
+    ] {
+        let said = model(&pairs, 2e-3).unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 proptest! {
