@@ -9,6 +9,7 @@ mod ik_generalized;
 mod ik_path;
 mod ik_spread;
 mod trig_accuracy;
+mod urdf_collada;
 mod urdf_loads;
 mod urdf_meshes;
 mod urdf_refused;

@@ -249,21 +249,6 @@ fn finds_packages_above_the_urdf_and_where_they_are_installed() {
     }
 }
 
-/// Collada is refused with the command that converts the file.
-#[test]
-fn collada_is_refused_with_a_command() {
-    let root = TempDir::new().unwrap();
-    std::fs::write(root.path().join("part.dae"), "<COLLADA/>").unwrap();
-    let source = MeshSource::new(&[], Some(root.path()));
-    let message = RobotModel::from_urdf(&with_mesh("filename=\"part.dae\""), &source)
-        .unwrap_err()
-        .to_string();
-    let [dae, stl] = ["part.dae", "part.stl"].map(|name| format!("'{}'", root.path().join(name).display()));
-    for word in ["link 'link_6'", "pip install trimesh pycollada", &dae, &stl] {
-        assert!(message.contains(word), "no '{word}' in: {message}");
-    }
-}
-
 #[test]
 fn reads_meshes_by_relative_and_absolute_paths() {
     let folder = TempDir::new().unwrap();
@@ -324,7 +309,7 @@ fn names_a_broken_mesh() {
     too_few_stated[80] = 1;
     let mut billions_stated = binary.clone();
     billions_stated[80..84].fill(0xff);
-    let cases: [(&str, Vec<u8>, &str); 14] = [
+    let cases: [(&str, Vec<u8>, &str); 15] = [
         ("part.stl", vec![], "0 bytes"),
         ("part.stl", binary[..60].to_vec(), "60 bytes"),
         (
@@ -348,7 +333,8 @@ fn names_a_broken_mesh() {
         ("part.obj", b"v 0 0 0\nv 1 0\n".to_vec(), "line 2"),
         ("part.obj", b"v 0 0 zero\n".to_vec(), "line 1: 'zero'"),
         ("part.obj", vec![], "0 vertices"),
-        ("part.dae", b"<COLLADA/>".to_vec(), "convert it to STL or OBJ"),
+        ("part.dae", b"<COLLADA/>".to_vec(), "0 vertices"),
+        ("part.step", b"?".to_vec(), "convert it to STL, OBJ or Collada (.dae)"),
         ("part", b"?".to_vec(), "format ''"),
     ];
     for (name, bytes, what) in cases {

@@ -119,7 +119,7 @@ fn names_unreadable_visuals_without_failing() {
             "part.dae",
             dae.to_owned(),
             "",
-            "format 'dae' is not handled; convert it to STL or OBJ",
+            "its <scene> does not say which visual scene is shown",
         ),
         (
             "part.obj",

@@ -368,7 +368,7 @@ fn rejects_invalid_meshes_by_obstacle_and_file() {
             "",
             "coordinates must be numbers",
         ),
-        ("a.dae", b"<COLLADA/>", "", "format 'dae' is not handled"),
+        ("a.dae", b"<COLLADA/>", "", "no triangles"),
         ("cut.stl", b"solid a\nfacet\nvertex 0 0 0\n", "", "cut off"),
     ];
     for (file, content, more, words) in cases {

@@ -1,10 +1,10 @@
 //! Meshes, found through package folders. Collision meshes are read as vertices (their convex hull counts), visuals and meshes whose
 //! surface counts as triangles.
 //!
-//! Vertices of STL and OBJ files. Their convex hull counts, so faces, normals and materials are not read; errors that could make the hull
-//! smaller than the part (a cut file, a wrong count) are refused.
+//! Normals and materials are not read; errors that could make the hull smaller than the part (a cut file, a wrong count) are refused.
 
 use crate::geometry::Triangle;
+use crate::urdf::collada;
 use crate::urdf::error::UrdfError;
 use crate::urdf::files::Files;
 use crate::urdf::tree::{LARGEST_LENGTH_M, length};
@@ -15,6 +15,9 @@ use std::path::{Path, PathBuf};
 
 /// Greatest length of a mesh file \[bytes\].
 const MAX_BYTES: u64 = 64 << 20;
+
+/// Greatest number of triangles of a Collada mesh whose hull counts: its parts may be shown many times.
+const MAX_HULL: usize = 2_000_000;
 
 /// Greatest number of triangles of a mesh whose surface counts.
 const MAX_SOLID: usize = 200_000;
@@ -80,6 +83,7 @@ impl MeshSource {
         let points = match file.format()? {
             Format::Stl => stl(file.bytes()),
             Format::Obj => obj(file.bytes()),
+            Format::Collada => collada::corners(file.bytes(), MAX_HULL).map(|corners| distinct(corners.into_iter())),
         };
         let points = file.scaled(points.map_err(|detail| file.wrong(detail))?)?;
         if points.len() < 4 {
@@ -101,6 +105,7 @@ impl MeshSource {
         let corners = match file.format()? {
             Format::Stl => triangles::stl(file.bytes()),
             Format::Obj => triangles::obj(file.bytes(), most),
+            Format::Collada => collada::corners(file.bytes(), most),
         };
         let corners = corners.map_err(|detail| file.wrong(detail))?;
         let count = corners.len() / 3;
@@ -122,12 +127,13 @@ impl MeshSource {
     /// from inside.
     ///
     /// # Errors
-    /// [`MeshError`]: the file is not found, not STL or OBJ, damaged, has no triangles or too many, or coordinates that are not lengths.
+    /// [`MeshError`]: the file is not found, not STL, OBJ or Collada, damaged, has no triangles or too many, or coordinates that are not lengths.
     pub fn solid(&self, name: &str, scale: [f64; 3]) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
         let file = self.open(name, scale)?;
         let corners = match file.format()? {
             Format::Stl => triangles::stl(&file.bytes),
             Format::Obj => triangles::obj(&file.bytes, MAX_SOLID),
+            Format::Collada => collada::corners(&file.bytes, MAX_SOLID),
         };
         let corners = corners.map_err(|detail| file.wrong(detail))?;
         let count = corners.len() / 3;
@@ -253,11 +259,11 @@ fn folders_above(folder: &Path) -> impl Iterator<Item = PathBuf> {
     folder.ancestors().map(Path::to_path_buf).chain(beyond)
 }
 
-/// Formats of meshes. Collada is not supported: the available readers panic at a wrong index, and put parts elsewhere than the file's nodes
-/// say.
+/// Formats of meshes.
 enum Format {
     Stl,
     Obj,
+    Collada,
 }
 
 /// Reason that a mesh was not read.
@@ -348,17 +354,10 @@ impl MeshFile {
         match extension.to_lowercase().as_str() {
             "stl" => Ok(Format::Stl),
             "obj" => Ok(Format::Obj),
-            "dae" => {
-                let stl = self.path.with_extension("stl");
-                Err(self.wrong(format!(
-                    "format 'dae' is not handled; convert it to STL or OBJ and name that in the URDF: \
-                     pip install trimesh pycollada && python3 -c \"import sys, trimesh; \
-                     trimesh.load_scene(sys.argv[1]).convert_units('meters').to_mesh().export(sys.argv[2])\" '{}' '{}'",
-                    self.path.display(),
-                    stl.display()
-                )))
-            }
-            other => Err(self.wrong(format!("format '{other}' is not handled; convert it to STL or OBJ"))),
+            "dae" => Ok(Format::Collada),
+            other => Err(self.wrong(format!(
+                "format '{other}' is not handled; convert it to STL, OBJ or Collada (.dae)"
+            ))),
         }
     }
 

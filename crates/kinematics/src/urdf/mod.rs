@@ -7,6 +7,7 @@
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
+mod collada;
 mod error;
 pub mod file;
 mod files;

@@ -34,7 +34,7 @@ macro_rules! with_shape_keys {
                 concat!($section, ".mesh"),
                 "",
                 $crate::keys::key::Domain::Path,
-                "STL or OBJ file of a mesh, in metres unless mesh_scale says otherwise; relative to the scenario's folder, or `package://` in \
+                "STL, OBJ or Collada file of a mesh, in metres unless mesh_scale or the file says otherwise; relative to the scenario's folder, or `package://` in \
                  robot.package_path.",
             ),
             $crate::keys::key::key(
