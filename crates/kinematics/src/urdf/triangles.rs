@@ -1,4 +1,4 @@
-//! Triangles of STL and OBJ files, as corners in a row. Errors that could leave a part out (a cut file, a wrong count, an index of no
+//! Triangles of STL and OBJ files, as corners in a row (Collada: `collada.rs`). Errors that could leave a part out (a cut file, a wrong count, an index of no
 //! vertex) are refused; normals, textures and materials are not read.
 
 use nalgebra::Point3;
