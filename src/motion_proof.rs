@@ -358,7 +358,16 @@ fn assumptions(
     let mut all = vec![
         controller_words(motion.interpolation, timed).to_owned(),
         "The motion begins at the first point; how the arm gets there is not judged.".to_owned(),
-        "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull.".to_owned(),
+        format!(
+            "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull{}.",
+            match arm.split_links() {
+                [] => String::new(),
+                split => format!(
+                    ", but for these, which count as convex parts that enclose it: {}",
+                    split.join(", ")
+                ),
+            }
+        ),
     ];
     let fixed: BTreeMap<_, _> = arm.fixed_joints().iter().chain(&motion.fixed).collect();
     if !fixed.is_empty() {

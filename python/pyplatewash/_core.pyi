@@ -95,6 +95,7 @@ class Robot:
         package_path: _Path | Sequence[_Path] | None = None,
         folder: _Path | None = None,
         visual_shapes: bool = False,
+        split_links: Sequence[str] | None = None,
     ) -> Robot: ...
     @classmethod
     def load(
@@ -104,6 +105,7 @@ class Robot:
         srdf: _Path | None = None,
         package_path: _Path | Sequence[_Path] | None = None,
         visual_shapes: bool = False,
+        split_links: Sequence[str] | None = None,
     ) -> Robot: ...
     @property
     def name(self) -> str: ...
@@ -179,6 +181,7 @@ class Robot:
         package_path: Sequence[_Path] | None,
         folder: _Path | None,
         visual_shapes: bool,
+        split_links: Sequence[str] | None,
     ) -> Robot: ...
     def _repr_html_(self) -> str: ...
     def __copy__(self) -> Robot: ...

@@ -55,6 +55,9 @@ pub struct Options {
     /// Take the visuals of links without collision shapes as such, meshes as convex hulls
     #[arg(long, global = true)]
     pub visual_shapes: bool,
+    /// Links whose meshes count as a few convex parts that enclose them, not as their convex hulls
+    #[arg(long, global = true, value_name = "LINK,…", value_delimiter = ',')]
+    pub split_links: Vec<String>,
     /// Link after joint 6 that carries the tool, and its axis along which the tool leaves it (z if left out) [default: tool0, or what the description tells]
     #[arg(long, global = true, value_name = "LINK[:AXIS]")]
     pub tool_mount: Option<String>,
@@ -115,6 +118,7 @@ impl Options {
                     ("--package-path", !self.package_path.is_empty()),
                     ("--srdf", self.srdf.is_some()),
                     ("--visual-shapes", self.visual_shapes),
+                    ("--split-links", !self.split_links.is_empty()),
                     ("--xacro-arg", !self.xacro_arg.is_empty()),
                 ];
                 if let Some((option, _)) = needs.into_iter().find(|(_, is_given)| *is_given) {
@@ -177,6 +181,7 @@ impl Options {
             srdf: self.srdf.clone(),
             package_path: self.package_path.clone(),
             visual_shapes: self.visual_shapes,
+            split_links: self.split_links.clone(),
             ..section
         }
     }
@@ -364,7 +369,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ("simulate tune view figures export dry-run compare", "seed", PLAN_STATES),
     (
         "align",
-        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes tool_mount out",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount out",
         "align works from the points of its file alone, without a scenario or a seed, and writes no file; leave it out",
     ),
     (
@@ -374,7 +379,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "study",
-        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes tool_mount",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount",
         "the study file states its scenarios and seeds; leave it out",
     ),
     (
@@ -384,12 +389,12 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "scenario",
-        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes tool_mount out",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount out",
         "scenario prints a shipped scenario as it is, `platewash scenario NAME`; leave it out",
     ),
     (
         "reproduce",
-        "scenario urdf arm xacro_arg package_path srdf visual_shapes tool_mount",
+        "scenario urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount",
         "reproduce measures the paper's own scenarios and arm; leave it out",
     ),
 ];

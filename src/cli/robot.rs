@@ -60,6 +60,9 @@ struct LinkRow {
     /// Number of the joint that moves it; 0 for the base.
     body: usize,
     collision_shapes: usize,
+    /// True if convex parts that enclose a mesh are among these shapes.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    is_split: bool,
     visuals: usize,
     has_mass: bool,
 }
@@ -123,7 +126,7 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
         urdf_sha256: robot.sha256().to_owned(),
         joints: (0..AXES).map(|i| JointRow::new(&robot, i)).collect(),
         assumed_acceleration_rad_s2: scenario.limits.joint_acceleration_rad_s2,
-        links: robot.links().iter().map(LinkRow::new).collect(),
+        links: robot.links().iter().map(|link| LinkRow::new(&robot, link)).collect(),
         no_tool_mount: tool_mount.as_ref().err().cloned(),
         tool_mount: tool_mount
             .ok()
@@ -139,11 +142,12 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
 }
 
 impl LinkRow {
-    fn new(link: &Link) -> Self {
+    fn new(robot: &RobotModel, link: &Link) -> Self {
         Self {
             name: link.name.clone(),
             body: link.frame.body(),
             collision_shapes: link.collision.len(),
+            is_split: robot.split_links().contains(&link.name),
             visuals: link.visuals.len(),
             has_mass: link.inertial.is_some(),
         }
@@ -304,11 +308,13 @@ impl Answer {
                 0 => "–".to_owned(),
                 joint => format!("joint {joint}"),
             };
+            let split = if link.is_split { "split mesh: " } else { "" };
+            let shapes = format!("{split}{}", link.collision_shapes);
             let mass = if link.has_mass { "stated" } else { "–" };
             let _ = writeln!(
                 text,
-                "{:<width$} {moved_by:>8} {:>16} {:>7}  {mass}",
-                link.name, link.collision_shapes, link.visuals
+                "{:<width$} {moved_by:>8} {shapes:>16} {:>7}  {mass}",
+                link.name, link.visuals
             );
         }
         text

@@ -213,3 +213,54 @@ fn visual_shapes_are_taken_by_name() {
     run(&["verify", "out/plan.json"], &srdf).refused(2, &["the plan is for the arm"]);
     platewash(dir, &["plan", "--visual-shapes"]).refused(2, &["--urdf"]);
 }
+
+/// The IRB 120 with a hand of two fingers as its last link: without the key the gap between them is full. The verdict, `robot` and
+/// `prove-motion` say which links are split; verify takes them from the scenario or by the option.
+#[test]
+fn links_are_split_by_name() {
+    let folder = folder();
+    let dir = folder.path();
+    let mut fingers = String::new();
+    for (k, y) in [-0.02, 0.012].into_iter().enumerate() {
+        for corner in 0..8 {
+            let at = |axis: usize, low: f64, size: f64| if corner >> axis & 1 == 1 { low + size } else { low };
+            fingers += &format!("v {} {} {}\n", at(0, -0.01, 0.01), at(1, y, 0.008), at(2, -0.02, 0.04));
+        }
+        for [a, b, c, d] in [
+            [1, 3, 4, 2],
+            [5, 6, 8, 7],
+            [1, 2, 6, 5],
+            [3, 7, 8, 4],
+            [1, 5, 7, 3],
+            [2, 4, 8, 6],
+        ] {
+            fingers += &format!("f {} {} {} {}\n", a + 8 * k, b + 8 * k, c + 8 * k, d + 8 * k);
+        }
+    }
+    std::fs::write(dir.join("hand.obj"), fingers).unwrap();
+    let text = platewash::kinematics::irb120::IRB120_URDF;
+    let (before, after) = text.split_at(text.find("<collision name=\"link_6_sphere_1\">").unwrap());
+    let (_, after) = after.split_once("</collision>").unwrap();
+    let mesh = "<collision><geometry><mesh filename=\"hand.obj\"/></geometry></collision>";
+    std::fs::write(dir.join("arm.urdf"), format!("{before}{mesh}{after}")).unwrap();
+    std::fs::write(dir.join("arm.srdf"), platewash::kinematics::irb120::IRB120_SRDF).unwrap();
+    let arm = ["--urdf", "arm.urdf", "--srdf", "arm.srdf"];
+    let run = |verb: &[&str], more: &[&str]| platewash(dir, &[verb, &arm[..], more].concat());
+    let split = ["--split-links", "link_6"];
+    assert!(run(&["robot"], &split).done().stdout.contains("split mesh: 2"));
+    assert!(!run(&["robot"], &[]).done().stdout.contains("split"));
+    run(&["robot"], &["--split-links", "link_6,link_9"]).refused(2, &["arm.urdf", "link_9", "no such link", "link_6"]);
+    run(&["robot"], &["--split-links", "link_3"]).refused(2, &["link_3", "mesh", "robot.split_links"]);
+
+    let kitchen = platewash(dir, &["scenario", "kitchen"]).done().stdout;
+    let robot = "[robot]\nurdf = \"arm.urdf\"\nsrdf = \"arm.srdf\"\nsplit_links = [\"link_6\"]\n";
+    std::fs::write(dir.join("own.toml"), kitchen.replacen("[robot]\n", robot, 1)).unwrap();
+    platewash(dir, &["run", "--scenario", "own.toml", "--quiet", "--out", "out"]).done();
+    platewash(dir, &["verify", "out/plan.json", "--against", "own.toml"]).done();
+    run(&["verify", "out/plan.json"], &split).done();
+    run(&["verify", "out/plan.json"], &[]).refused(2, &["the plan is for the arm"]);
+
+    let broken = kitchen.replacen("[robot]\n", "[robot]\nsplit_links = [\"link_6\"]\n", 1);
+    std::fs::write(dir.join("own.toml"), broken).unwrap();
+    platewash(dir, &["validate", "--scenario", "own.toml"]).refused(2, &["robot.split_links", "robot.urdf"]);
+}

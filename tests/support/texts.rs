@@ -94,6 +94,9 @@ fn value_of(domain: Domain) -> BoxedStrategy<Value> {
         Domain::Paths => prop::collection::vec("[a-z/\\\\'\"\n]{0,6}", 0..4)
             .prop_map(Value::from)
             .boxed(),
+        Domain::Names => prop::collection::vec("[a-z_\"'\\\\é]{1,6}", 0..4)
+            .prop_map(Value::from)
+            .boxed(),
         Domain::Word(words) => prop::sample::select(words).prop_map(Value::from).boxed(),
         Domain::Bool => any::<bool>().prop_map(Value::from).boxed(),
         Domain::Integer(least, most) => prop_oneof![least..=most, least..=most.min(least + 60)]

@@ -253,6 +253,7 @@ fn id(scenario: &Scenario) -> String {
         &robot.srdf,
         &robot.package_path,
         robot.visual_shapes,
+        &robot.split_links,
     );
     let shown = scenario.limits.joint_acceleration_rad_s2;
     sha256_hex(format!("{named:?} {written:?} {shown:?}").as_bytes())

@@ -62,6 +62,8 @@ pub struct RobotModel {
     pub(crate) visual_findings: Vec<VisualFinding>,
     /// Names of the links whose visuals stand for collision shapes.
     pub(crate) of_visuals: Vec<String>,
+    /// Names of the links whose meshes are split into convex parts.
+    pub(crate) split: Vec<String>,
     pub(crate) fixed: FixedJoints,
 }
 
@@ -82,8 +84,8 @@ impl RobotModel {
         &self.name
     }
 
-    /// SHA-256 of the URDF text and of the vertices of its collision meshes, in lower-case hexadecimal; of the text alone if there are no
-    /// meshes.
+    /// SHA-256 of the URDF text and of the vertices of its collision meshes or their parts, in lower-case hexadecimal; of the text alone if
+    /// there are no meshes.
     #[must_use]
     pub fn sha256(&self) -> &str {
         &self.sha256
@@ -127,10 +129,18 @@ impl RobotModel {
         &self.of_visuals
     }
 
-    /// Names of the links whose shapes are convex hulls of meshes.
+    /// Names of the links that count as convex parts that enclose their meshes
+    /// ([`MeshSource::with_split_links`](crate::urdf::MeshSource::with_split_links)).
+    #[must_use]
+    pub fn split_links(&self) -> &[String] {
+        &self.split
+    }
+
+    /// Names of the links whose shapes are convex hulls of whole meshes.
     pub fn links_with_hulls(&self) -> impl Iterator<Item = &str> {
         let is_hull = |primitive: &Primitive| matches!(primitive.shape, Shape::Hull { .. });
-        let with_hulls = self.links.iter().filter(move |link| link.collision.iter().any(is_hull));
+        let has_hulls = move |link: &&Link| link.collision.iter().any(is_hull) && !self.split.contains(&link.name);
+        let with_hulls = self.links.iter().filter(has_hulls);
         with_hulls.map(|link| link.name.as_str())
     }
 

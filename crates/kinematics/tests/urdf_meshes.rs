@@ -3,12 +3,13 @@
 use crate::urdf::{edited, link};
 use nalgebra::Point3;
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::urdf::{Files, MeshSource};
+use platewash_kinematics::urdf::{Files, MeshSource, MeshSplitter};
 use platewash_kinematics::{RobotModel, UrdfError};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tempfile::TempDir;
 
 /// Corners of a tetrahedron \[m\], exact in single precision.
@@ -127,6 +128,78 @@ fn reads_ascii_and_binary_stl_by_contents() {
 #[test]
 fn reads_obj_without_its_materials() {
     assert_points(&read("part.obj", &obj(), "").unwrap(), &CORNERS, [1.0; 3]);
+}
+
+/// Makes a part of each triangle, with a corner more; of three triangles at most.
+#[derive(Debug)]
+struct ByTriangle(usize);
+
+impl MeshSplitter for ByTriangle {
+    fn split(&self, triangles: &[[Point3<f64>; 3]]) -> Result<Vec<Vec<Point3<f64>>>, String> {
+        let part = |t: &[Point3<f64>; 3]| [&t[..], &[Point3::new(0.1, 0.1, 0.1)]].concat();
+        match triangles.len() <= self.0 {
+            true => Ok(triangles.iter().map(part).collect()),
+            false => Err("it is too fine".to_owned()),
+        }
+    }
+}
+
+#[test]
+fn meshes_of_links_are_split_on_request() {
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("part.stl"), binary_stl("part", &tetrahedron())).unwrap();
+    let text = with_mesh("filename=\"part.stl\" scale=\"2 2 2\"");
+    let source = MeshSource::new(&[], Some(folder.path()));
+    let split = |links: &[&str], most: usize| {
+        let links: Vec<_> = links.iter().map(|name| (*name).to_owned()).collect();
+        let source = source.clone().with_split_links(&links, Arc::new(ByTriangle(most)));
+        RobotModel::from_urdf(&text, &source)
+    };
+    let plain = RobotModel::from_urdf(&text, &source).unwrap();
+    assert_eq!(split(&[], 9).unwrap(), plain);
+    assert_eq!((plain.split_links().len(), plain.links_with_hulls().count()), (0, 1));
+    let parts = split(&["link_6"], 9).unwrap();
+    assert_eq!(
+        (parts.split_links(), parts.links_with_hulls().count()),
+        (&["link_6".to_owned()][..], 0)
+    );
+    for (before, after) in plain.links().iter().zip(parts.links()) {
+        let (a, b) = (&before.collision, &after.collision);
+        if before.name == "link_6" {
+            assert_eq!((a.len(), b.len()), (1, FACES.len()));
+            assert!(b.iter().all(|part| part.pose == a[0].pose));
+            let (Shape::Hull { points }, [x, y, z]) = (&b[0].shape, CORNERS[FACES[0][1]]) else {
+                panic!()
+            };
+            assert_eq!(points[1], Point3::new(x, y, z).cast::<f64>() * 2.0);
+        } else {
+            assert_eq!(before, after);
+        }
+    }
+    assert_ne!(plain.sha256(), parts.sha256());
+    for (links, most, words) in [
+        (
+            ["link_6", "link_9"],
+            9,
+            "link 'link_9' cannot be split: the description has no such link; links with meshes: link_6; leave it out",
+        ),
+        (
+            ["link_5", "link_6"],
+            9,
+            "link 'link_5' cannot be split: none of its collision shapes is a mesh; leave it out",
+        ),
+        (
+            ["link_6", "link_6"],
+            3,
+            "link 'link_6' cannot be split: mesh 'part.stl': it is too fine; leave it out",
+        ),
+    ] {
+        let error = split(&links, most).unwrap_err().to_string();
+        assert!(
+            error.starts_with(words) && error.contains("robot.split_links"),
+            "{error}"
+        );
+    }
 }
 
 /// The material file is never opened: a broken one does no harm.

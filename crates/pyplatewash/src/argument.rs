@@ -136,6 +136,19 @@ pub fn paths(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<PathB
     each(name, value, "a path or a list of paths", path)
 }
 
+/// A list of names, empty if left out.
+///
+/// # Errors
+/// `InputTypeError` for what is no list of texts, a single text too; `InputError` for lone surrogates.
+pub fn names(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+    let needed = "a list of names";
+    match value {
+        None => Ok(Vec::new()),
+        Some(value) if value.is_instance_of::<PyString>() => Err(wrong_type(name, value, needed)),
+        Some(value) => each(name, value, needed, |name, item| text(name, item, "a name")),
+    }
+}
+
 /// The items of a sequence, each read by `read` under its own name.
 ///
 /// # Errors

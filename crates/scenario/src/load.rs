@@ -116,8 +116,13 @@ impl Scenario {
             );
         }
         self.check_tool()?;
-        if self.robot.urdf.is_none() && (self.robot.srdf.is_some() || !self.robot.package_path.is_empty()) {
-            return conflict("robot.urdf", "robot.srdf and robot.package_path need a robot.urdf");
+        let robot = &self.robot;
+        let is_described = robot.srdf.is_some() || !robot.package_path.is_empty() || !robot.split_links.is_empty();
+        if robot.urdf.is_none() && is_described {
+            return conflict(
+                "robot.urdf",
+                "robot.srdf, robot.package_path and robot.split_links need a robot.urdf",
+            );
         }
         if self.job.program == Program::Paper && self.job.order == OrderRule::Fastest {
             return conflict(

@@ -18,8 +18,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Most arms that are kept.
 const MOST_ARMS: usize = 64;
 
-/// The files of an arm: URDF, SRDF, folders of its meshes.
-type ArmFiles = (Option<PathBuf>, Option<PathBuf>, Vec<PathBuf>);
+/// What an arm is made of: URDF, SRDF, folders of its meshes, whether visuals are shapes, links that are split.
+type ArmSource = (Option<PathBuf>, Option<PathBuf>, Vec<PathBuf>, bool, Vec<String>);
 
 /// A scenario's layout, planned and proved, with an arm that was loaded for it.
 ///
@@ -42,7 +42,7 @@ pub struct Resolver {
     study: Arc<Study>,
     /// Meshes that were cut, for all scenarios.
     solids: Solids,
-    arms: Mutex<HashMap<ArmFiles, Arc<RobotModel>>>,
+    arms: Mutex<HashMap<ArmSource, Arc<RobotModel>>>,
     last: Mutex<Option<CachedScenario>>,
     /// [`judged`]; a test has another.
     judge: Judge,
@@ -132,9 +132,15 @@ impl Resolver {
 
     fn arm(&self, scenario: &Scenario) -> Result<Arc<RobotModel>, Failure> {
         let robot = &scenario.robot;
-        let files = (robot.urdf.clone(), robot.srdf.clone(), robot.package_path.clone());
+        let source = (
+            robot.urdf.clone(),
+            robot.srdf.clone(),
+            robot.package_path.clone(),
+            robot.visual_shapes,
+            robot.split_links.clone(),
+        );
         let locked = || self.arms.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(arm) = locked().get(&files) {
+        if let Some(arm) = locked().get(&source) {
             return Ok(arm.clone());
         }
         let arm = scenario.arm()?;
@@ -142,7 +148,7 @@ impl Resolver {
         if arms.len() >= MOST_ARMS {
             arms.clear();
         }
-        Ok(arms.entry(files).or_insert(arm).clone())
+        Ok(arms.entry(source).or_insert(arm).clone())
     }
 }
 

@@ -152,6 +152,11 @@ pub enum UrdfError {
     /// A mesh cannot be read.
     #[error("link '{link}': mesh '{file}' cannot be read: {detail}")]
     Mesh { link: String, file: String, detail: String },
+    /// A link cannot be split into parts.
+    #[error(
+        "link '{link}' cannot be split: {why}; leave it out of the links to split (robot.split_links, --split-links)"
+    )]
+    Split { link: String, why: String },
 }
 
 /// Greatest number of names that a message lists.

@@ -3,7 +3,7 @@
 //!
 //! Normals and materials are not read; errors that could make the hull smaller than the part (a cut file, a wrong count) are refused.
 
-use crate::geometry::Triangle;
+use crate::geometry::{Shape, Triangle};
 use crate::urdf::collada;
 use crate::urdf::error::UrdfError;
 use crate::urdf::files::Files;
@@ -11,7 +11,9 @@ use crate::urdf::tree::{LARGEST_LENGTH_M, length};
 use crate::urdf::triangles;
 use nalgebra::Point3;
 use std::collections::BTreeSet;
+use std::fmt::Debug;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Greatest length of a mesh file \[bytes\].
 const MAX_BYTES: u64 = 64 << 20;
@@ -28,13 +30,24 @@ const MAX_MANIFEST: u64 = 1 << 20;
 /// Number of folders above the working folder in which packages are looked for.
 const LEVELS_ABOVE: usize = 6;
 
-/// Folders in which mesh files are looked for.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+/// Cuts meshes into convex parts.
+pub trait MeshSplitter: Debug + Send + Sync {
+    /// Returns the corners of convex parts that together enclose the triangles \[m\].
+    ///
+    /// # Errors
+    /// Reason that the triangles have no such parts.
+    fn split(&self, triangles: &[[Point3<f64>; 3]]) -> Result<Vec<Vec<Point3<f64>>>, String>;
+}
+
+/// Folders in which mesh files are looked for, and what becomes of the meshes.
+#[derive(Debug, Clone, Default)]
 pub struct MeshSource {
     package_paths: Vec<PathBuf>,
     urdf_folder: Option<PathBuf>,
     files: Files,
     visual_shapes: bool,
+    split_links: Vec<String>,
+    splitter: Option<Arc<dyn MeshSplitter>>,
 }
 
 impl MeshSource {
@@ -52,8 +65,7 @@ impl MeshSource {
         Self {
             package_paths: package_paths.to_vec(),
             urdf_folder: urdf_folder.map(Path::to_path_buf),
-            files: Files::default(),
-            visual_shapes: false,
+            ..Self::default()
         }
     }
 
@@ -66,6 +78,37 @@ impl MeshSource {
     /// True where links without collision shapes take their visuals as such.
     pub(crate) fn takes_visual_shapes(&self) -> bool {
         self.visual_shapes
+    }
+
+    /// Returns the source for descriptions of which some links count as convex parts that enclose their meshes, and not as the meshes'
+    /// convex hulls.
+    #[must_use]
+    pub fn with_split_links(self, links: &[String], splitter: Arc<dyn MeshSplitter>) -> Self {
+        Self {
+            split_links: links.to_vec(),
+            splitter: Some(splitter),
+            ..self
+        }
+    }
+
+    /// Names of the links whose meshes are cut into parts.
+    pub(crate) fn split_links(&self) -> &[String] {
+        &self.split_links
+    }
+
+    /// Returns the shapes of a link's mesh: its hull, or its parts.
+    pub(crate) fn shapes(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Shape>, UrdfError> {
+        let is_split = self.split_links.iter().any(|split| split == link);
+        let Some(splitter) = self.splitter.as_ref().filter(|_| is_split) else {
+            let points = self.vertices(link, name, scale)?;
+            return Ok(vec![Shape::Hull { points }]);
+        };
+        let triangles = self.solid(name, scale).map_err(|error| error.of(link))?;
+        let parts = splitter.split(&triangles).map_err(|why| UrdfError::Split {
+            link: link.to_owned(),
+            why: format!("mesh '{name}': {why}"),
+        })?;
+        Ok(parts.into_iter().map(|points| Shape::Hull { points }).collect())
     }
 
     /// Returns the source with files from elsewhere than the disk.

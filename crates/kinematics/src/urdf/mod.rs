@@ -21,13 +21,13 @@ mod triangles;
 pub use crate::urdf::error::UrdfError;
 pub use crate::urdf::files::{Files, HeldFiles};
 pub use crate::urdf::fixed::FixedJoints;
-pub use crate::urdf::mesh::{MeshError, MeshSource};
+pub use crate::urdf::mesh::{MeshError, MeshSource, MeshSplitter};
 pub use crate::urdf::scan::MAX_BYTES;
 pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
 
 use crate::AXES;
 use crate::fingerprint::sha256_hex;
-use crate::geometry::{Inertial, Shape};
+use crate::geometry::{Inertial, Primitive, Shape};
 use crate::model::{Frame, Joint, Link, RobotModel};
 use crate::rotation::RigidTransform;
 use crate::urdf::fixed::Fixed;
@@ -85,11 +85,14 @@ fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotMod
         .zip(&frames)
         .map(|(link, frame)| convert_link(link, *frame, meshes, &mut looks));
     let links = links.collect::<Result<Vec<_>, _>>()?;
+    shapes::check_split_links(&links, meshes)?;
     let of_visuals = tree.links.iter().filter(|link| shapes::takes_visuals(link, meshes));
     let of_visuals: Vec<_> = of_visuals.map(|link| link.name.clone()).collect();
+    let is_split = |link: &&Link| meshes.split_links().contains(&link.name);
+    let split: Vec<_> = links.iter().filter(is_split).map(|link| link.name.clone()).collect();
     Ok(RobotModel {
         name: robot.name.clone(),
-        sha256: fingerprint(text, &links, &of_visuals, &fixed.positions),
+        sha256: fingerprint(text, &links, [&of_visuals, &split], &fixed.positions),
         joints,
         limits,
         folded,
@@ -98,13 +101,15 @@ fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotMod
         disabled: None,
         visual_findings: looks.findings,
         of_visuals,
+        split,
         fixed: fixed.positions,
     })
 }
 
-/// Returns the SHA-256 of the text, followed by the vertices of its collision meshes, if any, as bytes of little-endian doubles in metres,
-/// by the names of the links whose visuals stand for collision shapes, and by names and positions of the joints that are fixed on request.
-fn fingerprint(text: &str, links: &[Link], of_visuals: &[String], fixed: &FixedJoints) -> String {
+/// Returns the SHA-256 of the text, followed by the vertices of its collision meshes, or of the parts of those that are split, if any, as
+/// bytes of little-endian doubles in metres, by the names of the links whose visuals stand for collision shapes, by those of the links that
+/// are split, with their numbers of shapes' vertices, and by names and positions of the joints that are fixed on request.
+fn fingerprint(text: &str, links: &[Link], [of_visuals, split]: [&Vec<String>; 2], fixed: &FixedJoints) -> String {
     let mut bytes = text.as_bytes().to_vec();
     for primitive in links.iter().flat_map(|link| &link.collision) {
         if let Shape::Hull { points } = &primitive.shape {
@@ -117,6 +122,14 @@ fn fingerprint(text: &str, links: &[Link], of_visuals: &[String], fixed: &FixedJ
             .iter()
             .flat_map(|name| format!("\nvisual shapes: {name}").into_bytes()),
     );
+    for link in links.iter().filter(|link| split.contains(&link.name)) {
+        let vertices = |primitive: &Primitive| match &primitive.shape {
+            Shape::Hull { points } => points.len(),
+            _ => 0,
+        };
+        let counts: Vec<_> = link.collision.iter().map(vertices).collect();
+        bytes.extend(format!("\nsplit: {} {counts:?}", link.name).into_bytes());
+    }
     for (name, position) in fixed {
         bytes.extend(name.bytes().chain(position.to_le_bytes()));
     }

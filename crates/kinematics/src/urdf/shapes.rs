@@ -7,6 +7,7 @@
 //! Visuals of links have no effect on results. A visual that cannot be read is left out, by name, and the arm loads all the same.
 
 use crate::geometry::{Primitive, Shape, Visual, VisualFinding, VisualShape};
+use crate::model::Link;
 use crate::urdf::error::UrdfError;
 use crate::urdf::mesh::MeshSource;
 use crate::urdf::tree::{length, pose};
@@ -126,30 +127,41 @@ pub(crate) fn takes_visuals(link: &urdf_rs::Link, meshes: &MeshSource) -> bool {
 /// Returns all collision shapes of a link, in its frame.
 pub(crate) fn primitives(link: &urdf_rs::Link, meshes: &MeshSource) -> Result<Vec<Primitive>, UrdfError> {
     let at = format!("link '{}'", link.name);
-    let convert = |(origin, geometry): (&urdf_rs::Pose, &Geometry)| {
-        Ok(Primitive {
-            pose: pose(origin, &at)?,
-            shape: shape(geometry, &link.name, meshes)?,
-        })
-    };
-    let all: Result<Vec<_>, UrdfError> = if takes_visuals(link, meshes) {
-        link.visual.iter().map(|v| convert((&v.origin, &v.geometry))).collect()
+    let elements: Vec<_> = if takes_visuals(link, meshes) {
+        link.visual.iter().map(|v| (&v.origin, &v.geometry)).collect()
     } else {
-        link.collision
-            .iter()
-            .map(|c| convert((&c.origin, &c.geometry)))
-            .collect()
+        link.collision.iter().map(|c| (&c.origin, &c.geometry)).collect()
     };
-    Ok(merge(all?))
+    let mut all = Vec::with_capacity(elements.len());
+    for (origin, geometry) in elements {
+        let pose = pose(origin, &at)?;
+        let shapes = match stated(geometry, &link.name)? {
+            GeometryElement::Solid(shape) => vec![shape],
+            GeometryElement::Mesh(file, scale) => meshes.shapes(&link.name, file, scale)?,
+        };
+        all.extend(shapes.into_iter().map(|shape| Primitive { pose, shape }));
+    }
+    Ok(merge(all))
 }
 
-fn shape(geometry: &Geometry, link: &str, meshes: &MeshSource) -> Result<Shape, UrdfError> {
-    match stated(geometry, link)? {
-        GeometryElement::Solid(shape) => Ok(shape),
-        GeometryElement::Mesh(file, scale) => Ok(Shape::Hull {
-            points: meshes.vertices(link, file, scale)?,
-        }),
+/// Refuses a link to split that is none, or has no mesh.
+pub(crate) fn check_split_links(links: &[Link], meshes: &MeshSource) -> Result<(), UrdfError> {
+    let is_hull = |primitive: &Primitive| matches!(primitive.shape, Shape::Hull { .. });
+    for name in meshes.split_links() {
+        let why = match links.iter().find(|link| link.name == *name) {
+            Some(link) if link.collision.iter().any(is_hull) => continue,
+            Some(_) => "none of its collision shapes is a mesh".to_owned(),
+            None => {
+                let with_meshes = links.iter().filter(|link| link.collision.iter().any(is_hull));
+                let names: Vec<_> = with_meshes.map(|link| link.name.as_str()).collect();
+                let there = if names.is_empty() { "none" } else { &names.join(", ") };
+                format!("the description has no such link; links with meshes: {there}")
+            }
+        };
+        let link = name.clone();
+        return Err(UrdfError::Split { link, why });
     }
+    Ok(())
 }
 
 /// Greatest number of visuals that are read, all links together.

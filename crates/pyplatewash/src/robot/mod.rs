@@ -9,7 +9,7 @@ pub use crate::robot::settings::{IkSolutionRecord, settings};
 use crate::argument::{self, ROBOT};
 use crate::plate::ToolFields;
 use crate::robot::settings::Solvers;
-use crate::robot::source::Source;
+use crate::robot::source::{Description, Source};
 use crate::value::warn;
 use crate::{arrays, errors};
 use numpy::PyArrayDyn;
@@ -139,11 +139,13 @@ impl Robot {
     ///
     /// `srdf` is SRDF text with the pairs of links that need no collision check. `package_path` is a folder, or a list of them, in which
     /// `package://` meshes are looked up, `folder` is the one that relative mesh names start from. With `visual_shapes`, links without
-    /// collision shapes take their visuals as such, meshes as convex hulls.
+    /// collision shapes take their visuals as such, meshes as convex hulls. The meshes of `split_links`, a list of names, count as a few convex
+    /// parts that enclose them, not as their hulls.
     ///
     /// Raises UrdfError, naming the joint or link at fault.
     #[classmethod]
-    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None, visual_shapes=None), text_signature = "(text, *, srdf=None, package_path=None, folder=None, visual_shapes=False)")]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None, visual_shapes=None, split_links=None), text_signature = "(text, *, srdf=None, package_path=None, folder=None, visual_shapes=False, split_links=None)")]
     fn from_urdf(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
@@ -152,23 +154,26 @@ impl Robot {
         package_path: Option<&Bound<'_, PyAny>>,
         folder: Option<&Bound<'_, PyAny>>,
         visual_shapes: Option<&Bound<'_, PyAny>>,
+        split_links: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let source = Source::described(
-            argument::text("text", text, "URDF text")?,
-            srdf.map(|srdf| argument::text("srdf", srdf, "SRDF text")).transpose()?,
-            argument::paths("package_path", package_path)?,
-            folder.map(|folder| argument::path("folder", folder)).transpose()?,
-            argument::flag_or_false("visual_shapes", visual_shapes)?,
-        );
+        let source = Source::Described(Box::new(Description {
+            urdf: argument::text("text", text, "URDF text")?,
+            srdf: srdf.map(|srdf| argument::text("srdf", srdf, "SRDF text")).transpose()?,
+            package_path: argument::paths("package_path", package_path)?,
+            folder: folder.map(|folder| argument::path("folder", folder)).transpose()?,
+            visual_shapes: argument::flag_or_false("visual_shapes", visual_shapes)?,
+            split_links: argument::names("split_links", split_links)?,
+        }));
         Ok(Self::new(Arc::new(source.load(py)?), source))
     }
 
     /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`, a
     /// folder or a list of them. With `visual_shapes`, links without collision shapes take their visuals as such, meshes as convex hulls.
+    /// The meshes of `split_links`, a list of names, count as a few convex parts that enclose them, not as their hulls.
     ///
     /// Raises UrdfError, naming the joint or link at fault; for a file that cannot be read it is a FileError, too.
     #[classmethod]
-    #[pyo3(signature = (urdf, *, srdf=None, package_path=None, visual_shapes=None), text_signature = "(urdf, *, srdf=None, package_path=None, visual_shapes=False)")]
+    #[pyo3(signature = (urdf, *, srdf=None, package_path=None, visual_shapes=None, split_links=None), text_signature = "(urdf, *, srdf=None, package_path=None, visual_shapes=False, split_links=None)")]
     fn load(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
@@ -176,12 +181,14 @@ impl Robot {
         srdf: Option<&Bound<'_, PyAny>>,
         package_path: Option<&Bound<'_, PyAny>>,
         visual_shapes: Option<&Bound<'_, PyAny>>,
+        split_links: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let section = RobotSection {
             urdf: Some(argument::path("urdf", urdf)?),
             srdf: srdf.map(|srdf| argument::path("srdf", srdf)).transpose()?,
             package_path: argument::paths("package_path", package_path)?,
             visual_shapes: argument::flag_or_false("visual_shapes", visual_shapes)?,
+            split_links: argument::names("split_links", split_links)?,
             ..RobotSection::default()
         };
         let source = Source::files(py, &section, &Files::default())?;
@@ -389,6 +396,7 @@ impl Robot {
 
     /// Restores a pickled arm from a description.
     #[classmethod]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn _restore(
         class: &Bound<'_, PyType>,
         py: Python<'_>,
@@ -397,7 +405,8 @@ impl Robot {
         package_path: Option<&Bound<'_, PyAny>>,
         folder: Option<&Bound<'_, PyAny>>,
         visual_shapes: Option<&Bound<'_, PyAny>>,
+        split_links: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        Self::from_urdf(class, py, text, srdf, package_path, folder, visual_shapes)
+        Self::from_urdf(class, py, text, srdf, package_path, folder, visual_shapes, split_links)
     }
 }

@@ -5,10 +5,11 @@ use platewash::RobotModel;
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash::kinematics::urdf::{Files, MAX_BYTES, MeshSource};
-use platewash::scenario::RobotSection;
+use platewash::scenario::{RobotSection, Solids};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Source of an arm.
 #[derive(Debug, Clone)]
@@ -22,31 +23,21 @@ pub enum Source {
 /// URDF and SRDF texts, with the folders in which their meshes are found.
 #[derive(Debug, Clone)]
 pub struct Description {
-    urdf: String,
-    srdf: Option<String>,
-    package_path: Vec<PathBuf>,
-    folder: Option<PathBuf>,
-    visual_shapes: bool,
+    /// URDF text.
+    pub urdf: String,
+    /// SRDF text.
+    pub srdf: Option<String>,
+    /// Folders of packages.
+    pub package_path: Vec<PathBuf>,
+    /// Folder that relative names of meshes start from.
+    pub folder: Option<PathBuf>,
+    /// True where visuals stand for missing collision shapes.
+    pub visual_shapes: bool,
+    /// Links that count as convex parts that enclose their meshes.
+    pub split_links: Vec<String>,
 }
 
 impl Source {
-    /// From texts.
-    pub fn described(
-        urdf: String,
-        srdf: Option<String>,
-        package_path: Vec<PathBuf>,
-        folder: Option<PathBuf>,
-        visual_shapes: bool,
-    ) -> Self {
-        Self::Described(Box::new(Description {
-            urdf,
-            srdf,
-            package_path,
-            folder,
-            visual_shapes,
-        }))
-    }
-
     /// From the files of a section; the built-in one if it names none.
     ///
     /// # Errors
@@ -64,13 +55,14 @@ impl Source {
         let folder = std::path::absolute(urdf)
             .ok()
             .and_then(|path| path.parent().map(Path::to_path_buf));
-        Ok(Self::described(
-            read(urdf)?,
-            section.srdf.as_deref().map(read).transpose()?,
-            section.package_path.clone(),
+        Ok(Self::Described(Box::new(Description {
+            urdf: read(urdf)?,
+            srdf: section.srdf.as_deref().map(read).transpose()?,
+            package_path: section.package_path.clone(),
             folder,
-            section.visual_shapes,
-        ))
+            visual_shapes: section.visual_shapes,
+            split_links: section.split_links.clone(),
+        })))
     }
 
     /// The SRDF text, if there is one.
@@ -109,7 +101,8 @@ impl Source {
         let files = platewash::cli::installed_files();
         let meshes = MeshSource::new(&description.package_path, description.folder.as_deref())
             .reading(&files)
-            .with_visual_shapes(description.visual_shapes);
+            .with_visual_shapes(description.visual_shapes)
+            .with_split_links(&description.split_links, Arc::new(Solids::default()));
         let robot = RobotModel::from_urdf(&description.urdf, &meshes).map_err(|e| wrong(&e))?;
         let Some(srdf) = &description.srdf else {
             return Ok(robot);
@@ -130,7 +123,14 @@ impl Source {
         match self {
             Self::BuiltIn => Ok((class.getattr("irb120")?, PyTuple::empty(py))),
             Self::Described(d) => {
-                let arguments = (&d.urdf, &d.srdf, &d.package_path, &d.folder, d.visual_shapes);
+                let arguments = (
+                    &d.urdf,
+                    &d.srdf,
+                    &d.package_path,
+                    &d.folder,
+                    d.visual_shapes,
+                    &d.split_links,
+                );
                 Ok((class.getattr("_restore")?, arguments.into_pyobject(py)?))
             }
         }

@@ -131,7 +131,8 @@ fn form_domain(domain: Domain) -> FormDomain {
     match domain {
         Domain::Text => bare("text"),
         Domain::Path => bare("path"),
-        Domain::Paths => bare("paths"),
+        // Names are typed as paths are.
+        Domain::Paths | Domain::Names => bare("paths"),
         Domain::Bool => bare("bool"),
         Domain::Word(words) => FormDomain {
             words: Some(words),

@@ -39,6 +39,9 @@ fn fits(domain: Domain, value: &Value) -> bool {
         Domain::Text => text && !value.as_str().is_some_and(|s| s.contains(is_hidden)),
         Domain::Path => text,
         Domain::Paths => value.as_array().is_some_and(|all| all.iter().all(Value::is_string)),
+        Domain::Names => value
+            .as_array()
+            .is_some_and(|all| all.iter().all(|name| fits(Domain::Text, name))),
         Domain::Word(words) => value.as_str().is_some_and(|s| words.contains(&s)),
         Domain::Bool => value.is_boolean(),
         Domain::Integer(least, most) => value.as_i64().is_some_and(|v| (least..=most).contains(&v)),

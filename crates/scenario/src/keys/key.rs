@@ -1,8 +1,8 @@
 //! A scenario key: its path, unit, range and meaning.
 
 use Domain::{
-    Bool, Integer, Joints, JointsAbove, Knots, Number, NumberAbove, Pair, PairAbove, Path, Paths, Plates, Points,
-    Range, Scale, Text, Triple, TripleAbove, Word,
+    Bool, Integer, Joints, JointsAbove, Knots, Names, Number, NumberAbove, Pair, PairAbove, Path, Paths, Plates,
+    Points, Range, Scale, Text, Triple, TripleAbove, Word,
 };
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::surface::MOST_KNOTS;
@@ -16,6 +16,8 @@ pub enum Domain {
     Path,
     /// A list of folder paths.
     Paths,
+    /// A list of names, each a [`Domain::Text`].
+    Names,
     /// One of some words.
     Word(&'static [&'static str]),
     /// `true` or `false`.
@@ -82,6 +84,7 @@ impl Domain {
             Text => "text, not empty, without control or direction characters".to_owned(),
             Path => "a path".to_owned(),
             Paths => "a list of folders".to_owned(),
+            Names => format!("a list of names, each {}", Text.describe()),
             Word(words) => {
                 let quoted: Vec<_> = words.iter().map(|w| format!("\"{w}\"")).collect();
                 quoted.join(" or ")

@@ -1,10 +1,12 @@
 //! From the `[robot]` section to an arm.
 
+use crate::resolve::solids::Solids;
 use crate::sections::robot::{BuiltInArm, RobotSection};
 use platewash_kinematics::irb120::EmbeddedModelError;
 use platewash_kinematics::urdf::{Files, FixedJoints, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Reason that the arm of a scenario could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -53,8 +55,18 @@ pub fn load_arm(section: &RobotSection, files: &Files) -> Result<RobotModel, Arm
 /// # Errors
 /// [`ArmError`] with the file and its error.
 pub fn load_arm_with_fixed(section: &RobotSection, files: &Files, fixed: &FixedJoints) -> Result<RobotModel, ArmError> {
+    load(section, files, fixed, &Solids::default())
+}
+
+/// The arm of the section as [`load_arm_with_fixed`] makes it, its meshes cut once for all that share the cache.
+pub(crate) fn load(
+    section: &RobotSection,
+    files: &Files,
+    fixed: &FixedJoints,
+    solids: &Solids,
+) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
-        (Some(urdf), _) => load_description(urdf, section, files, fixed),
+        (Some(urdf), _) => load_description(urdf, section, files, (fixed, solids)),
         (None, BuiltInArm::Irb120) => Ok(RobotModel::irb120()?),
     }
 }
@@ -68,12 +80,13 @@ fn load_description(
     urdf: &Path,
     section: &RobotSection,
     files: &Files,
-    fixed: &FixedJoints,
+    (fixed, solids): (&FixedJoints, &Solids),
 ) -> Result<RobotModel, ArmError> {
     let file = urdf.display().to_string();
     let meshes = MeshSource::new(&section.package_path, urdf.parent())
         .reading(files)
-        .with_visual_shapes(section.visual_shapes);
+        .with_visual_shapes(section.visual_shapes)
+        .with_split_links(&section.split_links, Arc::new(solids.clone()));
     let robot = RobotModel::from_urdf_with_fixed(&read(urdf, files)?, &meshes, fixed);
     let robot = robot.map_err(|error| ArmError::Urdf { file, error })?;
     let Some(path) = &section.srdf else {

@@ -18,12 +18,12 @@ pub(crate) mod tool_on_arm;
 
 use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
-use crate::resolve::arm::load_arm;
+use crate::resolve::arm::load;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::robot::ReducedClearanceSection;
 use crate::sections::wash::{PAPER_RADIUS_M, PAPER_TURNS};
-use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::urdf::{FixedJoints, MeshSource};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::order::PaperOrder;
 use platewash_paper::settings::{PaperIk, TransitCurve};
@@ -47,7 +47,8 @@ impl Scenario {
     /// # Errors
     /// [`Failure::Arm`].
     pub fn arm(&self) -> Result<Arc<RobotModel>, Failure> {
-        Ok(Arc::new(load_arm(&self.robot, &self.files)?))
+        let arm = load(&self.robot, &self.files, &FixedJoints::new(), &self.solids)?;
+        Ok(Arc::new(arm))
     }
 
     /// Reads every file that the scenario names, as its job would. The job reports the errors in them.

@@ -3,8 +3,8 @@
 use crate::error::BodyFault;
 use nalgebra::Point3;
 use platewash_kinematics::fingerprint::sha256_hex;
-use platewash_kinematics::urdf::MeshSource;
-use platewash_workcell::clearance::{SolidParts, excess_m, solid_parts};
+use platewash_kinematics::urdf::{MeshSource, MeshSplitter};
+use platewash_workcell::clearance::{SolidError, SolidParts, excess_m, solid_parts};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -37,15 +37,19 @@ impl Solids {
         parts: SolidParts,
     ) -> Result<Hulls, BodyFault> {
         let triangles = source.solid(&file.to_string_lossy(), scale).map_err(BodyFault::Mesh)?;
-        let id = id(&triangles, parts);
+        self.cut(&triangles, parts).map_err(|why| BodyFault::Solid {
+            file: file.display().to_string(),
+            why,
+        })
+    }
+
+    /// The convex parts of a mesh.
+    fn cut(&self, triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<Hulls, SolidError> {
+        let id = id(triangles, parts);
         if let Some(hulls) = self.found(&id) {
             return Ok(hulls);
         }
-        let hulls = solid_parts(&triangles, parts).map_err(|why| BodyFault::Solid {
-            file: file.display().to_string(),
-            why,
-        })?;
-        let hulls = Arc::new(hulls);
+        let hulls = Arc::new(solid_parts(triangles, parts)?);
         self.keep(id, hulls.clone());
         Ok(hulls)
     }
@@ -79,6 +83,13 @@ impl Solids {
     }
 }
 
+impl MeshSplitter for Solids {
+    fn split(&self, triangles: &[[Point3<f64>; 3]]) -> Result<Vec<Vec<Point3<f64>>>, String> {
+        let parts = self.cut(triangles, SolidParts::Few);
+        parts.map(|parts| parts.to_vec()).map_err(|why| why.to_string())
+    }
+}
+
 /// Key of the parts of a mesh: its triangles and the kind of parts.
 fn id(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> String {
     let numbers = triangles.iter().flatten().flat_map(|corner| corner.iter().copied());
@@ -86,6 +97,7 @@ fn id(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> String {
     let kind: u8 = match parts {
         SolidParts::Hull => 0,
         SolidParts::Decomposed => 1,
+        SolidParts::Few => 2,
     };
     sha256_hex(&bytes.chain([kind]).collect::<Vec<u8>>())
 }

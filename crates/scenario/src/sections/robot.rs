@@ -32,6 +32,11 @@ pub struct RobotSection {
     #[key(domain = Bool)]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub visual_shapes: bool,
+    /// Links of which each mesh counts as convex parts that enclose it, at most 12, not as its convex hull: for links whose hulls touch
+    /// although they do not.
+    #[key(domain = Names)]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub split_links: Vec<String>,
     /// Frame in which tool poses are stated and returned; nothing else changes.
     #[key(domain = Word(&["flange", "tool0", "matlab_tool0"]), default = ToolFrame::Tool0)]
     pub tool_frame: ToolFrame,

@@ -3,12 +3,13 @@
 //! The cuts of the mesh are a proposal (VHACD, Mamou & Ghorbel 2009, by the collision library): cells that may overlap. The piece of each
 //! triangle within a cell goes to the part of that cell, which is the hull of all its pieces. Then each triangle is cut by the planes of
 //! each part, and the rest that is in none of them is added to the nearest. So the parts enclose the surface for any proposal. A part
-//! without thickness, as of a mesh that is a sheet, gets one.
+//! without thickness, as of a mesh that is a sheet, gets one. A few parts are enclosed alike, in cells that are joined before (`few.rs`).
 
+mod few;
 #[cfg(test)]
 mod tests;
 
-use crate::clearance::convex::{ConvexHull, MOST_CORNERS, has_volume};
+use crate::clearance::convex::{ConvexHull, MOST_CORNERS, MOST_VERTICES, has_volume};
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -16,14 +17,22 @@ use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 /// Greatest number of triangles of a mesh that is decomposed.
 const MOST_TRIANGLES: usize = 20_000;
 
-/// Greatest number of parts of a mesh.
-const MOST_PARTS: u32 = 64;
+/// Settings of the proposal of cuts.
+struct Cuts {
+    /// Greatest number of parts; some more may be proposed.
+    most_parts: u32,
+    /// Number of cells along the longest edge of the mesh.
+    cells: u32,
+    /// Greatest depth of a hollow in a part, as a share of the mesh's hull.
+    hollow: f64,
+}
 
-/// Number of cells along the longest edge of a mesh for proposing cuts.
-const CELLS: u32 = 64;
-
-/// Greatest depth of a hollow in a part, as a share of the mesh's hull.
-const HOLLOW: f64 = 0.004;
+/// Cuts of a body that stands still.
+const CUTS: Cuts = Cuts {
+    most_parts: 64,
+    cells: 64,
+    hollow: 0.004,
+};
 
 /// Half of the thickness added to a part without one \[m\].
 const SHEET_M: f64 = 5e-5;
@@ -38,6 +47,8 @@ pub enum SolidParts {
     Hull,
     /// Convex parts that together enclose its surface.
     Decomposed,
+    /// A few convex parts that together enclose its surface, for a body that moves.
+    Few,
 }
 
 /// Reason that a mesh is not a valid body.
@@ -57,10 +68,12 @@ pub enum SolidError {
     #[error("it is flat; a body needs a volume")]
     Flat,
     /// The mesh has too many corners.
-    #[error("it has {found} distinct corners; at most {MOST_CORNERS} can be judged: simplify the mesh")]
+    #[error("it has {found} distinct corners; at most {most} can be judged: simplify the mesh")]
     TooManyCorners {
         /// Number of corners.
         found: usize,
+        /// Greatest number.
+        most: usize,
     },
     /// The mesh has too many triangles.
     #[error("it has {found} triangles; at most {MOST_TRIANGLES} can be decomposed (its hull may have more)")]
@@ -88,9 +101,13 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
         .map(|triangle| triangle.map(|p| Vector::new(p.x, p.y, p.z)))
         .collect();
     let points = distinct(corners.iter().flatten().copied());
-    if points.len() > MOST_CORNERS {
+    let most = match parts {
+        SolidParts::Hull | SolidParts::Decomposed => MOST_CORNERS,
+        SolidParts::Few => MOST_VERTICES,
+    };
+    if points.len() > most {
         let found = points.len();
-        return Err(SolidError::TooManyCorners { found });
+        return Err(SolidError::TooManyCorners { found, most });
     }
     if !has_volume(&points) {
         return Err(SolidError::Flat);
@@ -102,8 +119,9 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
             if found > MOST_TRIANGLES {
                 return Err(SolidError::TooMany { found });
             }
-            decomposed(&corners, &points)
+            decomposed(&corners, &points, &cells(&corners, &CUTS))
         }
+        SolidParts::Few => few::parts(&corners, points),
     };
     let point = |v: Vector| Point3::new(v.x, v.y, v.z);
     Ok(found
@@ -180,10 +198,10 @@ fn split(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> (Vec<Vector>, V
     (behind, beyond)
 }
 
-fn decomposed(triangles: &[[Vector; 3]], points: &[Vector]) -> Vec<Vec<Vector>> {
+fn decomposed(triangles: &[[Vector; 3]], points: &[Vector], cells: &[Part]) -> Vec<Vec<Vector>> {
     let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
     let rounding = ROUNDING * size;
-    let mut found: Vec<Vec<Vector>> = cells(triangles)
+    let mut found: Vec<Vec<Vector>> = cells
         .iter()
         .map(|cell| {
             let within = triangles.iter().flat_map(|triangle| cell.cut(triangle, rounding).0);
@@ -232,15 +250,15 @@ fn uncovered(triangle: &[Vector; 3], parts: &[Part], rounding: f64) -> Vec<Vec<V
 }
 
 /// Proposes parts of a mesh that are nearly convex.
-fn cells(triangles: &[[Vector; 3]]) -> Vec<Part> {
+fn cells(triangles: &[[Vector; 3]], cuts: &Cuts) -> Vec<Part> {
     let corners: Vec<Vector> = triangles.iter().flatten().copied().collect();
     let indices: Vec<[u32; 3]> = (0..triangles.len() as u32)
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
         .collect();
     let wanted = VHACDParameters {
-        concavity: HOLLOW,
-        resolution: CELLS,
-        max_convex_hulls: MOST_PARTS,
+        concavity: cuts.hollow,
+        resolution: cuts.cells,
+        max_convex_hulls: cuts.most_parts,
         ..VHACDParameters::default()
     };
     let found = VHACD::decompose(&wanted, &corners, &indices, false);

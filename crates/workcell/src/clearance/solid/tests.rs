@@ -76,6 +76,24 @@ fn decomposition_keeps_a_trough_hollow() {
     assert_eq!(parts, solid_parts(&trough(), SolidParts::Decomposed).unwrap());
 }
 
+/// Few parts are enough for a trough, which has five walls, and one for a box; a heap of boxes becomes no more than may be.
+#[test]
+fn few_parts_keep_a_trough_hollow() {
+    let parts = solid_parts(&trough(), SolidParts::Few).unwrap();
+    assert!((2..=few::MOST_PARTS).contains(&parts.len()), "{} parts", parts.len());
+    assert!(outside(&parts, Point3::new(0.25, 0.2, 0.12)) > 0.05);
+    let cube = cuboid([0.0; 3], [0.3, 0.2, 0.1]);
+    let hull = |wanted| solid_parts(&cube, wanted).unwrap();
+    assert_eq!(hull(SolidParts::Few), hull(SolidParts::Hull));
+    let apart = |k: usize| {
+        let low = [k % 3, k / 3 % 3, k / 9].map(|at| 0.1 * at as f64);
+        cuboid(low, low.map(|at| at + 0.05))
+    };
+    let heap: Mesh = (0..27).flat_map(apart).collect();
+    let parts = solid_parts(&heap, SolidParts::Few).unwrap();
+    assert!((2..=few::MOST_PARTS).contains(&parts.len()), "{} parts", parts.len());
+}
+
 #[test]
 fn a_box_lies_behind_its_six_faces() {
     let hull = Part::around(distinct(
@@ -125,7 +143,7 @@ proptest! {
             mesh.extend(cuboid(low, high));
         }
         mesh.extend(loose.iter().map(|c| [0, 3, 6].map(|k| Point3::new(c[k], c[k + 1], c[k + 2]))));
-        for wanted in [SolidParts::Hull, SolidParts::Decomposed] {
+        for wanted in [SolidParts::Hull, SolidParts::Decomposed, SolidParts::Few] {
             let parts = solid_parts(&mesh, wanted).unwrap();
             for [a, b, c] in &mesh {
                 let within = shares.iter().map(|[s, t]| {
