@@ -157,8 +157,8 @@ def row(name, result):
         for line in certificate["clearance"]
         if line["rule"] == "reduced"
     ]
-    own = ("collision shapes", "convex parts")
-    notes += [text for text in certificate["rests_on"]["assumptions"] if any(word in text for word in own) and "enclose the arm" not in text]
+    own = ("without collision shapes", "no collision shapes", "convex parts")
+    notes += [text for text in certificate["rests_on"]["assumptions"] if any(word in text for word in own)]
     _, _, _, _, options = ARMS[name]
     notes += [f"`{options}`"] if options else []
     closed = f"search: {reason}"
@@ -214,8 +214,10 @@ def main():
     arguments = parser.parse_args()
     target = HERE / "arms"
     target.mkdir(exist_ok=True)
-    for name in arguments.names or ARMS:
+    names = arguments.names or ARMS
+    for name in names:
         measure(str(arguments.command.resolve()), arguments.folder, name)
+    for name in names:
         picture(name, target)
     page(target)
 

@@ -220,10 +220,11 @@ impl Options {
         self.say(&format!(
             "chosen for this arm; to keep or change it, put these lines in place of start_deg, count, region and base_radius_m of \
              a scenario (platewash scenario {} > mine.toml), and name it with --scenario:\n\
-             [robot]\nstart_deg = {:?}\n\
+             [robot]\nstart_deg = {:?}\n{}\
              {}[layout]\ncount = {}\nrho_m = {:?}\nazimuth_deg = {:?}\nbase_radius_m = {}\nonly_washable = true",
             self.scenario_name(),
             fitted.robot.start_deg.unwrap_or_default(),
+            split_text(&fitted),
             reduced_text(&fitted),
             layout.count,
             layout.rho_m.unwrap_or_default(),
@@ -305,6 +306,14 @@ impl Options {
             source_name: self.scenario_name().into(),
             ..error
         }
+    }
+}
+
+/// The line of a scenario's links to split, as a file states it.
+fn split_text(scenario: &Scenario) -> String {
+    match &scenario.robot.split_links[..] {
+        [] => String::new(),
+        links => format!("split_links = {links:?}\n"),
     }
 }
 

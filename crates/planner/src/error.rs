@@ -78,7 +78,7 @@ pub enum PlanError {
     /// No end configuration was stated, and none was found that is clear.
     #[error(
         "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything{}",
-        most_frequent_pair(in_the_way, *tried)
+        most_frequent_pair(in_the_way)
     )]
     NoHome {
         /// Configurations that were tried.
@@ -229,13 +229,13 @@ impl From<TransitError> for PlanError {
 }
 
 /// Names the pair that is in the way most often; empty where there is none.
-fn most_frequent_pair(in_the_way: &[NearPair], tried: usize) -> String {
+fn most_frequent_pair(in_the_way: &[NearPair]) -> String {
     let names = |near: &NearPair| near.pair.each_ref().map(|name| printable(name)).join(" and ");
     let Some(first) = in_the_way.first() else {
         return String::new();
     };
     let most_often = format!("; most often too near are {}, in {} of them", names(first), first.count);
-    let by_design = in_the_way.iter().find(|near| near.is_by_design(tried));
+    let by_design = in_the_way.iter().find(|near| near.is_by_design());
     let advice = by_design.map_or_else(String::new, |near| {
         format!(
             "; {} are at most {:.1} mm apart in all of them: state a clearance of their own ([[reduced_clearance]])",

@@ -9,15 +9,19 @@ use crate::sections::obstacle::HeldPlates;
 use crate::sections::robot::ReducedClearanceSection;
 use platewash_kinematics::RobotModel;
 use platewash_planner::suggest::{
-    SuggestedHome, SuggestedRegion, place_in_front, suggest_home, suggest_region, suggest_sector,
+    NearPair, SuggestedHome, SuggestedRegion, near_pairs, place_in_front, suggest_home, suggest_region, suggest_sector,
 };
 use platewash_planner::{PlanError, Watch};
 use platewash_workcell::cancel::system_clock;
 use platewash_workcell::clearance::TouchingPairs;
 use platewash_workcell::job::{JobError, WashJob};
 use platewash_workcell::plate::Plate;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// A pair of links is too near often where it is so in at least one of as many configurations.
+const OFTEN: usize = 10;
 
 /// Home, plate and region that suit an arm with its tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +56,7 @@ impl Scenario {
         }
         let plate_m = match self.plate.first().and_then(|plate| plate.at_m) {
             Some([x, y, _]) => [x, y],
-            None => place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount()),
+            None => self.front_m(arm)?,
         };
         let job = self.with_one_plate(arm, plate_m)?;
         let [plate, ..] = job.terms().plates[..] else {
@@ -74,13 +78,42 @@ impl Scenario {
     /// # Errors
     /// [`Failure`]: no home, or a scenario that is refused.
     pub fn fitted_to(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Option<Self>, Failure> {
-        let front_m = place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount());
-        let mut fitted = self.clone();
-        let job = fitted.with_reduced_clearances(arm, front_m)?;
+        let first = self.in_region(arm, watch);
+        let near = match &first {
+            Err(Failure::Plan(PlanError::NoHome { in_the_way, .. })) => in_the_way.clone(),
+            Ok(None) => {
+                let job = self.with_one_plate(arm, self.front_m(arm)?)?;
+                near_pairs(arm, job.terms(), watch.cancel)?
+            }
+            _ => return first,
+        };
+        if let Some(split) = self.with_split_links(arm, &near) {
+            // With a mesh that cannot be split, the arm stays as it is.
+            let fitted = split.arm().and_then(|arm| split.in_region(&arm, watch));
+            if let Ok(Some(fitted)) = fitted {
+                return Ok(Some(fitted));
+            }
+        }
+        match self.with_reduced_clearances(&near) {
+            Some(reduced) => reduced.in_region(arm, watch),
+            None => first,
+        }
+    }
+
+    /// A place in front of the arm \[m\].
+    fn front_m(&self, arm: &RobotModel) -> Result<[f64; 2], Failure> {
+        Ok(place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount()))
+    }
+
+    /// The same scenario with a home and a region that suit an arm; `None` where no such region was found.
+    fn in_region(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Option<Self>, Failure> {
+        let front_m = self.front_m(arm)?;
+        let job = self.with_one_plate(arm, front_m)?;
         let Some(sector) = suggest_sector(&job, watch)? else {
             return Ok(None);
         };
         let sector = sector.in_whole_units();
+        let mut fitted = self.clone();
         let layout = &mut fitted.layout;
         (layout.region, layout.x_m, layout.y_m) = (None, None, None);
         (layout.rho_m, layout.azimuth_deg) = (Some(sector.rho_m), Some(sector.azimuth_deg));
@@ -100,23 +133,30 @@ impl Scenario {
         Ok(Some(fitted))
     }
 
-    /// The job of [`Self::with_one_plate`]. Pairs that leave no home as they are too near in every configuration get a clearance of their
-    /// own: half of their greatest distance, so that the arm keeps room to move.
-    fn with_reduced_clearances(&mut self, arm: &Arc<RobotModel>, plate_m: [f64; 2]) -> Result<WashJob, Failure> {
-        let (tried, in_the_way) = match self.with_one_plate(arm, plate_m) {
-            Err(Failure::Plan(PlanError::NoHome { tried, in_the_way })) => (tried, in_the_way),
-            other => return other,
-        };
-        let pairs = in_the_way.iter().filter(|near| near.is_by_design(tried));
-        let required_m = self.wash.clearance_m;
-        self.reduced_clearance.extend(pairs.filter_map(|near| {
+    /// The same scenario with the links split whose convex hulls are too near in many configurations; `None` where there are none.
+    fn with_split_links(&self, arm: &RobotModel, near: &[NearPair]) -> Option<Self> {
+        let has_hull = |name: &str| arm.links_with_hulls().any(|link| link == name);
+        let often = near.iter().filter(|near| OFTEN * near.count >= near.tried);
+        let pairs = often.filter(|near| near.pair.iter().all(|name| has_hull(name)));
+        let links: BTreeSet<_> = pairs.flat_map(|near| near.pair.clone()).collect();
+        let mut split = self.clone();
+        split.robot.split_links.extend(links);
+        (split.robot.split_links != self.robot.split_links).then_some(split)
+    }
+
+    /// The same scenario with clearances of their own for pairs that are too near in every configuration: half of their greatest distance, so
+    /// that the arm keeps room to move. `None` where there are none.
+    fn with_reduced_clearances(&self, near: &[NearPair]) -> Option<Self> {
+        let reduced = near.iter().filter(|near| near.is_by_design()).filter_map(|near| {
             let [a, b] = near.pair.clone();
             // In tenths of a millimetre, rounded down.
             let half_m = (0.5e4 * near.most_m).floor() / 1e4;
-            let clearance_m = half_m.min(0.5 * required_m);
+            let clearance_m = half_m.min(0.5 * self.wash.clearance_m);
             (clearance_m > 0.0).then_some(ReducedClearanceSection { a, b, clearance_m })
-        }));
-        self.with_one_plate(arm, plate_m)
+        });
+        let mut scenario = self.clone();
+        scenario.reduced_clearance.extend(reduced);
+        (scenario.reduced_clearance != self.reduced_clearance).then_some(scenario)
     }
 
     /// The job of this scenario on its first plate alone, at a place, from the home that is found there.
@@ -185,11 +225,16 @@ mod tests {
         let mut scenario = Scenario::load("kitchen").unwrap();
         scenario.wash.clearance_m = 0.025;
         scenario.robot.start_deg = None;
-        let said = scenario.job().unwrap_err().to_string();
+        let refused = scenario.job().unwrap_err();
+        let said = refused.to_string();
         let advice = "apart in all of them: state a clearance of their own ([[reduced_clearance]])";
         assert!(said.contains(advice), "{said}");
-        let arm = scenario.arm().unwrap();
-        let job = scenario.with_reduced_clearances(&arm, [0.3, 0.0]).unwrap();
+        let Failure::Plan(PlanError::NoHome { in_the_way, .. }) = refused else {
+            panic!("{said}")
+        };
+        let scenario = scenario.with_reduced_clearances(&in_the_way).unwrap();
+        assert_eq!(scenario.with_split_links(&scenario.arm().unwrap(), &in_the_way), None);
+        let job = scenario.job().unwrap();
         let [ReducedClearanceSection { a, b, clearance_m }] = &scenario.reduced_clearance[..] else {
             panic!("{:?}", scenario.reduced_clearance)
         };

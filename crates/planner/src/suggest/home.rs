@@ -64,6 +64,8 @@ pub struct NearPair {
     pub pair: [String; 2],
     /// Number of configurations in which they are too near.
     pub count: usize,
+    /// Number of configurations that were tried.
+    pub tried: usize,
     /// Greatest distance in all of them \[m\].
     pub most_m: f64,
     /// True if both are of the arm or its tool.
@@ -73,8 +75,8 @@ pub struct NearPair {
 impl NearPair {
     /// True if the bodies are of the arm or its tool, and too near in all of the configurations without touching in all of them.
     #[must_use]
-    pub fn is_by_design(&self, tried: usize) -> bool {
-        self.is_of_arm && self.count == tried && self.most_m > 0.0
+    pub fn is_by_design(&self) -> bool {
+        self.is_of_arm && self.count == self.tried && self.most_m > 0.0
     }
 }
 
@@ -97,15 +99,38 @@ struct Candidate {
 /// [`PlanError::NoHome`] where no configuration that was tried is clear, and [`PlanError`] for an arm or a tool with which nothing can be
 /// planned.
 pub fn suggest_home(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) -> Result<SuggestedHome, PlanError> {
+    search(robot, terms, cancel, best_home)
+}
+
+/// Returns the pairs of bodies that are too near in some of many configurations over all of the joints' limits, those first that are so in most
+/// of them.
+///
+/// # Errors
+/// [`PlanError`] for an arm or a tool with which nothing can be planned.
+pub fn near_pairs(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) -> Result<Vec<NearPair>, PlanError> {
+    search(robot, terms, cancel, |search| search.in_the_way())
+}
+
+/// Sets up the search for a home, and carries out a part of it.
+fn search<T>(
+    robot: &RobotModel,
+    terms: &JobTerms,
+    cancel: &CancelToken,
+    carry_out: impl Fn(&Search<'_>) -> Result<T, PlanError>,
+) -> Result<T, PlanError> {
     let terms = &*terms.seen_from_base();
     let clearance = ClearanceModel::new(robot, &terms.workcell, &terms.plates)?;
     let reach = terms.planner_settings().ok_or(PlanError::PaperJob)?.reach;
     let scene = Scene::new(robot, &terms.workcell.tool, &clearance, &terms.plates, reach)?.with_cancel(cancel);
-    let search = Search {
+    carry_out(&Search {
         scene: &scene,
         terms,
         clearance: &clearance,
-    };
+    })
+}
+
+fn best_home(search: &Search<'_>) -> Result<SuggestedHome, PlanError> {
+    let (scene, clearance) = (search.scene, search.clearance);
     let mut found = search.over_plates()?;
     if found.is_empty() {
         found = search.anywhere()?;
@@ -132,7 +157,7 @@ pub fn suggest_home(robot: &RobotModel, terms: &JobTerms, cancel: &CancelToken) 
         return Err(PlanError::NoHome { tried, in_the_way });
     };
     let q = JointVector::from(best.q_deg).map(f64::to_radians);
-    let tool = robot.fk(&q).rigid(&scene.tip).rotation.column(2).into_owned();
+    let tool = scene.robot.fk(&q).rigid(&scene.tip).rotation.column(2).into_owned();
     let down = -search.outward_direction();
     Ok(SuggestedHome {
         q_deg: best.q_deg,
@@ -215,6 +240,7 @@ impl Search<'_> {
             NearPair {
                 pair: [(*a).to_owned(), (*b).to_owned()],
                 count: each().filter(|pair| !pair.is_clear(self.required_m())).count(),
+                tried: all.len(),
                 is_of_arm: [a, b].iter().all(|name| self.clearance.is_of_arm(name)),
                 most_m: each().map(|pair| pair.distance_m).fold(f64::NEG_INFINITY, f64::max),
             }

@@ -5,6 +5,6 @@ mod home;
 mod region;
 mod sector;
 
-pub use crate::suggest::home::{NearPair, SuggestedHome, suggest_home};
+pub use crate::suggest::home::{NearPair, SuggestedHome, near_pairs, suggest_home};
 pub use crate::suggest::region::{RegionSquare, Sector, SuggestedRegion, place_in_front, suggest_region};
 pub use crate::suggest::sector::suggest_sector;
