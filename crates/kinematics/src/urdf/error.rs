@@ -153,9 +153,7 @@ pub enum UrdfError {
     #[error("link '{link}': mesh '{file}' cannot be read: {detail}")]
     Mesh { link: String, file: String, detail: String },
     /// A link cannot be split into parts.
-    #[error(
-        "link '{link}' cannot be split: {why}; leave it out of the links to split (robot.split_links, --split-links)"
-    )]
+    #[error("link '{link}' cannot be split: {why}; leave it out of the links to split (robot.split_links)")]
     Split { link: String, why: String },
 }
 
