@@ -77,7 +77,8 @@ otherwise.
 - **Region**: distances from axis 1 and angles between which plates are placed. An estimate from some places; only the plan is proved.
 - **Clearance**: the least distance proved, at all times, of all pairs; 10 mm are required. Pairs with a smaller one of their own are in the last
   column.
-- **Simulated**: whether the simulated arm washes, too, with the masses and the torques of the description.
+- **Simulated**: whether the simulated arm washes, too, with the masses and the torques of the description. "Not washed": they do not carry the
+  arm along the plan (some descriptions state placeholders). "Not simulated": a link states no mass.
 
 | arm | tool on | inverse kinematics | region | plates, cycle | clearance | simulated | command | notes |
 | --- | --- | --- | --- | --- | ---: | --- | ---: | --- |
@@ -161,15 +162,16 @@ def row(name, result):
     notes += [text for text in certificate["rests_on"]["assumptions"] if any(word in text for word in own)]
     _, _, _, _, options = ARMS[name]
     notes += [f"`{options}`"] if options else []
-    closed = f"search: {reason}"
+    closed = "search: " + re.sub(r"(\.\d)\d{3} mm", r"\1 mm", str(reason))
     if inverse["closed_form"]:
         closed = "closed form, up to rounding" if reason else "closed form"
-    washed = {"washed": "washed", "not_washed": "not washed"}.get(answer["verdict"], "not simulated")
+    simulated = answer.get("simulation") or {}
+    washed = simulated.get("verdict", "not simulated").replace("_", " ")
     return [
         ARMS[name][0],
         f"`{mount['link']}`, {mount['axis']}",
         closed,
-        f"{near:g}–{far:g} m, {start:g}–{end:g}°",
+        f"{near:g} to {far:g} m, {start:g} to {end:g}°".replace("-", "−"),
         f"{len(certificate['rests_on']['plates'])} in {certificate['duration_s']:.1f} s",
         f"{1e3 * least['measure']['bound']:.1f} mm ({pair})",
         washed,
@@ -187,7 +189,7 @@ def page(target):
             continue
         result = json.loads(kept.read_text())
         sources.append(f"| {name} | {repository} | `{file}` | {f'`{arguments}`' if arguments else '–'} |")
-        if result["code"] == 0:
+        if result["text"] and json.loads(result["text"]).get("certificate", {}).get("verdict") == "pass":
             rows.append("| " + " | ".join(row(name, result)) + " |")
         else:
             lines = (result["messages"] + result["text"]).splitlines()

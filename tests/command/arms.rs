@@ -191,7 +191,7 @@ fn visual_shapes_are_taken_by_name() {
     let near = run(&["plan"], &["--visual-shapes", "--quiet"]);
     assert_eq!(near.code, 3, "{}", near.stderr);
     assert!(
-        near.stdout.contains("mm from link_6 (by convex hulls of meshes)"),
+        near.stdout.contains("mm from link_6 (by convex shapes of meshes)"),
         "{}",
         near.stdout
     );
@@ -257,7 +257,12 @@ fn links_are_split_by_name() {
     std::fs::write(dir.join("own.toml"), kitchen.replacen("[robot]\n", robot, 1)).unwrap();
     platewash(dir, &["run", "--scenario", "own.toml", "--quiet", "--out", "out"]).done();
     platewash(dir, &["verify", "out/plan.json", "--against", "own.toml"]).done();
-    run(&["verify", "out/plan.json"], &split).done();
+    let said = run(&["verify", "out/plan.json", "--details"], &split).done().stdout;
+    let words = "links are within convex parts that enclose their meshes: \"link_6\"";
+    assert!(
+        said.contains(words) && !said.contains("convex hulls of their meshes"),
+        "{said}"
+    );
     run(&["verify", "out/plan.json"], &[]).refused(2, &["the plan is for the arm"]);
 
     let broken = kitchen.replacen("[robot]\n", "[robot]\nsplit_links = [\"link_6\"]\n", 1);

@@ -262,6 +262,43 @@ mod tests {
     }
 
     #[test]
+    fn links_are_split_whose_hulls_are_often_too_near() {
+        let tetrahedron = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.obj"), tetrahedron).unwrap();
+        let mut text = platewash_kinematics::irb120::IRB120_URDF.to_owned();
+        for link in ["link_3", "link_5"] {
+            let named = format!("<link name=\"{link}\">");
+            let mesh = "<collision><geometry><mesh filename=\"a.obj\"/></geometry></collision>";
+            text = text.replacen(&named, &format!("{named}{mesh}"), 1);
+        }
+        let source = platewash_kinematics::urdf::MeshSource::new(&[], Some(folder.path()));
+        let arm = RobotModel::from_urdf(&text, &source).unwrap();
+        let scenario = Scenario::load("kitchen").unwrap();
+        let split = |pair: [&str; 2], count: usize| {
+            let near = NearPair {
+                pair: pair.map(str::to_owned),
+                count,
+                tried: 4000,
+                is_of_arm: true,
+                most_m: 0.1,
+            };
+            scenario
+                .with_split_links(&arm, &[near])
+                .map(|split| split.robot.split_links)
+        };
+        let both = Some(vec!["link_3".to_owned(), "link_5".to_owned()]);
+        assert_eq!(split(["link_5", "link_3"], 400), both);
+        for (pair, count) in [
+            (["link_3", "link_5"], 399),
+            (["link_3", "link_4"], 4000),
+            (["link_3", "handle"], 4000),
+        ] {
+            assert_eq!(split(pair, count), None, "{pair:?}");
+        }
+    }
+
+    #[test]
     fn suggested_homes_are_accepted() {
         let (scenario, cancel) = (Scenario::load("angled-tool").unwrap(), CancelToken::new());
         let arm = scenario.arm().unwrap();

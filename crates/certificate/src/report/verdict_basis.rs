@@ -110,13 +110,16 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     all
 }
 
-/// Returns a note about links of the arm whose shapes are convex hulls, and about those whose visuals stand for collision shapes.
+/// Returns notes about links of the arm whose shapes are convex hulls, that are split into convex parts, and whose visuals stand for collision
+/// shapes.
 fn hulls(arm: &RobotModel) -> Vec<String> {
     let hulls: Vec<_> = arm.links_with_hulls().map(quoted).collect();
-    let of_visuals: Vec<_> = arm.links_with_visual_shapes().iter().map(|link| quoted(link)).collect();
+    let [split, of_visuals] = [arm.split_links(), arm.links_with_visual_shapes()]
+        .map(|links| links.iter().map(|link| quoted(link)).collect::<Vec<_>>());
     let note = |links: Vec<String>, what: &str| (!links.is_empty()).then(|| format!("{what}: {}", links.join(", ")));
     note(hulls, "links are within the convex hulls of their meshes")
         .into_iter()
+        .chain(note(split, "links are within convex parts that enclose their meshes"))
         .chain(note(
             of_visuals,
             "links are within their visuals, as they have no collision shapes",

@@ -26,7 +26,7 @@ pub struct PairClearance {
     pub distance_m: f64,
     /// Midpoint between the two nearest points \[m\], base frame.
     pub place_m: [f64; 3],
-    /// True if the shape of one of the bodies is the convex hull of a mesh, which can reach beyond the mesh.
+    /// True if the shape of one of the bodies is a convex hull of a mesh or of a part of it, which can reach beyond the mesh.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub has_hull: bool,
     /// Part of the required clearance that the pair need not keep \[m\].
@@ -56,7 +56,7 @@ impl PairClearance {
     #[must_use]
     pub fn hull_note(&self) -> &'static str {
         if self.has_hull {
-            " (by convex hulls of meshes)"
+            " (by convex shapes of meshes)"
         } else {
             ""
         }
