@@ -11,6 +11,7 @@ name. Pictures are of the command's page, in the browser of the tests; Pillow is
 
 import argparse
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -49,8 +50,7 @@ ARMS = {
     "xarm6": ("UFACTORY xArm 6", *XARM, "robot_type:=xarm dof:=6", ""),
     "lite6": ("UFACTORY Lite 6", *XARM, "robot_type:=lite dof:=6", ""),
     "vs060": (
-        "DENSO VS-060", "DENSORobot/denso_robot_ros2", "denso_robot_descriptions/urdf/denso_robot.urdf.xacro", "model:=vs060",
-        "--tool-mount J6:z",
+        "DENSO VS-060", "DENSORobot/denso_robot_ros2", "denso_robot_descriptions/urdf/denso_robot.urdf.xacro", "model:=vs060", "",
     ),
     "m0609": (
         "Doosan M0609", "doosan-robotics/doosan-robot2", "dsr_description2/xacro/m0609.urdf.xacro", "",
@@ -142,6 +142,11 @@ def number(pattern, text):
     return json.loads(found[1]) if found else None
 
 
+def millimetres(bound_m):
+    """Formats a proved distance in tenths of a millimetre, rounded down."""
+    return f"{math.floor(1e4 * bound_m) / 10:.1f}"
+
+
 def row(name, result):
     """The line of an arm that is proved."""
     answer, robot = json.loads(result["text"]), result["robot"]
@@ -154,7 +159,7 @@ def row(name, result):
     mount, inverse = robot["tool_mount"], robot["inverse_kinematics"]
     reason = inverse.get("reason")
     notes = [
-        f"{' – '.join(line['pair'])}: {1e3 * line['at_least_m']:.1f} mm proved, {1e3 * line['required_m']:.1f} required"
+        f"{' – '.join(line['pair'])}: {millimetres(line['at_least_m'])} mm proved, {1e3 * line['required_m']:.1f} required"
         for line in certificate["clearance"]
         if line["rule"] == "reduced"
     ]
@@ -173,7 +178,7 @@ def row(name, result):
         closed,
         f"{near:g} to {far:g} m, {start:g} to {end:g}°".replace("-", "−"),
         f"{len(certificate['rests_on']['plates'])} in {certificate['duration_s']:.1f} s",
-        f"{1e3 * least['measure']['bound']:.1f} mm ({pair})",
+        f"{millimetres(least['measure']['bound'])} mm ({pair})",
         washed,
         f"{result['seconds']:.0f} s",
         "; ".join(notes) or "–",
