@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Most arms that are kept.
 const MOST_ARMS: usize = 64;
 
-/// What an arm is made of: URDF, SRDF, folders of its meshes, whether visuals are shapes, links that are split.
+/// Source of an arm: URDF, SRDF, folders of its meshes, whether visuals are shapes, links that are split.
 type ArmSource = (Option<PathBuf>, Option<PathBuf>, Vec<PathBuf>, bool, Vec<String>);
 
 /// A scenario's layout, planned and proved, with an arm that was loaded for it.

@@ -78,7 +78,8 @@ pub struct ReducedClearance {
 }
 
 /// True if a pair of names is that of the two bodies, in either order.
-pub(crate) fn is_pair(pair: &[String; 2], (a, b): (&str, &str)) -> bool {
+#[must_use]
+pub fn is_pair(pair: &[String; 2], (a, b): (&str, &str)) -> bool {
     let [x, y] = pair.each_ref().map(String::as_str);
     (x, y) == (a, b) || (x, y) == (b, a)
 }

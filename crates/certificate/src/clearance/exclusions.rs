@@ -9,7 +9,7 @@ use crate::subject::Subject;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::clearance::{self, ClearanceError, ClearanceModel};
 use platewash_workcell::words::{millimetres, plate_name};
-use platewash_workcell::workcell::{Exclusion, Workcell};
+use platewash_workcell::workcell::{Exclusion, Workcell, is_pair};
 use std::collections::BTreeSet;
 
 /// Excluded pairs: those that follow from the arm, and those that only the job excludes.
@@ -49,7 +49,7 @@ impl Exclusions {
     /// Returns the indices of the model's pairs that only the job excludes.
     pub fn waived_in(&self, model: &ClearanceModel) -> Vec<usize> {
         let pairs = model.pair_names().into_iter().enumerate();
-        let is_waived = |pair: (&str, &str)| self.waived.iter().any(|e| names(e, pair));
+        let is_waived = |pair: (&str, &str)| self.waived.iter().any(|e| is_pair(&e.pair, pair));
         pairs.filter(|(_, pair)| is_waived(*pair)).map(|(i, _)| i).collect()
     }
 
@@ -69,7 +69,10 @@ impl Exclusions {
             )
         }));
         let pairs = model.pair_names();
-        let unknown = self.waived.iter().filter(|e| !pairs.iter().any(|pair| names(e, *pair)));
+        let unknown = self
+            .waived
+            .iter()
+            .filter(|e| !pairs.iter().any(|pair| is_pair(&e.pair, *pair)));
         wrong.extend(unknown.map(|other| {
             let what = format!("exclusion of {}", exclusion_text(other));
             Discrepancy::new(
@@ -143,12 +146,6 @@ pub(crate) fn bodies_named_twice(robot: &RobotModel, world: &Workcell, plates: u
         .chain((0..plates).map(plate_name));
     let mut known = BTreeSet::new();
     names.filter(|name| !known.insert(name.clone())).collect()
-}
-
-/// True if an exclusion is that of the two bodies, in either order.
-fn names(exclusion: &Exclusion, (a, b): (&str, &str)) -> bool {
-    let [x, y] = exclusion.pair.each_ref().map(String::as_str);
-    (x, y) == (a, b) || (x, y) == (b, a)
 }
 
 fn exclusion_text(exclusion: &Exclusion) -> String {

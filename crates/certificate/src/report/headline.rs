@@ -4,7 +4,7 @@
 //! The file also holds the usual requirements of a washing. A job that requires less is named in the first line.
 
 use crate::report::certificate::{Certificate, Verdict};
-use crate::report::check::{Check, Measure, Sense, Status};
+use crate::report::check::{Check, Measure, Sense, Status, Unit};
 use crate::report::requirement::Requirement;
 use crate::report::words::{number, rounded_bound};
 use platewash_kinematics::words::distinct_decimals;
@@ -82,16 +82,27 @@ fn achieved_text(certificate: &Certificate) -> String {
     let number = |requirement| at_least(certificate.check(requirement)?.measure.as_ref()?);
     let share = number(requirement).map(|share| format!(", each {verb} {share}"));
     let clearance = number(Requirement::Clearance).map(|least| format!(", clearance {least}"));
-    let reduced = certificate.rests_on.workcell.reduced_clearances.iter();
-    let reduced: Vec<_> = reduced.map(|reduced| pair_text(&reduced.pair)).collect();
-    let reduced =
-        number(Requirement::ReducedClearance).map(|least| format!(", between {} {least}", reduced.join(", ")));
+    let reduced = certificate.clearance.iter().filter_map(|line| {
+        let measure = Measure {
+            bound: line.at_least_m,
+            seen: line.seen_m,
+            limit: line.required_m?,
+            sense: Sense::AtLeast,
+            unit: Unit::Metre,
+        };
+        Some(format!(", between {} {}", pair_text(&line.pair), at_least(&measure)?))
+    });
     let contact = if wanted.contact.is_some() || in_air {
         ""
     } else {
         ", contact not required"
     };
-    [share, clearance, reduced].into_iter().flatten().collect::<String>() + contact
+    [share, clearance]
+        .into_iter()
+        .flatten()
+        .chain(reduced)
+        .collect::<String>()
+        + contact
 }
 
 /// Formats a lower bound with its requirement: "at least 99.8 % (99.5 % required)".

@@ -254,7 +254,7 @@ fn a_pair_with_a_reduced_clearance_is_proved_on_its_own() {
         .find(|line| line.rule == PairRule::Reduced)
         .unwrap();
     assert_eq!((line.required_m, line.status), (Some(own.limit), Status::Proved));
-    let words = "clearance at least 24.9 mm (21.2 mm required), between \"handle\" – \"link_4\" at least 20.6 mm (15 mm required)";
+    let words = "clearance at least 24.9 mm (21.2 mm required), between \"link_4\" – \"handle\" at least 20.6 mm (15 mm required)";
     assert!(certificate.headline.contains(words), "{certificate}");
     let words = "less clearance 15 mm between \"handle\" – \"link_4\"\n";
     assert!(format!("{certificate:#}").contains(words), "{certificate:#}");

@@ -21,8 +21,9 @@ const WIDE_DEG: f64 = 120.0;
 const SPARE_M: f64 = 2e-3;
 
 /// Looks for a sector in which the first plate of a job could be washed from its home, were it alone: the row of places on the ray through
-/// the plate whose ring is the largest, and the turn about axis 1 to each side within which the ends and the middle of that row are washed; where that
-/// is narrow, a shorter row whose sector is larger. `None` where no two places in a row are washed. An estimate: only these places are checked, and transits are not.
+/// the plate whose ring is the largest, and the turn about axis 1 to each side within which the ends and the middle of that row are
+/// washed; where that is narrow, a shorter row whose sector is larger. `None` where no two places in a row are washed. An estimate: only
+/// these places are checked, and transits are not.
 ///
 /// # Errors
 /// [`PlanError`] of the input, and [`PlanError::Cancelled`].
