@@ -107,6 +107,9 @@ export class Header {
     if (result !== null) this.#badges.append(badge(result, "badge-small"));
     const words = of.sentence.replace(VERDICT, "");
     this.#sentence.replaceChildren(isolated(subject(this.#view, this.#said !== null)), isolated(words));
+    // A smaller clearance of a pair is never cut off.
+    const reduced = this.#view.certificate?.checks.some(({ requirement }) => requirement === "reduced_clearance") ?? false;
+    this.#sentence.classList.toggle("whole", reduced);
     this.#sentence.title = of.sentence.slice(0, TITLE);
     this.#showRests(this.#stale ? [] : assumptions(this.#view.certificate));
     this.#showFacts();
