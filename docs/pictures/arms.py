@@ -18,11 +18,9 @@ import subprocess
 import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
-KEPT = ROOT / "target" / "arms"
-BROWSER = ROOT / "target" / "browser"
-NODE = ROOT / "target" / "node" / "bin" / "node"
+from make import HERE, frames_of
+
+KEPT = HERE.parents[1] / "target" / "arms"
 
 MOTOMAN, KUKA, FANUC = ("ros-industrial/" + name for name in ("motoman", "kuka_experimental", "fanuc"))
 UR = ("UniversalRobots/Universal_Robots_ROS2_Description", "urdf/ur.urdf.xacro")
@@ -105,7 +103,7 @@ def platewash(command, *arguments):
 
 def measure(command, folder, name):
     """Washes with one arm, and keeps what is told of it."""
-    _, _, _, _, options = ARMS[name]
+    *_, options = ARMS[name]
     given = ["--urdf", folder / f"{name}.urdf", *options.split()]
     out = KEPT / name
     shutil.rmtree(out, ignore_errors=True)
@@ -125,9 +123,7 @@ def picture(name, target):
     page = KEPT / name / "page.html"
     if not page.exists():
         return
-    script = shutil.copyfile(HERE / "page.mjs", BROWSER / "page.mjs")
-    node = NODE if NODE.exists() else "node"
-    subprocess.run([node, script, page, KEPT / name, "8"], check=True)
+    frames_of(page, KEPT / name, 8)
     with Image.open(KEPT / name / "frame-001.png") as frame:
         wide = frame.convert("RGB")
         edge = min(wide.width, round(wide.height * 4 / 3))
@@ -165,7 +161,7 @@ def row(name, result):
     ]
     own = ("without collision shapes", "no collision shapes", "convex parts")
     notes += [text for text in certificate["rests_on"]["assumptions"] if any(word in text for word in own)]
-    _, _, _, _, options = ARMS[name]
+    arm, *_, options = ARMS[name]
     notes += [f"`{options}`"] if options else []
     closed = "search: " + re.sub(r"(\.\d)\d{3} mm", r"\1 mm", str(reason))
     if inverse["closed_form"]:
@@ -173,7 +169,7 @@ def row(name, result):
     simulated = answer.get("simulation") or {}
     washed = simulated.get("verdict", "not simulated").replace("_", " ")
     return [
-        ARMS[name][0],
+        arm,
         f"`{mount['link']}`, {mount['axis']}",
         closed,
         f"{near:g} to {far:g} m, {start:g} to {end:g}°".replace("-", "−"),

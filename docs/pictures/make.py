@@ -37,6 +37,13 @@ def figures(command, folder, target):
         shutil.copyfile(folder / scenario / f"{figure}.svg", target / name)
 
 
+def frames_of(page, folder, count):
+    """Draws a page, and so many frames of its scene, in the browser of the tests; see page.mjs."""
+    script = shutil.copyfile(HERE / "page.mjs", BROWSER / "page.mjs")
+    node = NODE if NODE.exists() else "node"
+    subprocess.run([node, script, page, folder, str(count)], check=True)
+
+
 def pages(command, folder, target):
     """Takes the picture of the page of `kitchen`, and joins those of its scene to an animated GIF."""
     from PIL import Image
@@ -44,9 +51,7 @@ def pages(command, folder, target):
     platewash(command, "run", "--scenario", "kitchen", "--out", folder)
     duration_s = json.loads((folder / "plan.json").read_text())["knots"]["t_s"][-1]
     count = round(duration_s / TIMES_FASTER * FRAMES_A_SECOND)
-    script = shutil.copyfile(HERE / "page.mjs", BROWSER / "page.mjs")
-    node = NODE if NODE.exists() else "node"
-    subprocess.run([node, script, folder / "page.html", folder, str(count)], check=True)
+    frames_of(folder / "page.html", folder, count)
     shutil.copyfile(folder / "page.jpg", target / "page.jpg")
     frames = []
     for k in range(count):

@@ -78,7 +78,7 @@ pub enum PlanError {
     /// No end configuration was stated, and none was found that is clear.
     #[error(
         "no home was found: none of {tried} configurations over all of the joints' limits keeps clear of everything{}",
-        most_frequent_pair(in_the_way)
+        pairs_in_the_way(in_the_way)
     )]
     NoHome {
         /// Configurations that were tried.
@@ -228,8 +228,8 @@ impl From<TransitError> for PlanError {
     }
 }
 
-/// Names the pair that is in the way most often; empty where there is none.
-fn most_frequent_pair(in_the_way: &[NearPair]) -> String {
+/// Names the pair that is in the way most often, and one that is so by design, with advice; empty where there is none.
+fn pairs_in_the_way(in_the_way: &[NearPair]) -> String {
     let names = |near: &NearPair| near.pair.each_ref().map(|name| printable(name)).join(" and ");
     let Some(first) = in_the_way.first() else {
         return String::new();

@@ -263,14 +263,13 @@ pub(crate) fn checks(limit_m: f64, lines: &[PairBound]) -> impl Iterator<Item = 
     let spare = |line: &&&PairBound| line.at_least_m.unwrap_or(f64::NEG_INFINITY) - line.required_m.unwrap_or(limit_m);
     let reduced = of(PairRule::Reduced);
     let scarcest = reduced.iter().min_by(|a, b| spare(a).total_cmp(&spare(b)));
-    let scarcest_m = scarcest.and_then(|line| line.required_m);
-    let reduced = scarcest_m.map(|required_m| {
-        let status = status(&reduced);
-        let shown: Vec<_> = scarcest.into_iter().copied().collect();
-        Check {
-            status,
-            ..check(Requirement::ReducedClearance, required_m, &shown)
-        }
+    let reduced = scarcest.map(|line| Check {
+        status: status(&reduced),
+        ..check(
+            Requirement::ReducedClearance,
+            line.required_m.unwrap_or(limit_m),
+            &[*line],
+        )
     });
     std::iter::once(check(Requirement::Clearance, limit_m, &of(PairRule::Clearance))).chain(reduced)
 }

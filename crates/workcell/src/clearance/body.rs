@@ -101,9 +101,14 @@ pub(crate) enum BodyKind {
 
 impl BodyKind {
     /// True for the bodies of the arm and its tool.
-    pub fn is_of_arm(self) -> bool {
+    fn is_of_arm(self) -> bool {
         matches!(self, Self::Link(_) | Self::Tool | Self::Sponge)
     }
+}
+
+/// True if the body of that name is of the arm or its tool.
+pub(crate) fn is_of_arm(bodies: &[Body], name: &str) -> bool {
+    bodies.iter().any(|body| body.name == name && body.kind.is_of_arm())
 }
 
 /// True if joint 1 turns about the normal of a half-space, so that the body it moves keeps its height over it.

@@ -2,7 +2,7 @@
 //!
 //! Errors of building a clearance model.
 
-use crate::clearance::body::{Ball, Body, BodyKind, part_pairs, place, plate_body, world};
+use crate::clearance::body::{Ball, Body, BodyKind, is_of_arm, part_pairs, place, plate_body, world};
 use crate::clearance::convex::{MOST_CORNERS, MOST_VERTICES};
 use crate::clearance::distance::{Separation, bracketed};
 use crate::clearance::far::{Crowd, Pairs};
@@ -172,9 +172,7 @@ impl ClearanceModel {
     /// True if the body of that name is of the arm or its tool.
     #[must_use]
     pub fn is_of_arm(&self, name: &str) -> bool {
-        self.bodies
-            .iter()
-            .any(|body| body.name == name && body.kind.is_of_arm())
+        is_of_arm(&self.bodies, name)
     }
 
     /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].

@@ -4,7 +4,7 @@
 //!
 //! Bodies of a tool that joint 6 turns on the spot are recognised.
 
-use crate::clearance::body::{Body, BodyKind, keeps_its_height, part_pairs, place, world};
+use crate::clearance::body::{Body, BodyKind, is_of_arm, keeps_its_height, part_pairs, place, world};
 use crate::clearance::distance::separation;
 use crate::clearance::model::ClearanceError;
 use crate::tool::Tool;
@@ -47,11 +47,7 @@ pub(crate) fn reduced(
             let pair = pair.clone();
             Err(ClearanceError::NotReducible { pair, fault })
         };
-        let is_of_arm = |name: &String| {
-            let mut named = bodies.iter().filter(|body| body.name == *name);
-            named.any(|body| body.kind.is_of_arm())
-        };
-        if !pair.iter().all(is_of_arm) {
+        if !pair.iter().all(|name| is_of_arm(bodies, name)) {
             return refused("one of them is not a body of the arm or its tool with a collision shape");
         }
         let is_named = |&&(a, b): &&(usize, usize)| is_pair(pair, (&bodies[a].name, &bodies[b].name));
