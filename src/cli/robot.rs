@@ -85,6 +85,9 @@ struct ToolMountRow {
 #[derive(Serialize)]
 struct InverseKinematics {
     closed_form: bool,
+    /// Structure that makes the closed form possible.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    structure: Option<&'static str>,
     /// First property that holds only up to the rounding of the description's numbers, or that does not hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
@@ -187,24 +190,25 @@ impl InverseKinematics {
         match AnalyticArm::recognise(robot) {
             Ok(arm) => Self {
                 closed_form: true,
+                structure: Some(arm.structure()),
                 reason: arm.rounding().map(|rounding| rounding.to_string()),
             },
             Err(mismatch) => Self {
                 closed_form: false,
+                structure: None,
                 reason: Some(mismatch.to_string()),
             },
         }
     }
 
     fn text(&self) -> String {
-        match (self.closed_form, &self.reason) {
-            (true, None) => "closed form (spherical wrist, axes 2 and 3 parallel)".to_owned(),
-            (true, Some(rounding)) => format!(
-                "closed form (spherical wrist, axes 2 and 3 parallel, but for rounded numbers: {rounding}), then Newton steps on the arm as \
-                 described"
+        match (self.structure, &self.reason) {
+            (Some(structure), None) => format!("closed form ({structure})"),
+            (Some(structure), Some(rounding)) => format!(
+                "closed form ({structure}, but for rounded numbers: {rounding}), then Newton steps on the arm as described"
             ),
-            (false, reason) => format!(
-                "by iteration, no closed form: {}",
+            (None, reason) => format!(
+                "by iteration, no closed form, so that branches can be missed: {}",
                 reason.as_deref().unwrap_or_default()
             ),
         }

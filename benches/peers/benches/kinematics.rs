@@ -5,9 +5,12 @@
 
 use platewash_benches::interleaved::{self, ROUNDS, Turn};
 use platewash_benches::plain_fk::PlainArm;
-use platewash_benches::solvers;
+use platewash_benches::solvers::{self, IkGeo};
+use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
-use platewash_kinematics::{RobotModel, ToolFrame, batch};
+use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::{JointVector, Pose, RobotModel, ToolFrame, batch};
 use platewash_problems::problems::{AWAY_M, COUNT, MANY, Problems, THROUGH_M, configurations};
 use platewash_problems::score::Score;
 use platewash_problems::solver::Solvers;
@@ -41,7 +44,63 @@ fn main() -> Result<(), Box<dyn Error>> {
         solvers::nearest,
         1,
     )?;
-    inverse("ik_cold", &robot, &Problems::random(&robot, COUNT)?, solvers::cold, 1)
+    inverse("ik_cold", &robot, &Problems::random(&robot, COUNT)?, solvers::cold, 1)?;
+    let ur5e = ur5e()?;
+    let random = Problems::random_many(&ur5e)?;
+    inverse("ik_nearest, UR5e", &ur5e, &random, solvers::nearest_three_parallel, 1)?;
+    println!("{}", all_branches_table(&ur5e, &random)?);
+    Ok(())
+}
+
+/// The arm of the test fixture with the lengths of a UR5e instead of those of a UR5.
+fn ur5e() -> Result<RobotModel, Box<dyn Error>> {
+    let text = include_str!("../../../crates/kinematics/tests/fixtures/ur5_lengths.urdf");
+    let lengths = [
+        ("0 0 0.089159", "0 0 0.1625"),
+        ("-0.39225 0 0", "-0.3922 0 0"),
+        ("0 0 0.10915", "0 0 0.1333"),
+        ("0 0 0.09465", "0 0 0.0997"),
+        ("0 0 0.0823", "0 0 0.0996"),
+    ];
+    let text = lengths
+        .iter()
+        .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+    Ok(RobotModel::from_urdf(&text, &MeshSource::none())?)
+}
+
+/// All branches of each target, joint limits not looked at.
+fn all_branches_table(robot: &RobotModel, problems: &Problems) -> Result<String, Box<dyn Error>> {
+    let arm = AnalyticArm::recognise(robot)?;
+    let tool0 = robot.tool_frame(ToolFrame::Tool0)?;
+    let body = |pose: &Pose| AnalyticArm::body_target(&tool0, &RigidTransform::from(pose));
+    let targets: Vec<_> = problems.targets.iter().filter_map(body).collect();
+    let ik_geo = IkGeo::three_parallel(robot, &problems.targets)?;
+    let previous = JointVector::zeros();
+    let turns = interleaved::turns(
+        &mut [
+            Box::new(|| {
+                timed(targets.len(), || {
+                    for target in &targets {
+                        let _ = black_box(arm.branches(black_box(target), &previous));
+                    }
+                })
+            }),
+            Box::new(|| {
+                timed(targets.len(), || {
+                    for target in 0..targets.len() {
+                        black_box(ik_geo.count(target));
+                    }
+                })
+            }),
+        ],
+        1,
+    );
+    let mut text = format!("\nall branches, UR5e, {ROUNDS} interleaved rounds\n\n");
+    text += "| solver | ns | `branches` / it |\n| --- | ---: | ---: |\n";
+    for (name, Turn { median_ns, ratios }) in ["platewash `branches`", "ik-geo"].iter().zip(turns) {
+        text += &format!("| {name} | {median_ns:.0} | {:.3} |\n", ratios[0]);
+    }
+    Ok(text)
 }
 
 /// Prepares the solvers for the problems.

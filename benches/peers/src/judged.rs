@@ -108,7 +108,7 @@ impl<'a> Court<'a> {
             solver: IkSolver::new(robot, tool0, IkSettings::default())?,
             arm: AnalyticArm::recognise(robot)?,
             opw: Opw::new(robot, &[]),
-            ik_geo: IkGeo::new(robot, &[]),
+            ik_geo: IkGeo::spherical(robot, &[])?,
         })
     }
 

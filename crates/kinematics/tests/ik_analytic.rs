@@ -88,7 +88,7 @@ fn fixture(name: &str) -> RobotModel {
 }
 
 fn family() -> Vec<Arm> {
-    let generated = (1..=6).map(|k| Arm::new(fixture(&format!("family_{k}"))));
+    let generated = (1..=9).map(|k| Arm::new(fixture(&format!("family_{k}"))));
     std::iter::once(Arm::irb120()).chain(generated).collect()
 }
 
@@ -224,7 +224,8 @@ fn poses_near_stretch_and_the_wrist_singularity_are_solved() {
                     let start = arm.random(&mut rng);
                     let found = arm.checked(&arm.target(&q), &start, &format!("joint {joint} at {near}"));
                     assert!(!arm.all(&arm.target(&q), &start).is_empty());
-                    if found.degenerate.wrist && joint == 4 && near == value {
+                    let spherical = arm.arm.structure().starts_with("spherical wrist");
+                    if found.degenerate.wrist && joint == 4 && near == value && spherical {
                         let kept = (found.q[3] - start[3]).abs() < 1e-12;
                         let at_limit = arm.robot.limits().margins(&found.q)[5] < 1e-9;
                         assert!(kept || at_limit, "joint 4 keeps its value: {} {}", found.q[3], start[3]);

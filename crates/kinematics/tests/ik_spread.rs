@@ -1,10 +1,13 @@
-//! Many answers to one pose, on an arm without a closed form.
+//! Many answers to one pose by a search, also against the closed form of the same arm.
 
+use platewash_kinematics::ik::analytic::AnalyticArm;
 use platewash_kinematics::ik::{IkError, IkSettings, IkSolver};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{Axes, JointVector, RobotModel, ToolFrame};
 use proptest::prelude::*;
-use std::f64::consts::TAU;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::f64::consts::{PI, TAU};
 
 /// How many of the listed starts are tried.
 const LISTED: usize = 96;
@@ -63,6 +66,58 @@ fn all_eight_branches_of_a_pose_in_front_are_found() {
         .fk(&(home + JointVector::new(2.4, 0.3, 0.2, -0.4, 0.2, 0.9)))
         .pose(solver.frame());
     assert_eq!(solver.spread(&target, &home, LISTED).unwrap().len(), 8);
+}
+
+/// The closed form and a search from many starts agree on the branches of random poses. `PLATEWASH_POSES` sets how many are tried.
+#[test]
+fn the_closed_form_has_every_branch_that_a_search_finds() {
+    let robot = arm();
+    let solver = solver(&robot);
+    let analytic = AnalyticArm::recognise(&robot).unwrap();
+    let poses = std::env::var("PLATEWASH_POSES").map_or(2000, |count| count.parse().unwrap());
+    let mut rng = Pcg64::seed_from_u64(71);
+    let (mut regular, mut singular, mut same_number, mut branches) = (0, 0, 0, 0);
+    for _ in 0..poses {
+        let q = JointVector::from_fn(|_, _| PI * (2.0 * rng.random::<f64>() - 1.0));
+        let fk = robot.fk(&q);
+        let target = fk.pose(solver.frame());
+        let body = AnalyticArm::body_target(solver.frame(), &fk.rigid(solver.frame())).unwrap();
+        let closed: Vec<_> = analytic
+            .branches(&body, &q)
+            .unwrap()
+            .iter()
+            .map(|branch| branch.q)
+            .collect();
+        for answer in &closed {
+            let there = robot.fk(answer).pose(solver.frame());
+            assert!(
+                (there.translation.vector - target.translation.vector).norm() < 1e-9,
+                "{q}"
+            );
+            assert!(there.rotation.angle_to(&target.rotation) < 1e-9, "{q}");
+        }
+        assert!(
+            closed.iter().any(|answer| apart(answer, &q) < 1e-5),
+            "{q} is not among {closed:?}"
+        );
+        let smallest = |q: &JointVector| robot.fk(q).jacobian(solver.frame(), Axes::Base).singular_values().min();
+        if closed.iter().any(|q| smallest(q) < 0.01) {
+            singular += 1;
+            continue;
+        }
+        regular += 1;
+        let found = solver.spread(&target, &q, LISTED).unwrap();
+        for answer in &found {
+            let near = |other: &JointVector| apart(answer, other) < 1e-6;
+            assert!(closed.iter().any(near), "{answer} is not among {closed:?}");
+        }
+        same_number += usize::from(found.len() == closed.len());
+        branches += closed.len();
+    }
+    println!(
+        "{regular} regular poses with {branches} branches: {same_number} times all found; {singular} poses near singularities"
+    );
+    assert!(same_number * 100 >= regular * 99, "{same_number} of {regular}");
 }
 
 #[test]

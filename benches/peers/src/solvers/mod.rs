@@ -43,19 +43,29 @@ pub fn cold<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a
 /// An arm without a closed form.
 pub fn nearest<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
     let mut all = ours::nearest(robot, problems)?;
-    all.append(&mut analytic_peers(robot, problems));
+    all.append(&mut analytic_peers(robot, problems)?);
     Ok(all)
 }
 
-fn analytic_peers<'a>(robot: &'a RobotModel, problems: &Problems) -> Solvers<'a> {
-    vec![
+/// The same for an arm with parallel axes 2, 3 and 4.
+///
+/// # Errors
+/// An arm without a closed form.
+pub fn nearest_three_parallel<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
+    let mut all = ours::nearest(robot, problems)?;
+    all.push(Box::new(IkGeo::three_parallel(robot, &problems.targets)?));
+    Ok(all)
+}
+
+fn analytic_peers<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
+    Ok(vec![
         Box::new(Opw::new(robot, &problems.targets)),
-        Box::new(IkGeo::new(robot, &problems.targets)),
-    ]
+        Box::new(IkGeo::spherical(robot, &problems.targets)?),
+    ])
 }
 
 fn all_peers<'a>(robot: &'a RobotModel, problems: &Problems) -> Result<Solvers<'a>, Box<dyn Error>> {
-    let mut all = analytic_peers(robot, problems);
+    let mut all = analytic_peers(robot, problems)?;
     all.push(Box::new(KJacobian::new(robot, problems)?));
     Ok(all)
 }

@@ -325,7 +325,7 @@ impl Robot {
     /// Every configuration within the limits that brings the frame to `target`, shape (4, 4), with the names of their branches,
     /// and why the other branches are none. `previous`, shape (6,), decides joints that are free at singularities.
     ///
-    /// Raises InputError for an arm without closed form: its wrist is not spherical, or axes 2 and 3 are not parallel.
+    /// Raises InputError for an arm without closed form: see docs/cells.md, or what `platewash robot` says of it.
     #[pyo3(signature = (target, previous=None, frame=None, *, tool=None))]
     fn ik_all<'py>(
         &self,

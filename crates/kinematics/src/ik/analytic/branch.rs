@@ -3,7 +3,8 @@
 //! Names of the branches, and the borders where they meet.
 
 use crate::JointVector;
-use crate::ik::analytic::equations::{Bend, Goal, Swing, Turn};
+use crate::ik::analytic::links::{Bend, Swing};
+use crate::ik::analytic::wrist::Turn;
 use crate::ik::analytic::{AnalyticArm, AnalyticError, check_finite};
 use crate::rotation::RigidTransform;
 use serde::Serialize;
@@ -50,54 +51,24 @@ impl AnalyticArm {
     pub fn branches(&self, target: &RigidTransform, previous: &JointVector) -> Result<Branches, AnalyticError> {
         check_finite(target, previous)?;
         Ok(Branches {
-            slots: self.all_branches(target, previous).map(|slot| Ok(slot?.0)),
+            slots: self.form.all_branches(target, previous).map(|slot| Ok(slot?.0)),
         })
     }
+}
 
-    /// Returns all branches in the order of [`Label::ALL`], each with its wrist.
-    pub(crate) fn all_branches(
-        &self,
-        target: &RigidTransform,
-        previous: &JointVector,
-    ) -> [Result<(Branch, Turn), OutOfReach>; 8] {
-        let goal = self.goal(target);
-        let of_side = |shoulder| {
-            let (swing, bends) = self.arm_poses(&goal, shoulder, previous)?;
-            let turns = bends.map(|bend| self.wrist(&swing, &bend, previous[3]));
-            Ok((swing, bends, turns))
-        };
-        let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
-        Label::ALL.map(|label| {
-            let (swing, bends, turns) = sides[label.shoulder as usize]?;
-            let (bend, turn) = (bends[label.elbow as usize], turns[label.elbow as usize]);
-            Ok((self.branch(label, &swing, &bend, &turn), turn))
-        })
-    }
-
-    fn arm_poses(&self, goal: &Goal, side: Shoulder, previous: &JointVector) -> Result<(Swing, [Bend; 2]), OutOfReach> {
-        let swing = self.swing(goal, side, previous[0])?;
-        let triangle = self.triangle(&swing)?;
-        let bends = [Elbow::Up, Elbow::Down].map(|elbow| self.bend(&triangle, side, elbow, previous[1]));
-        Ok((swing, bends))
-    }
-
-    fn branch(&self, label: Label, swing: &Swing, bend: &Bend, turn: &Turn) -> Branch {
-        let [q4, q5, q6] = self.wrist_joints(turn, label.wrist);
-        let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
-        Branch {
+impl Branch {
+    /// Returns the branch with its joints turned into (−π, π].
+    pub(crate) fn new(q: JointVector, label: Label, degenerate: Degeneracies) -> Self {
+        Self {
             q: q.map(principal),
             label,
-            degenerate: Degeneracies {
-                shoulder: swing.meets,
-                elbow: bend.meets,
-                wrist: turn.free,
-            },
+            degenerate,
         }
     }
 }
 
 /// Returns the angle in (−π, π] \[rad\], up to rounding.
-fn principal(angle: f64) -> f64 {
+pub(crate) fn principal(angle: f64) -> f64 {
     if -PI < angle && angle <= PI {
         return angle;
     }
@@ -189,6 +160,17 @@ pub struct Degeneracies {
     pub elbow: bool,
     /// Axes 4 and 6 are parallel: joint 4 is free and keeps its previous value.
     pub wrist: bool,
+}
+
+impl Degeneracies {
+    #[inline]
+    pub(crate) fn of(swing: &Swing, bend: &Bend, turn: &Turn) -> Self {
+        Self {
+            shoulder: swing.meets,
+            elbow: bend.meets,
+            wrist: turn.free,
+        }
+    }
 }
 
 /// Border of the reachable space that the wrist centre is beyond.

@@ -58,10 +58,14 @@
 
 mod all;
 mod branch;
-mod equations;
+mod chain;
+mod links;
 mod nearest;
+mod parallel;
 mod recognise;
 mod side_by_side;
+mod spherical;
+mod wrist;
 
 pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
 pub use crate::ik::analytic::branch::{
@@ -70,44 +74,54 @@ pub use crate::ik::analytic::branch::{
 pub use crate::ik::analytic::nearest::NearestConfiguration;
 pub use crate::ik::analytic::recognise::StructureMismatch;
 
+use crate::ik::analytic::chain::Chain;
+use crate::ik::analytic::nearest::Window;
+use crate::ik::analytic::wrist::Turn;
 use crate::rotation::RigidTransform;
-use crate::{AXES, JointVector, LimitViolation};
-use nalgebra::{Complex, Matrix3};
+use crate::{AXES, JointLimits, JointVector, LimitViolation};
+use std::fmt::Debug;
+use std::sync::Arc;
 
-/// Arm whose inverse kinematics has a closed form: see the [module](self) text. Immutable.
-#[derive(Debug, Clone, PartialEq)]
+/// Arm whose inverse kinematics has a closed form: see the [module](self) text. Immutable; copies share it.
+#[derive(Debug, Clone)]
 pub struct AnalyticArm {
-    /// `F_i` of the model.
-    pub(crate) folded: [RigidTransform; AXES],
-    /// `T_S_base`: base coordinates to the shoulder frame at q₁ = 0.
-    pub(crate) shoulder_from_base: RigidTransform,
-    /// Wrist centre on the z axis of body 6 \[m\].
-    pub(crate) wrist_along_axis_6: f64,
-    /// x of axis 2 in the shoulder frame, a₁ \[m\].
-    pub(crate) shoulder_offset: f64,
-    /// y of the wrist centre in the shoulder frame, b \[m\]; exactly 0 when within tolerance.
-    pub(crate) lateral_offset: f64,
-    /// Upper arm L₂ and forearm L₃ \[m\].
-    pub(crate) lengths: [f64; 2],
-    /// +1 where axis 2 (axis 3) points along y of the shoulder frame, −1 where against it.
-    pub(crate) signs: [f64; 2],
-    /// `e^{i φ₂}` at q₂ = 0.
-    pub(crate) upper_at_zero: Complex<f64>,
-    /// ψ at q₃ = 0 \[rad\], and `e^{i ψ}` there.
-    pub(crate) bend_at_zero: f64,
-    pub(crate) turn_at_zero: Complex<f64>,
-    /// `Kᵀ`, K the rotation from the z–y–z wrist's first frame to the shoulder frame at q₁ = q₂ = q₃ = 0.
-    pub(crate) wrist_from_shoulder: Matrix3<f64>,
-    /// α₅ and α₆ \[rad\].
-    pub(crate) wrist_at_zero: [f64; 2],
-    /// First property that holds only up to rounding.
-    pub(crate) rounding: Option<StructureMismatch>,
+    form: Arc<dyn ClosedForm>,
+}
+
+/// Closed form of one structure of arm. Configurations are answers for body 6; `previous` and the window's anchor decide free joints.
+pub(crate) trait ClosedForm: Debug + Send + Sync {
+    /// Returns the chain as described.
+    fn chain(&self) -> &Chain;
+    /// Returns words for the structure.
+    fn structure(&self) -> &'static str;
+    /// Returns all branches in the order of [`Label::ALL`], each with its last turns; limits are not checked.
+    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<(Branch, Turn), OutOfReach>; 8];
+    /// Returns the branch's configuration nearest to the start, within the limits or nearly so.
+    fn within(&self, branch: &Branch, turn: &Turn, window: &Window<'_>) -> Option<JointVector>;
+    /// Returns the answer nearest to the start.
+    fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration>;
+    /// Returns the anchors that remain to be tried where a joint is free and its value at the anchor led to no answer.
+    fn elsewhere(&self, target: &RigidTransform, window: &Window<'_>) -> Vec<JointVector>;
+    /// Returns |det J| up to a constant factor.
+    fn regularity(&self, q: &JointVector) -> f64;
+
+    /// Returns `q` within the limits: see [`Chain::moved_within_limits`].
+    #[inline]
+    fn moved_within_limits(
+        &self,
+        target: &RigidTransform,
+        q: JointVector,
+        limits: &JointLimits,
+    ) -> Option<JointVector> {
+        self.chain()
+            .moved_within_limits(target, q, limits, |q| self.regularity(q))
+    }
 }
 
 /// Largest deviation of a length that must be zero for an arm to be recognised \[m\].
 pub const GEOMETRY_TOLERANCE_M: f64 = 1e-10;
 /// Largest deviation of an angle that must be 0° or 90° for an arm to be recognised \[rad\].
-pub const GEOMETRY_TOLERANCE_RAD: f64 = 1e-10;
+pub const GEOMETRY_TOLERANCE_RAD: f64 = 5e-10;
 /// Shortest upper arm and forearm \[m\].
 pub const SHORTEST_LINK_M: f64 = 1e-3;
 /// Distance of a target beyond full stretch, full fold or the column around axis 1 up to which it is still answered \[m\].

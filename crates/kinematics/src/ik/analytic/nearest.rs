@@ -3,11 +3,10 @@
 //! Joint limits, and the start from which distances are measured.
 
 use crate::ik::analytic::all::{Rejection, Solutions};
-use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
-use crate::ik::analytic::equations::{Bend, Goal, Swing};
-use crate::ik::analytic::side_by_side::{Rare, SideBySide};
-use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS, check_finite};
-use crate::lanes::run_exact;
+use crate::ik::analytic::branch::{Degeneracies, Label, OutOfReach};
+use crate::ik::analytic::{
+    AnalyticArm, AnalyticError, ClosedForm, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS, check_finite,
+};
 use crate::rotation::RigidTransform;
 use crate::{JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
@@ -44,101 +43,45 @@ impl AnalyticArm {
     ) -> Result<NearestConfiguration, AnalyticError> {
         check_finite(target, start)?;
         let window = Window::new(limits, start);
-        let goal = self.goal(target);
-        let side_by_side = SideBySide {
-            arm: self,
-            target,
-            goal: &goal,
-            window: &window,
-        };
-        let found = run_exact(side_by_side).unwrap_or_else(|Rare| self.search(target, &goal, &window));
-        match found {
+        match self.form.search(target, &window) {
             Some(found) => Ok(found),
-            None => self.search_elsewhere(target, &goal, &window),
+            None => self.search_elsewhere(target, &window),
         }
     }
 
-    pub(crate) fn search(
-        &self,
-        target: &RigidTransform,
-        goal: &Goal,
-        window: &Window<'_>,
-    ) -> Option<NearestConfiguration> {
-        let mut search = Search::new(self, target, window);
-        search.shoulder(goal, Shoulder::Front);
-        search.shoulder(goal, Shoulder::Back);
-        search.best
-    }
-
-    /// Searches the next values of joint 1 that may do, if it is free; otherwise returns the reason.
+    /// Searches with other values of the joint that is free, if one is; otherwise returns the reason.
     #[cold]
     fn search_elsewhere(
         &self,
         target: &RigidTransform,
-        goal: &Goal,
         window: &Window<'_>,
     ) -> Result<NearestConfiguration, AnalyticError> {
-        self.critical_turns(goal, window)
-            .find_map(|q1| self.search(target, goal, &window.anchored(q1)))
+        (self.form.elsewhere(target, window).into_iter())
+            .find_map(|anchor| self.form.search(target, &window.anchored(anchor)))
             .ok_or_else(|| least_miss(&self.all_within(target, window)))
     }
 }
 
-/// The search for the nearest answer, branch by branch. A branch is left as soon as a joint is outside its limits
-/// or the joints so far are already further away than the best.
-pub(crate) struct Search<'a> {
-    arm: &'a AnalyticArm,
+/// The search for the nearest answer.
+pub(crate) struct Search<'a, F> {
+    form: &'a F,
     target: &'a RigidTransform,
-    window: &'a Window<'a>,
+    pub window: &'a Window<'a>,
     pub best: Option<NearestConfiguration>,
     /// Squared distance of the best answer \[rad²\].
     pub least: f64,
 }
 
-impl<'a> Search<'a> {
+impl<'a, F: ClosedForm> Search<'a, F> {
     #[inline]
-    pub fn new(arm: &'a AnalyticArm, target: &'a RigidTransform, window: &'a Window<'a>) -> Self {
+    pub fn new(form: &'a F, target: &'a RigidTransform, window: &'a Window<'a>) -> Self {
         Self {
-            arm,
+            form,
             target,
             window,
             best: None,
             least: f64::INFINITY,
         }
-    }
-
-    #[inline]
-    fn shoulder(&mut self, goal: &Goal, shoulder: Shoulder) -> Option<()> {
-        let swing = self.arm.swing(goal, shoulder, self.window.anchor[0]).ok()?;
-        let q1 = self.window.value(0, swing.q1)?;
-        let triangle = self.arm.triangle(&swing).ok()?;
-        for elbow in [Elbow::Up, Elbow::Down] {
-            let bend = self.arm.bend(&triangle, shoulder, elbow, self.window.anchor[1]);
-            self.elbow(&swing, &bend, q1, shoulder, elbow);
-        }
-        Some(())
-    }
-
-    #[inline]
-    fn elbow(&mut self, swing: &Swing, bend: &Bend, q1: f64, shoulder: Shoulder, elbow: Elbow) -> Option<()> {
-        let q3 = self.window.value(2, bend.q3)?;
-        let q2 = self.window.value(1, bend.q2)?;
-        if self.window.squared_distance(&[q1, q2, q3]) >= self.least {
-            return None;
-        }
-        let turn = self.arm.wrist(swing, bend, self.window.anchor[3]);
-        let degenerate = Degeneracies {
-            shoulder: swing.meets,
-            elbow: bend.meets,
-            wrist: turn.free,
-        };
-        for wrist in [Wrist::Plain, Wrist::Flipped] {
-            if let Some([q4, q5, q6]) = self.arm.wrist_within(&turn, wrist, self.window) {
-                let q = JointVector::new(q1, q2, q3, q4, q5, q6);
-                self.offer(q, Label::new(shoulder, elbow, wrist), degenerate);
-            }
-        }
-        Some(())
     }
 
     /// Takes the configuration if it is nearer than the best. One beyond a limit must be movable onto it.
@@ -147,7 +90,7 @@ impl<'a> Search<'a> {
         if self.window.squared_distance(q.as_slice()) >= self.least {
             return None;
         }
-        let q = self.arm.moved_within_limits(self.target, q, self.window.limits)?;
+        let q = self.form.moved_within_limits(self.target, q, self.window.limits)?;
         self.least = self.window.squared_distance(q.as_slice());
         self.best = Some(NearestConfiguration {
             q,
@@ -198,15 +141,20 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Returns the window with joint 1, if it is free, kept at another value \[rad\].
-    pub fn anchored(&self, q1: f64) -> Self {
-        let mut anchor = self.anchor;
-        anchor[0] = q1;
+    /// Returns the window with another configuration for the joints that are free \[rad\].
+    pub fn anchored(&self, anchor: JointVector) -> Self {
         Self {
             limits: self.limits,
             start: self.start,
             anchor,
         }
+    }
+
+    /// Returns the anchor with another value of one joint \[rad\].
+    pub fn anchor_with(&self, joint: usize, value: f64) -> JointVector {
+        let mut anchor = self.anchor;
+        anchor[joint] = value;
+        anchor
     }
 
     /// Returns the value `angle + 2πk` within the limits that is nearest to the start, or failing that the one within [`LIMIT_NEAR_RAD`] of

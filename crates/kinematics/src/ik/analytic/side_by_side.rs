@@ -1,15 +1,14 @@
 //! The search for the nearest answer with all four arm branches side by side in the lanes of vectors.
 //!
-//! The equations are those of `equations`, operation by operation, so that the answers have the same bits. What is rare is left to the
+//! The equations are those of `links`, `wrist` and `spherical`, operation by operation, so that the answers have the same bits. What is rare is left to the
 //! search branch by branch: joints that are free, joints that only the second, wider tolerance of the limits admits, and rounded arms.
 
 use crate::JointVector;
 use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, Shoulder, Wrist};
-use crate::ik::analytic::equations::{ELBOWS_MEET, Goal};
+use crate::ik::analytic::links::{ELBOWS_MEET, Goal};
 use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
-use crate::ik::analytic::{
-    AnalyticArm, FREE_SHOULDER_M, FREE_WRIST_RAD, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, REACH_ROUNDING_M,
-};
+use crate::ik::analytic::spherical::SphericalWristArm;
+use crate::ik::analytic::{FREE_SHOULDER_M, FREE_WRIST_RAD, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, REACH_ROUNDING_M};
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::rotation::RigidTransform;
 use crate::trig::atan2_vector;
@@ -30,7 +29,7 @@ pub(crate) struct Rare;
 /// The search for the nearest answer.
 #[derive(Clone)]
 pub(crate) struct SideBySide<'a> {
-    pub arm: &'a AnalyticArm,
+    pub arm: &'a SphericalWristArm,
     pub target: &'a RigidTransform,
     pub goal: &'a Goal,
     pub window: &'a Window<'a>,
@@ -57,7 +56,7 @@ impl Kernel for SideBySide<'_> {
     fn run<V: Vector>(self) -> Self::Output {
         let arms = self.arms::<V>()?;
         let [first, second, third] = arms.turns()?;
-        let [at_zero_5, at_zero_6] = [V::splat(self.arm.wrist_at_zero[0]), V::splat(self.arm.wrist_at_zero[1])];
+        let [at_zero_5, at_zero_6] = [V::splat(self.arm.turns.at_zero[0]), V::splat(self.arm.turns.at_zero[1])];
         let (half_turn, minus) = (V::splat(PI), V::splat(-0.0));
         let mut within = Within::all();
         let (q1, q2, q3) = (
@@ -136,10 +135,10 @@ impl SideBySide<'_> {
     /// Computes joints 1 to 3 and the rest for the wrist.
     #[inline(always)]
     fn arms<V: Vector>(&self) -> Result<Arms<V>, Rare> {
-        let (arm, w, b) = (self.arm, &self.goal.wrist, self.arm.lateral_offset);
+        let (arm, w, b) = (self.arm, &self.goal.wrist, self.arm.links.lateral_offset);
         let r = (w.x * w.x + w.y * w.y).sqrt();
         let free = b == 0.0 && r <= FREE_SHOULDER_M;
-        if arm.rounding.is_some() || free || r < b.abs() - REACH_ROUNDING_M {
+        if arm.chain.rounding.is_some() || free || r < b.abs() - REACH_ROUNDING_M {
             return Err(Rare);
         }
         let out = ((r - b.abs()) * (r + b.abs())).max(0.0).sqrt();
@@ -150,7 +149,7 @@ impl SideBySide<'_> {
         let scale = V::splat(1.0) / (s * s + c * c).sqrt();
         let (s, c) = (s * scale, c * scale);
 
-        let wrist = [V::splat(w.z), x - V::splat(arm.shoulder_offset)];
+        let wrist = [V::splat(w.z), x - V::splat(arm.links.shoulder_offset)];
         let (bend, q, reached) = self.bend(wrist, swing)?;
         let [_, sine] = bend.bent;
         let rotation = self.rotation(s, c, bend.forearm);
@@ -165,7 +164,8 @@ impl SideBySide<'_> {
     /// Computes the triangle and joints 1 to 3, and the lanes that reach the wrist centre. `swing` is `e^{iq₁}`, not of unit length.
     #[inline(always)]
     fn bend<V: Vector>(&self, wrist: Complexes<V>, swing: (V, V)) -> Result<(Bends<V>, [V; 3], V), Rare> {
-        let (arm, [upper, fore]) = (self.arm, self.arm.lengths);
+        let arm = &self.arm.links;
+        let [upper, fore] = arm.lengths;
         let (longest, shortest) = (upper + fore, (upper - fore).abs());
         let distance = squared_norm(wrist).sqrt();
         if distance.at_most(V::splat(FREE_SHOULDER_M)).sign_bits() != 0 {
@@ -211,7 +211,7 @@ impl SideBySide<'_> {
     /// Returns `E = Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R`.
     #[inline(always)]
     fn rotation<V: Vector>(&self, s: V, c: V, forearm: Complexes<V>) -> [[V; 3]; 3] {
-        let (r, k): (&Matrix3<f64>, _) = (&self.goal.rotation, &self.arm.wrist_from_shoulder);
+        let (r, k): (&Matrix3<f64>, _) = (&self.goal.rotation, &self.arm.turns.from_shoulder);
         let [fore_c, fore_s] = forearm;
         let mut rotation = [[V::splat(0.0); 3]; 3];
         for column in 0..3 {
@@ -328,6 +328,7 @@ fn squared_norm<V: Vector>([re, im]: Complexes<V>) -> V {
 mod tests {
     use super::*;
     use crate::RobotModel;
+    use crate::ik::analytic::recognise::Geometry;
     use crate::lanes::tests::portable_and_exact;
     use proptest::prelude::*;
 
@@ -339,11 +340,11 @@ mod tests {
             stretch in prop_oneof![3 => Just(1.0), 1 => 0.8..1.2f64],
         ) {
             let robot = RobotModel::irb120().map_err(|error| TestCaseError::fail(error.to_string()))?;
-            let arm = AnalyticArm::recognise(&robot).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let arm = Geometry::of(&robot).spherical().map_err(|error| TestCaseError::fail(error.to_string()))?;
             let mut target = robot.fk(&q.into()).bodies[6];
             target.translation *= stretch;
-            let (goal, window) = (arm.goal(&target), Window::new(robot.limits(), &start.into()));
-            let expected = arm.search(&target, &goal, &window);
+            let (goal, window) = (arm.links.goal(&target), Window::new(robot.limits(), &start.into()));
+            let expected = arm.search_in_turn(&target, &goal, &window);
             let side_by_side = SideBySide { arm: &arm, target: &target, goal: &goal, window: &window };
             for found in portable_and_exact(&side_by_side).into_iter().flatten() {
                 prop_assert_eq!(found, expected);
@@ -354,9 +355,12 @@ mod tests {
     #[test]
     fn ordinary_targets_are_not_rare() {
         let robot = RobotModel::irb120().unwrap();
-        let arm = AnalyticArm::recognise(&robot).unwrap();
+        let arm = Geometry::of(&robot).spherical().unwrap();
         let target = robot.fk(&JointVector::new(0.3, 0.2, -0.4, 0.5, 0.6, -0.7)).bodies[6];
-        let (goal, window) = (arm.goal(&target), Window::new(robot.limits(), &JointVector::zeros()));
+        let (goal, window) = (
+            arm.links.goal(&target),
+            Window::new(robot.limits(), &JointVector::zeros()),
+        );
         let side_by_side = SideBySide {
             arm: &arm,
             target: &target,

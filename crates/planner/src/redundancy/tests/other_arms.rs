@@ -1,11 +1,18 @@
-//! Arms of other makers: branches that are searched for, and the conclusion where none is found.
+//! Arms of other makers: branches in closed form or searched for, and the conclusion where none is found.
 
 use crate::redundancy::tests::*;
 use platewash_kinematics::urdf::MeshSource;
 
-/// No closed form here: its wrist is not spherical.
+/// Axes 2, 3 and 4 are parallel.
 const UR5: &str = include_str!("../../../../kinematics/tests/fixtures/ur5_lengths.urdf");
 const KR5: &str = include_str!("../../../../kinematics/tests/fixtures/kr5_lengths.urdf");
+
+/// The UR5 with axis 6 beside axis 5, so that there is no closed form.
+fn searched() -> String {
+    let moved = UR5.replace("xyz=\"0 0 0.09465\"", "xyz=\"0.01 0 0.09465\"");
+    assert_ne!(moved, UR5);
+    moved
+}
 
 const UR5_HOME_DEG: [f64; 6] = [0.0, -90.0, 90.0, -90.0, -90.0, 0.0];
 
@@ -27,10 +34,12 @@ fn ur5_home() -> JointVector {
 /// would turn first from home.
 #[test]
 fn washability_does_not_depend_on_the_angle_about_axis_1() {
+    let searched = searched();
     for k in 0..12 {
         let azimuth = -149.999 + 30.0 * f64::from(k);
         let (s, c) = sin_cos(azimuth.to_radians());
-        with(UR5, plate(0.509 * c, 0.509 * s, 0.1), |world| {
+        let arm = if k % 2 == 0 { UR5 } else { &searched };
+        with(arm, plate(0.509 * c, 0.509 * s, 0.1), |world| {
             let path = path(curve(0.09), 15.0);
             let washing = washing(&world.task_near(&path, &ur5_home()));
             let washing = washing.unwrap_or_else(|error| panic!("{azimuth}: {error}"));
@@ -60,17 +69,16 @@ fn says_unwashable_only_with_a_proof() {
             }
         })
     };
-    // 1.02 m and the tool of 0.15 m are the most that the UR5 reaches; 0.2 m from axis 1 its own bodies are in the way, but no list
-    // of its branches says so.
-    assert_eq!(
-        conclusion(UR5, plate(1.4, 0.0, 0.1), &ur5_home()),
-        Some(Conclusion::BeyondReach)
-    );
-    assert_eq!(
-        conclusion(UR5, plate(0.95, 0.0, 0.1), &ur5_home()),
-        Some(Conclusion::NotFound)
-    );
-    assert_eq!(conclusion(UR5, plate(0.5, 0.0, 0.1), &ur5_home()), None);
+    // 1.02 m and the tool of 0.15 m are the most that the UR5 reaches. Only where all branches are known is a refusal proved.
+    for (arm, refusal) in [
+        (UR5, Conclusion::EveryBranchRefused),
+        (&*searched(), Conclusion::NotFound),
+    ] {
+        let washed = |x_m| conclusion(arm, plate(x_m, 0.0, 0.1), &ur5_home());
+        assert_eq!(washed(1.4), Some(Conclusion::BeyondReach));
+        assert_eq!(washed(0.95), Some(refusal));
+        assert_eq!(washed(0.5), None);
+    }
     let near = JointVector::from([0.0, -90.0, 90.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
     assert_eq!(
         conclusion(KR5, plate(2.2, 0.0, 0.2), &near),

@@ -1,0 +1,212 @@
+//! Closed form of arms whose axes 2, 3 and 4 are parallel and whose axes 5 and 6 meet, such as those of the UR series: joint 1 from the
+//! position of the wrist centre, the sum of joints 2 to 4 with joints 5 and 6 from the orientation of the hand, joints 2 and 3 from axis 4.
+//!
+//! The order of the subproblems is that of IK-Geo (Elias & Wen, *Mechanism and Machine Theory* 209, 2025) for three parallel axes.
+//!
+//! With axes 4 and 6 parallel, the sum θ of joints 2 to 4 is free; it keeps its previous value if that leads to an answer. The values that do
+//! form intervals, at whose ends the elbow is stretched or folded or a joint stands on a limit. At each such end two points of the arm's
+//! plane have a known distance: `|p − e^{iθ} v| = d`.
+
+use crate::JointVector;
+use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist, principal};
+use crate::ik::analytic::chain::Chain;
+use crate::ik::analytic::links::{Links, Swing, Triangle};
+use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
+use crate::ik::analytic::wrist::{Turn, Turns};
+use crate::ik::analytic::{ClosedForm, FREE_WRIST_RAD};
+use crate::rotation::RigidTransform;
+use crate::trig::{acos, atan2, sin_cos};
+use nalgebra::Complex;
+
+/// Arm with parallel axes 2, 3 and 4.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ParallelAxesArm {
+    pub chain: Chain,
+    /// The forearm ends at axis 4.
+    pub links: Links,
+    /// The first turn is that of joints 2 to 4 together.
+    pub turns: Turns,
+    /// From axis 4 to the wrist centre in the arm's plane at q = 0, `Z + i X` \[m\].
+    pub hand: Complex<f64>,
+    /// +1 where axis 4 points along y of the shoulder frame, −1 where against it.
+    pub sign_4: f64,
+}
+
+impl ClosedForm for ParallelAxesArm {
+    fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    fn structure(&self) -> &'static str {
+        "axes 2, 3 and 4 parallel, axes 5 and 6 meet"
+    }
+
+    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<(Branch, Turn), OutOfReach>; 8] {
+        let goal = self.links.goal(target);
+        let of_side = |shoulder| {
+            let swing = self.links.swing(&goal, shoulder, previous[0])?;
+            let turn = self.turn(&swing, previous);
+            let wrists = [Wrist::Plain, Wrist::Flipped].map(|wrist| {
+                let joints = self.turns.joints(&turn, wrist);
+                let triangle = self.triangle(&swing, joints[0]);
+                let ([sum, q5, q6], triangle) = match triangle {
+                    Ok(triangle) => (joints, triangle),
+                    Err(miss) => self.on_border(&swing, &turn, wrist).ok_or(miss)?,
+                };
+                let bends =
+                    [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, shoulder, elbow, previous[1]));
+                Ok((bends, [sum, q5, q6]))
+            });
+            Ok((swing, turn, wrists))
+        };
+        let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
+        Label::ALL.map(|label| {
+            let (swing, turn, wrists) = sides[label.shoulder as usize]?;
+            let (bends, [sum, q5, q6]) = wrists[label.wrist as usize]?;
+            let bend = bends[label.elbow as usize];
+            let q4 = sum - self.sign_4 * self.turn_of_links(bend.q2, bend.q3);
+            let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
+            Ok((Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)), turn))
+        })
+    }
+
+    fn within(&self, branch: &Branch, _: &Turn, window: &Window<'_>) -> Option<JointVector> {
+        let mut q = branch.q;
+        for joint in 0..q.len() {
+            q[joint] = window.value(joint, q[joint])?;
+        }
+        Some(q)
+    }
+
+    fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
+        let mut search = Search::new(self, target, window);
+        for (branch, turn) in self.all_branches(target, &window.anchor).iter().flatten() {
+            if let Some(q) = self.within(branch, turn, window) {
+                search.offer(q, branch.label, branch.degenerate);
+            }
+        }
+        search.best
+    }
+
+    /// Other values of joint 4, where the sum of joints 2 to 4 is free, nearest to the anchor first.
+    fn elsewhere(&self, target: &RigidTransform, window: &Window<'_>) -> Vec<JointVector> {
+        let (goal, anchor) = (self.links.goal(target), &window.anchor);
+        let of_side = |side| {
+            let swing = self.links.swing(&goal, side, anchor[0]).ok()?;
+            let turn = Some(self.turn(&swing, anchor)).filter(|turn| turn.free)?;
+            Some(self.critical_sums(&swing, &turn, window))
+        };
+        let sums = [Shoulder::Front, Shoulder::Back]
+            .into_iter()
+            .filter_map(of_side)
+            .flatten();
+        let links = self.sign_4 * self.turn_of_links(anchor[1], anchor[2]);
+        let mut moves: Vec<f64> = sums
+            .map(|sum| principal(sum - links - anchor[3]))
+            .filter(|by| by.is_finite())
+            .collect();
+        moves.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        moves
+            .into_iter()
+            .map(|by| window.anchor_with(3, anchor[3] + by))
+            .collect()
+    }
+
+    /// `|sin ψ · X / (L₂ + L₃) · sin(q₅ + α₅)|`: zero at full stretch or fold, with the wrist centre beside axis 1, and with axes 4 and 6
+    /// parallel.
+    fn regularity(&self, q: &JointVector) -> f64 {
+        let (end, elbow) = self.links.end(q);
+        let out = self.links.shoulder_offset + (end + self.turned_hand(self.sum(q))).im;
+        let (wrist, _) = sin_cos(q[4] + self.turns.at_zero[0]);
+        (elbow * out / self.links.reach()[0] * wrist).abs()
+    }
+}
+
+impl ParallelAxesArm {
+    /// Splits `E = Kᵀ Rot_z(−q₁) R`, `E = Rot_z(θ) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`.
+    #[inline]
+    fn turn(&self, swing: &Swing, previous: &JointVector) -> Turn {
+        Turn::split(self.turns.from_shoulder * swing.rotation, self.sum(previous))
+    }
+
+    #[inline]
+    fn triangle(&self, swing: &Swing, sum: f64) -> Result<Triangle, OutOfReach> {
+        self.links.triangle(swing.wrist - self.turned_hand(sum))
+    }
+
+    /// Returns θ, joints 5 and 6, and the triangle with the elbow stretched or folded, if θ is so uncertain that this is within rounding: the
+    /// sine of the angle between axes 4 and 6 times the error of θ is the error of the orientation.
+    #[cold]
+    fn on_border(&self, swing: &Swing, turn: &Turn, wrist: Wrist) -> Option<([f64; 3], Triangle)> {
+        let [found, ..] = self.turns.joints(turn, wrist);
+        let borders = self.links.reach().map(|d| turns_at(swing.wrist, self.hand, d));
+        let moves = borders
+            .as_flattened()
+            .iter()
+            .map(|about_y| principal(self.sign_4 * about_y - found));
+        let by = moves.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        if turn.sine() * by.abs() > FREE_WRIST_RAD {
+            return None;
+        }
+        let moved = Turn {
+            free: turn.free,
+            ..Turn::at(turn.rotation, turn.angles[0] + by)
+        };
+        let joints = self.turns.joints(&moved, wrist);
+        Some((joints, self.triangle(swing, joints[0]).ok()?))
+    }
+
+    /// Returns the turn of the forearm about y at joints 2 and 3 \[rad\].
+    #[inline]
+    fn turn_of_links(&self, q2: f64, q3: f64) -> f64 {
+        let [sign_2, sign_3] = self.links.signs;
+        sign_2 * q2 + sign_3 * q3
+    }
+
+    /// Returns θ: the turn of joints 2 to 4 together, about axis 4 \[rad\].
+    #[inline]
+    fn sum(&self, q: &JointVector) -> f64 {
+        self.sign_4 * self.turn_of_links(q[1], q[2]) + q[3]
+    }
+
+    /// Returns the vector from axis 4 to the wrist centre at a turn θ \[m\].
+    #[inline]
+    fn turned_hand(&self, sum: f64) -> Complex<f64> {
+        let (s, c) = sin_cos(self.sign_4 * sum);
+        Complex::new(c, s) * self.hand
+    }
+
+    /// Returns the values of θ at which the elbow is stretched or folded, or a joint stands on a limit, with axes 4 and 6 parallel \[rad\];
+    /// NaN where a joint has no limit.
+    fn critical_sums(&self, swing: &Swing, turn: &Turn, window: &Window<'_>) -> impl Iterator<Item = f64> + use<> {
+        let (links, wrist) = (&self.links, swing.wrist);
+        let [upper, fore] = links.lengths;
+        let [_, _, q6] = self.turns.joints(turn, Wrist::Plain);
+        let sense = if turn.rotation.m33 < 0.0 { 1.0 } else { -1.0 };
+        let mut found: Vec<f64> = links
+            .reach()
+            .iter()
+            .flat_map(|d| turns_at(wrist, self.hand, *d))
+            .collect();
+        for limit in [window.limits.lower, window.limits.upper] {
+            let (s4, c4) = sin_cos(limit[3]);
+            let fore_at_zero = links.upper_at_zero * links.turn_at_zero * fore;
+            let bent_hand = self.hand + fore_at_zero * Complex::new(c4, -self.sign_4 * s4);
+            let (end, _) = links.end(&limit);
+            found.extend(turns_at(wrist - links.upper_arm(limit[1]) * upper, self.hand, fore));
+            found.extend(turns_at(wrist, self.hand, end.norm_sqr().sqrt()));
+            found.extend(turns_at(wrist, bent_hand, upper));
+            found.push(self.sign_4 * (turn.angles[0] + sense * (limit[5] - q6)));
+        }
+        let sign_4 = self.sign_4;
+        found.into_iter().map(move |about_y| sign_4 * about_y)
+    }
+}
+
+/// Returns both θ with `|p − e^{iθ} v| = d`; if there is none, the θ that comes closest (twice).
+fn turns_at(p: Complex<f64>, v: Complex<f64>, d: f64) -> [f64; 2] {
+    let between = p * v.conj();
+    let cosine = (p.norm_sqr() + v.norm_sqr() - d * d) / (2.0 * between.norm_sqr().sqrt());
+    let (middle, half) = (atan2(between.im, between.re), acos(cosine));
+    [middle + half, middle - half]
+}
