@@ -4,7 +4,6 @@
 
 use crate::ik::analytic::branch::{Branch, Degeneracies, Label, OutOfReach};
 use crate::ik::analytic::nearest::{Window, nearest_integer};
-use crate::ik::analytic::wrist::Turn;
 use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_ROUNDING_RAD, check_finite};
 use crate::rotation::RigidTransform;
 use crate::{AXES, JointLimits, JointVector, LimitViolation};
@@ -136,8 +135,8 @@ impl AnalyticArm {
     }
 
     pub(crate) fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> Solutions {
-        let slots = self.form.all_branches(target, &window.anchor).map(|slot| match slot {
-            Ok((branch, turn)) => self.solution(target, &branch, &turn, window),
+        let slots = self.form.all_within(target, window).map(|slot| match slot {
+            Ok((branch, near)) => self.solution(target, &branch, near, window),
             Err(miss) => Err(Rejection::OutOfReach(miss)),
         });
         Solutions { slots }
@@ -148,7 +147,7 @@ impl AnalyticArm {
         &self,
         target: &RigidTransform,
         branch: &Branch,
-        turn: &Turn,
+        near: Option<JointVector>,
         window: &Window<'_>,
     ) -> Result<Solution, Rejection> {
         let rejected = || {
@@ -156,7 +155,6 @@ impl AnalyticArm {
             let worst = misses.fold(window.miss(0, branch.q[0]), |a, b| if b.0 > a.0 { b } else { a });
             Rejection::Limit(worst.1)
         };
-        let near = self.form.within(branch, turn, window);
         let q = near.and_then(|q| self.form.moved_within_limits(target, q, window.limits));
         let q = q.ok_or_else(rejected)?;
         let mut lowest = q;

@@ -51,7 +51,7 @@ impl AnalyticArm {
     pub fn branches(&self, target: &RigidTransform, previous: &JointVector) -> Result<Branches, AnalyticError> {
         check_finite(target, previous)?;
         Ok(Branches {
-            slots: self.form.all_branches(target, previous).map(|slot| Ok(slot?.0)),
+            slots: self.form.all_branches(target, previous),
         })
     }
 }

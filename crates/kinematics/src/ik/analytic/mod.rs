@@ -76,7 +76,6 @@ pub use crate::ik::analytic::recognise::StructureMismatch;
 
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::nearest::Window;
-use crate::ik::analytic::wrist::Turn;
 use crate::rotation::RigidTransform;
 use crate::{AXES, JointLimits, JointVector, LimitViolation};
 use std::fmt::Debug;
@@ -88,16 +87,19 @@ pub struct AnalyticArm {
     form: Arc<dyn ClosedForm>,
 }
 
+/// Branch, and its configuration within the limits or nearly so.
+pub(crate) type Candidate = (Branch, Option<JointVector>);
+
 /// Closed form of one structure of arm. Configurations are answers for body 6; `previous` and the window's anchor decide free joints.
 pub(crate) trait ClosedForm: Debug + Send + Sync {
     /// Returns the chain as described.
     fn chain(&self) -> &Chain;
     /// Returns words for the structure.
     fn structure(&self) -> &'static str;
-    /// Returns all branches in the order of [`Label::ALL`], each with its last turns; limits are not checked.
-    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<(Branch, Turn), OutOfReach>; 8];
-    /// Returns the branch's configuration nearest to the start, within the limits or nearly so.
-    fn within(&self, branch: &Branch, turn: &Turn, window: &Window<'_>) -> Option<JointVector>;
+    /// Returns all branches in the order of [`Label::ALL`]; limits are not checked.
+    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8];
+    /// Returns all branches, each with its configuration nearest to the start that is within the limits or nearly so.
+    fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8];
     /// Returns the answer nearest to the start.
     fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration>;
     /// Returns the anchors that remain to be tried where a joint is free and its value at the anchor led to no answer.

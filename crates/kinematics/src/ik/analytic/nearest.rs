@@ -166,6 +166,15 @@ impl<'a> Window<'a> {
             .or_else(|| self.within(joint, q, LIMIT_NEAR_RAD))
     }
 
+    /// Returns [`Window::value`] of every joint.
+    pub fn nearest(&self, q: &JointVector) -> Option<JointVector> {
+        let mut near = *q;
+        for joint in 0..near.len() {
+            near[joint] = self.value(joint, q[joint])?;
+        }
+        Some(near)
+    }
+
     /// Returns `q`, at most half a turn from the anchor, or the next turn towards the limits.
     #[inline]
     fn within(&self, joint: usize, q: f64, slack: f64) -> Option<f64> {

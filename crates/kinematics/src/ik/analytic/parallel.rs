@@ -10,10 +10,13 @@
 use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist, principal};
 use crate::ik::analytic::chain::Chain;
-use crate::ik::analytic::links::{Links, Swing, Triangle};
+use crate::ik::analytic::links::{Goal, Links, Swing, Triangle};
 use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
+use crate::ik::analytic::side_by_side::Rare;
+use crate::ik::analytic::side_by_side::parallel::{AllSideBySide, NearestSideBySide};
 use crate::ik::analytic::wrist::{Turn, Turns};
-use crate::ik::analytic::{ClosedForm, FREE_WRIST_RAD};
+use crate::ik::analytic::{Candidate, ClosedForm, FREE_WRIST_RAD};
+use crate::lanes::run_exact;
 use crate::rotation::RigidTransform;
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::Complex;
@@ -41,51 +44,31 @@ impl ClosedForm for ParallelAxesArm {
         "axes 2, 3 and 4 parallel, axes 5 and 6 meet"
     }
 
-    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<(Branch, Turn), OutOfReach>; 8] {
-        let goal = self.links.goal(target);
-        let of_side = |shoulder| {
-            let swing = self.links.swing(&goal, shoulder, previous[0])?;
-            let turn = self.turn(&swing, previous);
-            let wrists = [Wrist::Plain, Wrist::Flipped].map(|wrist| {
-                let joints = self.turns.joints(&turn, wrist);
-                let triangle = self.triangle(&swing, joints[0]);
-                let ([sum, q5, q6], triangle) = match triangle {
-                    Ok(triangle) => (joints, triangle),
-                    Err(miss) => self.on_border(&swing, &turn, wrist).ok_or(miss)?,
-                };
-                let bends =
-                    [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, shoulder, elbow, previous[1]));
-                Ok((bends, [sum, q5, q6]))
-            });
-            Ok((swing, turn, wrists))
-        };
-        let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
-        Label::ALL.map(|label| {
-            let (swing, turn, wrists) = sides[label.shoulder as usize]?;
-            let (bends, [sum, q5, q6]) = wrists[label.wrist as usize]?;
-            let bend = bends[label.elbow as usize];
-            let q4 = sum - self.sign_4 * self.turn_of_links(bend.q2, bend.q3);
-            let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
-            Ok((Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)), turn))
+    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
+        let goal = &self.links.goal(target);
+        run_exact(AllSideBySide { arm: self, goal }).unwrap_or_else(|Rare| self.branches_in_turn(goal, previous))
+    }
+
+    fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8] {
+        self.all_branches(target, &window.anchor).map(|slot| {
+            let branch = slot?;
+            Ok((branch, window.nearest(&branch.q)))
         })
     }
 
-    fn within(&self, branch: &Branch, _: &Turn, window: &Window<'_>) -> Option<JointVector> {
-        let mut q = branch.q;
-        for joint in 0..q.len() {
-            q[joint] = window.value(joint, q[joint])?;
-        }
-        Some(q)
-    }
-
     fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
-        let mut search = Search::new(self, target, window);
-        for (branch, turn) in self.all_branches(target, &window.anchor).iter().flatten() {
-            if let Some(q) = self.within(branch, turn, window) {
-                search.offer(q, branch.label, branch.degenerate);
+        let goal = &self.links.goal(target);
+        let all = AllSideBySide { arm: self, goal };
+        let side_by_side = NearestSideBySide { all, target, window };
+        run_exact(side_by_side).unwrap_or_else(|Rare| {
+            let mut search = Search::new(self, target, window);
+            for branch in self.branches_in_turn(goal, &window.anchor).iter().flatten() {
+                if let Some(q) = window.nearest(&branch.q) {
+                    search.offer(q, branch.label, branch.degenerate);
+                }
             }
-        }
-        search.best
+            search.best
+        })
     }
 
     /// Other values of joint 4, where the sum of joints 2 to 4 is free, nearest to the anchor first.
@@ -123,6 +106,34 @@ impl ClosedForm for ParallelAxesArm {
 }
 
 impl ParallelAxesArm {
+    pub fn branches_in_turn(&self, goal: &Goal, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
+        let of_side = |shoulder| {
+            let swing = self.links.swing(goal, shoulder, previous[0])?;
+            let turn = self.turn(&swing, previous);
+            let wrists = [Wrist::Plain, Wrist::Flipped].map(|wrist| {
+                let joints = self.turns.joints(&turn, wrist);
+                let triangle = self.triangle(&swing, joints[0]);
+                let ([sum, q5, q6], triangle) = match triangle {
+                    Ok(triangle) => (joints, triangle),
+                    Err(miss) => self.on_border(&swing, &turn, wrist).ok_or(miss)?,
+                };
+                let bends =
+                    [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, shoulder, elbow, previous[1]));
+                Ok((bends, [sum, q5, q6]))
+            });
+            Ok((swing, turn, wrists))
+        };
+        let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
+        Label::ALL.map(|label| {
+            let (swing, turn, wrists) = sides[label.shoulder as usize]?;
+            let (bends, [sum, q5, q6]) = wrists[label.wrist as usize]?;
+            let bend = bends[label.elbow as usize];
+            let q4 = sum - self.sign_4 * self.turn_of_links(bend.q2, bend.q3);
+            let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
+            Ok(Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)))
+        })
+    }
+
     /// Splits `E = Kᵀ Rot_z(−q₁) R`, `E = Rot_z(θ) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`.
     #[inline]
     fn turn(&self, swing: &Swing, previous: &JointVector) -> Turn {
@@ -137,7 +148,7 @@ impl ParallelAxesArm {
     /// Returns θ, joints 5 and 6, and the triangle with the elbow stretched or folded, if θ is so uncertain that this is within rounding: the
     /// sine of the angle between axes 4 and 6 times the error of θ is the error of the orientation.
     #[cold]
-    fn on_border(&self, swing: &Swing, turn: &Turn, wrist: Wrist) -> Option<([f64; 3], Triangle)> {
+    pub fn on_border(&self, swing: &Swing, turn: &Turn, wrist: Wrist) -> Option<([f64; 3], Triangle)> {
         let [found, ..] = self.turns.joints(turn, wrist);
         let borders = self.links.reach().map(|d| turns_at(swing.wrist, self.hand, d));
         let moves = borders

@@ -154,7 +154,7 @@ impl Geometry {
         Ok(SphericalWristArm { chain, links, turns })
     }
 
-    fn parallel(&self) -> Result<ParallelAxesArm, StructureMismatch> {
+    pub fn parallel(&self) -> Result<ParallelAxesArm, StructureMismatch> {
         let (centre, meet) = meeting_point(&self.axes);
         let angles = self.angles().into_iter().chain([parallel(&self.axes, [2, 3])]);
         let chain = self.chain(angles.chain([meet]))?;

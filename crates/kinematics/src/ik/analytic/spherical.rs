@@ -11,13 +11,14 @@
 //! - joint 6 at λ: `ẑ · E (sin(λ + α₆), cos(λ + α₆), 0) = 0`.
 
 use crate::JointVector;
-use crate::ik::analytic::ClosedForm;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::links::{Bend, Goal, Links, Swing};
 use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
-use crate::ik::analytic::side_by_side::{Rare, SideBySide};
+use crate::ik::analytic::side_by_side::Rare;
+use crate::ik::analytic::side_by_side::spherical::SideBySide;
 use crate::ik::analytic::wrist::{Turn, Turns};
+use crate::ik::analytic::{Candidate, ClosedForm};
 use crate::lanes::run_exact;
 use crate::rotation::RigidTransform;
 use crate::trig::{acos, atan2, sin_cos};
@@ -40,29 +41,20 @@ impl ClosedForm for SphericalWristArm {
         "spherical wrist, axes 2 and 3 parallel"
     }
 
-    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<(Branch, Turn), OutOfReach>; 8] {
-        let goal = self.links.goal(target);
-        let of_side = |shoulder| {
-            let swing = self.links.swing(&goal, shoulder, previous[0])?;
-            let triangle = self.links.triangle(swing.wrist)?;
-            let bends = [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, shoulder, elbow, previous[1]));
-            let turns = bends.map(|bend| self.turn(&swing, &bend, previous[3]));
-            Ok((swing, bends, turns))
-        };
-        let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
-        Label::ALL.map(|label| {
-            let (swing, bends, turns) = sides[label.shoulder as usize]?;
-            let (bend, turn) = (bends[label.elbow as usize], turns[label.elbow as usize]);
-            let [q4, q5, q6] = self.turns.joints(&turn, label.wrist);
-            let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
-            Ok((Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)), turn))
-        })
+    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
+        self.branches_with_turns(target, previous).map(|slot| Ok(slot?.0))
     }
 
-    fn within(&self, branch: &Branch, turn: &Turn, window: &Window<'_>) -> Option<JointVector> {
-        let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
-        let [q4, q5, q6] = self.wrist_within(turn, branch.label.wrist, window)?;
-        Some(JointVector::new(q1?, q2?, q3?, q4, q5, q6))
+    fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8] {
+        self.branches_with_turns(target, &window.anchor).map(|slot| {
+            let (branch, turn) = slot?;
+            let within = || {
+                let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
+                let [q4, q5, q6] = self.wrist_within(&turn, branch.label.wrist, window)?;
+                Some(JointVector::new(q1?, q2?, q3?, q4, q5, q6))
+            };
+            Ok((branch, within()))
+        })
     }
 
     fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
@@ -103,6 +95,29 @@ impl ClosedForm for SphericalWristArm {
 }
 
 impl SphericalWristArm {
+    fn branches_with_turns(
+        &self,
+        target: &RigidTransform,
+        previous: &JointVector,
+    ) -> [Result<(Branch, Turn), OutOfReach>; 8] {
+        let goal = self.links.goal(target);
+        let of_side = |shoulder| {
+            let swing = self.links.swing(&goal, shoulder, previous[0])?;
+            let triangle = self.links.triangle(swing.wrist)?;
+            let bends = [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, shoulder, elbow, previous[1]));
+            let turns = bends.map(|bend| self.turn(&swing, &bend, previous[3]));
+            Ok((swing, bends, turns))
+        };
+        let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
+        Label::ALL.map(|label| {
+            let (swing, bends, turns) = sides[label.shoulder as usize]?;
+            let (bend, turn) = (bends[label.elbow as usize], turns[label.elbow as usize]);
+            let [q4, q5, q6] = self.turns.joints(&turn, label.wrist);
+            let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
+            Ok((Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)), turn))
+        })
+    }
+
     /// Splits `E = Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R` into its three turns.
     #[inline]
     fn turn(&self, swing: &Swing, bend: &Bend, previous_q4: f64) -> Turn {

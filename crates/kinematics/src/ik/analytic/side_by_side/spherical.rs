@@ -1,19 +1,20 @@
 //! The search for the nearest answer with all four arm branches side by side in the lanes of vectors.
 //!
-//! The equations are those of `links`, `wrist` and `spherical`, operation by operation, so that the answers have the same bits. What is rare is left to the
-//! search branch by branch: joints that are free, joints that only the second, wider tolerance of the limits admits, and rounded arms.
+//! The equations are those of `links`, `wrist` and `spherical`, operation by operation, so that the answers have the same bits.
 
 use crate::JointVector;
 use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, Shoulder, Wrist};
 use crate::ik::analytic::links::{ELBOWS_MEET, Goal};
 use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
+use crate::ik::analytic::side_by_side::{
+    Complexes, Rare, Swings, Triangles, Turns, Within, conjugate, of_both, product, splat, squared_norm,
+};
 use crate::ik::analytic::spherical::SphericalWristArm;
-use crate::ik::analytic::{FREE_SHOULDER_M, FREE_WRIST_RAD, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, REACH_ROUNDING_M};
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::rotation::RigidTransform;
 use crate::trig::atan2_vector;
 use nalgebra::Matrix3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Branches of the arm, in the order of the lanes.
 const ARMS: [(Shoulder, Elbow); LANES] = [
@@ -23,9 +24,6 @@ const ARMS: [(Shoulder, Elbow); LANES] = [
     (Shoulder::Back, Elbow::Down),
 ];
 
-/// Case that the lanes do not treat.
-pub(crate) struct Rare;
-
 /// The search for the nearest answer.
 #[derive(Clone)]
 pub(crate) struct SideBySide<'a> {
@@ -34,9 +32,6 @@ pub(crate) struct SideBySide<'a> {
     pub goal: &'a Goal,
     pub window: &'a Window<'a>,
 }
-
-/// Complex numbers lane by lane.
-type Complexes<V> = [V; 2];
 
 /// Joints 1 to 3 and the wrist's rotation in every lane.
 struct Arms<V> {
@@ -115,18 +110,11 @@ impl<V: Vector> Arms<V> {
     /// Returns `[q₄, q₅ + α₅, q₆ + α₆]` of the plain wrist.
     #[inline(always)]
     fn turns(&self) -> Result<[V; 3], Rare> {
-        let [e11, e12, e13] = self.wrist[0];
-        let [e21, e22, e23] = self.wrist[1];
-        let e33 = self.wrist[2][2];
-        let sine = (e13 * e13 + e23 * e23).sqrt();
-        if sine.at_most(V::splat(FREE_WRIST_RAD)).and(self.reached).sign_bits() != 0 {
-            return Err(Rare);
-        }
-        let (s, c) = (e23 / sine, e13 / sine);
+        let turn = Turns::of(&self.wrist, self.reached)?;
         Ok([
-            atan2_vector(e23, e13),
-            atan2_vector(c * e13 + s * e23, e33),
-            atan2_vector(c * e21 - s * e11, c * e22 - s * e12),
+            atan2_vector(turn.first.0, turn.first.1),
+            atan2_vector(turn.second.0, turn.second.1),
+            atan2_vector(turn.third.0, turn.third.1),
         ])
     }
 }
@@ -135,77 +123,37 @@ impl SideBySide<'_> {
     /// Computes joints 1 to 3 and the rest for the wrist.
     #[inline(always)]
     fn arms<V: Vector>(&self) -> Result<Arms<V>, Rare> {
-        let (arm, w, b) = (self.arm, &self.goal.wrist, self.arm.links.lateral_offset);
-        let r = (w.x * w.x + w.y * w.y).sqrt();
-        let free = b == 0.0 && r <= FREE_SHOULDER_M;
-        if arm.chain.rounding.is_some() || free || r < b.abs() - REACH_ROUNDING_M {
+        let links = &self.arm.links;
+        if self.arm.chain.rounding.is_some() {
             return Err(Rare);
         }
-        let out = ((r - b.abs()) * (r + b.abs())).max(0.0).sqrt();
-        let x = V::from_array([out, out, -out, -out]);
-        let s = x * V::splat(w.y) - V::splat(b * w.x);
-        let c = x * V::splat(w.x) + V::splat(b * w.y);
-        let swing = (s, c);
-        let scale = V::splat(1.0) / (s * s + c * c).sqrt();
-        let (s, c) = (s * scale, c * scale);
-
-        let wrist = [V::splat(w.z), x - V::splat(arm.links.shoulder_offset)];
-        let (bend, q, reached) = self.bend(wrist, swing)?;
-        let [_, sine] = bend.bent;
-        let rotation = self.rotation(s, c, bend.forearm);
-        Ok(Arms {
-            q,
-            wrist: rotation,
-            reached,
-            meets: (out <= ELBOWS_MEET * r, positive(sine).to_array()),
-        })
-    }
-
-    /// Computes the triangle and joints 1 to 3, and the lanes that reach the wrist centre. `swing` is `e^{iq₁}`, not of unit length.
-    #[inline(always)]
-    fn bend<V: Vector>(&self, wrist: Complexes<V>, swing: (V, V)) -> Result<(Bends<V>, [V; 3], V), Rare> {
-        let arm = &self.arm.links;
-        let [upper, fore] = arm.lengths;
-        let (longest, shortest) = (upper + fore, (upper - fore).abs());
-        let distance = squared_norm(wrist).sqrt();
-        if distance.at_most(V::splat(FREE_SHOULDER_M)).sign_bits() != 0 {
-            return Err(Rare);
-        }
-        let near = distance.at_most(V::splat(longest + REACH_ROUNDING_M));
-        let reached = near.and(V::splat(shortest - REACH_ROUNDING_M).at_most(distance));
-        let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let share = |product: V| {
-            let share = product / V::splat(4.0 * upper * fore);
-            let above = zero.if_above(share, zero, share);
-            above.if_above(one, one, above)
-        };
-        let sine_squared = share((V::splat(longest) - distance) * (V::splat(longest) + distance));
-        let cosine_squared = share((distance - V::splat(shortest)) * (distance + V::splat(shortest)));
-        let sine = V::splat(2.0) * (sine_squared * cosine_squared).sqrt();
-        let cosine = cosine_squared - sine_squared;
-        // Two lanes of each are the same.
-        let of_both = |a: V, b: V| {
-            let ([front, _, back, _], [front_2, _, back_2, _]) = (a.to_array(), b.to_array());
-            V::from_array([front, back, front_2, back_2])
-        };
-        let both = atan2_vector(of_both(swing.0, sine), of_both(swing.1, cosine)).to_array();
+        let swings = Swings::<V>::of(links, self.goal)?;
+        let triangles = Triangles::of(links, swings.wrist)?;
+        let Triangles {
+            cosine, sine, reached, ..
+        } = triangles;
+        let (s, c) = swings.swing;
+        let both = atan2_vector(of_both(s, sine), of_both(c, cosine)).to_array();
         let q1 = V::from_array([both[0], both[0], both[1], both[1]]);
         let psi = V::from_array([both[2], both[2], both[3], both[3]]);
 
         // The elbow's side turns ψ round.
         let side = V::from_array([0.0, -0.0, -0.0, 0.0]);
         let (psi, bent) = (psi.xor(side), [cosine, sine.xor(side)]);
-        let reach = [bent[0] * V::splat(fore) + V::splat(upper), bent[1] * V::splat(fore)];
-        let turn = product(product(wrist, conjugate(reach)), conjugate(splat(arm.upper_at_zero)));
-        let [sign_2, sign_3] = [V::splat(arm.signs[0]), V::splat(arm.signs[1])];
-        let q2 = sign_2 * atan2_vector(turn[1], turn[0]);
+        let turn = triangles.upper(links, bent);
+        let [q2, q3] = triangles.joints(links, turn, psi);
         let norm = squared_norm(turn).sqrt();
         let forearm = product(
             product([turn[0] / norm, turn[1] / norm], bent),
-            conjugate(splat(arm.turn_at_zero)),
+            conjugate(splat(links.turn_at_zero)),
         );
-        let q3 = sign_3 * (psi - V::splat(arm.bend_at_zero));
-        Ok((Bends { bent, forearm }, [q1, q2, q3], reached))
+        let (s, c) = swings.unit;
+        Ok(Arms {
+            q: [q1, q2, q3],
+            wrist: self.rotation(s, c, forearm),
+            reached,
+            meets: (swings.meets, sine.to_array()),
+        })
     }
 
     /// Returns `E = Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R`.
@@ -240,88 +188,6 @@ impl SideBySide<'_> {
         let arm = square(arm[0], 0) + square(arm[1], 1) + square(arm[2], 2);
         (arm + square(wrist[0], 3) + square(wrist[1], 4) + square(wrist[2], 5)).to_array()
     }
-}
-
-/// Bends of the elbow.
-struct Bends<V> {
-    /// `e^{iψ}`.
-    bent: Complexes<V>,
-    /// `e^{iθ₂₃}`.
-    forearm: Complexes<V>,
-}
-
-/// Lanes whose joints are within the limits so far.
-#[derive(Clone, Copy)]
-struct Within<V> {
-    /// Up to [`LIMIT_ROUNDING_RAD`].
-    exactly: V,
-    /// Up to [`LIMIT_NEAR_RAD`].
-    nearly: V,
-}
-
-impl<V: Vector> Within<V> {
-    #[inline(always)]
-    fn all() -> Self {
-        let all = V::splat(0.0).at_most(V::splat(0.0));
-        Self {
-            exactly: all,
-            nearly: all,
-        }
-    }
-
-    /// Returns [`Window::value`] of the angles and takes out the lanes that have none.
-    #[inline(always)]
-    fn value(&mut self, window: &Window<'_>, joint: usize, angle: V) -> V {
-        let turns = (V::splat(window.anchor[joint]) - angle) * V::splat(1.0 / TAU);
-        let half = turns.and(V::splat(-0.0)).xor(V::splat(0.5));
-        let turn = V::splat(TAU);
-        let q = angle + turn * (turns + half).truncated();
-        let (lower, upper) = (window.limits.lower[joint], window.limits.upper[joint]);
-        let (lowest, highest) = (V::splat(lower - LIMIT_NEAR_RAD), V::splat(upper + LIMIT_NEAR_RAD));
-        let q = q.if_above(highest, q - turn, lowest.if_above(q, q + turn, q));
-        self.nearly = self.nearly.and(lowest.at_most(q)).and(q.at_most(highest));
-        let (lowest, highest) = (
-            V::splat(lower - LIMIT_ROUNDING_RAD),
-            V::splat(upper + LIMIT_ROUNDING_RAD),
-        );
-        self.exactly = self.exactly.and(lowest.at_most(q)).and(q.at_most(highest));
-        q
-    }
-
-    /// Returns the lanes that are left, as bits, of those that reach the target.
-    #[inline(always)]
-    fn admitted(&self, reached: V) -> Result<u8, Rare> {
-        let [exactly, nearly] = [
-            self.exactly.and(reached).sign_bits(),
-            self.nearly.and(reached).sign_bits(),
-        ];
-        if exactly == nearly { Ok(exactly) } else { Err(Rare) }
-    }
-}
-
-#[inline(always)]
-fn positive<V: Vector>(x: V) -> V {
-    x.xor(x.and(V::splat(-0.0)))
-}
-
-#[inline(always)]
-fn splat<V: Vector>(z: nalgebra::Complex<f64>) -> Complexes<V> {
-    [V::splat(z.re), V::splat(z.im)]
-}
-
-#[inline(always)]
-fn conjugate<V: Vector>([re, im]: Complexes<V>) -> Complexes<V> {
-    [re, im.xor(V::splat(-0.0))]
-}
-
-#[inline(always)]
-fn product<V: Vector>(a: Complexes<V>, b: Complexes<V>) -> Complexes<V> {
-    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-#[inline(always)]
-fn squared_norm<V: Vector>([re, im]: Complexes<V>) -> V {
-    re * re + im * im
 }
 
 #[cfg(test)]
