@@ -9,11 +9,12 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
-use platewash::kinematics::LimitViolation;
+use platewash::kinematics::ik::analytic::{Label, Rejection, Solution};
 use platewash::kinematics::ik::{AnalyticStarts, IkCause, Method, RandomRestarts, Start};
 use platewash::kinematics::model::manipulability;
 use platewash::kinematics::rotation::from_rpy;
 use platewash::kinematics::words::{fixed, nonzero_decimals};
+use platewash::kinematics::{AXES, LimitViolation};
 use platewash::{
     Axes, ClearanceModel, Frame, IkError, IkSettings, IkSolver, JointVector, PairClearance, Pose, RobotModel, Scenario,
     ToolFrame,
@@ -63,6 +64,9 @@ pub struct IkArguments {
     /// Number of random restarts, at most 10000; --seed seeds them
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = RangedU64ValueParser::<usize>::new().range(..=MOST_RESTARTS))]
     restarts: usize,
+    /// Show all branches within the limits, and why the others are not (arms with a closed form)
+    #[arg(long, conflicts_with = "restarts")]
+    all: bool,
 }
 
 /// The orientation of the frame, one way or another.
@@ -117,6 +121,32 @@ struct IkAnswer {
     clearance: Vec<PairClearance>,
     /// Cause of the failure, when not solved.
     cause: Option<IkCause>,
+}
+
+#[derive(Serialize)]
+struct AllBranchesAnswer {
+    frame: String,
+    target: FramePose,
+    branches: Vec<BranchRow>,
+    rejections: Vec<RejectionRow>,
+}
+
+#[derive(Serialize)]
+struct BranchRow {
+    /// Shoulder, elbow and wrist.
+    branch: String,
+    /// Configuration nearest to the seed.
+    q_rad: JointVector,
+    q_deg: JointVector,
+    /// Number of values within the limits, a whole turn apart, of each joint.
+    turns: [u32; AXES],
+}
+
+/// Branch that has no configuration, with the reason.
+#[derive(Serialize)]
+struct RejectionRow {
+    branch: String,
+    reason: String,
 }
 
 /// A pose as people and programs read it.
@@ -185,6 +215,15 @@ pub fn ik(options: &Options, arguments: &IkArguments) -> Result<ExitCode> {
     let name = arguments.frame.as_deref().unwrap_or(stated.name());
     let frame = frame(&arm, &scenario, name)?;
     let (target, seed) = (arguments.target()?, arguments.seed()?);
+    if arguments.all {
+        return all_branches(
+            options,
+            &IkSolver::new(&arm, frame, IkSettings::default())?,
+            name,
+            &target,
+            &seed,
+        );
+    }
     let restarts = RandomRestarts {
         seed: scenario.seed,
         count: arguments.restarts,
@@ -225,6 +264,38 @@ pub fn ik(options: &Options, arguments: &IkArguments) -> Result<ExitCode> {
     };
     options.print(&answer, || answer.text(&arm))?;
     Ok(ExitCode::Infeasible.unless(answer.solved))
+}
+
+/// Shows every branch for a pose; a pose without one is exit code 3 with the reason of each branch.
+fn all_branches(
+    options: &Options,
+    solver: &IkSolver<'_>,
+    frame: &str,
+    target: &Pose,
+    previous: &JointVector,
+) -> Result<ExitCode> {
+    let solutions = solver.solve_all(target, previous)?;
+    let branch = |solution: &Solution| {
+        let q_rad = solution.nearest(previous);
+        BranchRow {
+            branch: solution.label.to_string(),
+            q_rad,
+            q_deg: q_rad.map(f64::to_degrees),
+            turns: solution.turns,
+        }
+    };
+    let rejection = |(label, reason): (Label, Rejection)| RejectionRow {
+        branch: label.to_string(),
+        reason: reason.to_string(),
+    };
+    let answer = AllBranchesAnswer {
+        frame: frame.to_owned(),
+        target: target.into(),
+        branches: solutions.iter().map(branch).collect(),
+        rejections: solutions.rejections().map(rejection).collect(),
+    };
+    options.print(&answer, || answer.text(solver.robot()))?;
+    Ok(ExitCode::Infeasible.unless(!answer.branches.is_empty()))
 }
 
 /// The pairs that are looked at: those of the arm by itself, and where `--scenario` states a cell those of its tool, plates and obstacles, too.
@@ -318,6 +389,31 @@ impl IkAnswer {
             self.orientation_error_deg,
             self.iterations
         )
+    }
+}
+
+impl AllBranchesAnswer {
+    fn text(&self, arm: &RobotModel) -> String {
+        let mut text = format!(
+            "{} branches for {} of {}: the configuration nearest to the seed, deg\n",
+            self.branches.len(),
+            self.frame,
+            arm.name()
+        );
+        // Writing to a String cannot fail.
+        for row in &self.branches {
+            let joints: String = row.q_deg.iter().map(|x| format!(" {:>12}", fixed(*x, 6))).collect();
+            let more: f64 = row.turns.iter().map(|turns| f64::from(*turns)).product();
+            let more = match more {
+                1.0 => String::new(),
+                _ => format!("   (one of {more} with whole turns)"),
+            };
+            let _ = writeln!(text, "{:<18}{joints}{more}", row.branch);
+        }
+        for RejectionRow { branch, reason } in &self.rejections {
+            let _ = writeln!(text, "{branch:<18} none: {reason}");
+        }
+        text
     }
 }
 

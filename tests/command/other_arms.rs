@@ -81,8 +81,15 @@ fn plates_behind_the_start_are_not_refused() {
 fn searches_without_result_are_not_called_impossible() {
     let folder = folder();
     let dir = folder.path();
+    // With axis 6 beside axis 5 there is no closed form.
+    let text = std::fs::read_to_string(UR5).unwrap();
+    let moved = text.replace("xyz=\"0 0 0.09465\"", "xyz=\"0.01 0 0.09465\"");
+    assert_ne!(moved, text);
+    std::fs::write(dir.join("searched.urdf"), moved).unwrap();
     let file = cell_of(dir, UR5_START, "[[0.95, 0.0]]", 0.1, 0.06);
-    let ran = run(dir, "plan", &file, UR5);
+    let all_known = run(dir, "plan", &file, UR5).json();
+    assert_eq!(all_known["plates"][0]["conclusion"], "every_branch_refused");
+    let ran = run(dir, "plan", &file, "searched.urdf");
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     let report = ran.json();
     assert_eq!(report["verdict"], "not_found");

@@ -37,6 +37,54 @@ fn fk_prints_both_units_and_the_published_pose() {
     platewash(folder.path(), &["fk", "--deg", "--file", "many.txt"]).refused(2, &["many.txt, line 2", "found 5"]);
 }
 
+/// Every branch meets the pose; the others say why they do not.
+#[test]
+fn ik_shows_all_branches_and_the_reasons_of_the_others() {
+    let folder = folder();
+    let ask = |frame: &str, y: &str, more: &[&str]| {
+        let pose = [
+            "ik",
+            "--all",
+            "--frame",
+            frame,
+            "--position",
+            "0",
+            y,
+            "0.5",
+            "--rpy-deg",
+            "0",
+            "0",
+            "0",
+        ];
+        platewash(folder.path(), &[&pose[..], more].concat())
+    };
+    let found = ask("matlab_tool0", "0.5", &["--json"]).done().json();
+    let branches = found["branches"].as_array().unwrap();
+    let rejections = found["rejections"].as_array().unwrap();
+    assert!(branches.len() >= 3 && branches.len() + rejections.len() == 8);
+    for row in branches {
+        assert!(
+            row["turns"][5].as_u64().unwrap() >= 2,
+            "joint 6 turns by 400° either way"
+        );
+        let q: Vec<String> = row["q_deg"].as_array().unwrap().iter().map(|v| v.to_string()).collect();
+        let mut back = vec!["fk", "--json", "--deg"];
+        back.extend(q.iter().map(String::as_str));
+        let value = platewash(folder.path(), &back).done().json();
+        let position = &value["configurations"][0]["frames"]["matlab_tool0"]["position_m"];
+        assert!((position[1].as_f64().unwrap() - 0.5).abs() < 1e-9);
+    }
+    let far = ask("tool0", "2", &[]);
+    assert_eq!(far.code, 3);
+    let line = "front up plain     none: out of reach: the wrist centre is";
+    assert!(
+        far.stdout.starts_with("0 branches") && far.stdout.contains(line),
+        "{}",
+        far.stdout
+    );
+    ask("base_link", "0.5", &[]).refused(2, &["joint 6"]);
+}
+
 #[test]
 fn ik_inverts_fk_and_states_the_cause_of_failure() {
     let folder = folder();

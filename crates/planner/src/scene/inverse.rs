@@ -101,12 +101,11 @@ impl<'a> Inverse<'a> {
         for wrist in [Wrist::Plain, Wrist::Flipped] {
             match all.get(Label::new(shoulder, elbow, wrist)) {
                 Ok(solution) => {
-                    for q in solution.configurations() {
-                        best = Ok(match best {
-                            Ok(other) if (other - start.q).norm() <= (q - start.q).norm() => other,
-                            _ => q,
-                        });
-                    }
+                    let q = solution.nearest(&start.q);
+                    best = Ok(match best {
+                        Ok(other) if (other - start.q).norm() <= (q - start.q).norm() => other,
+                        _ => q,
+                    });
                 }
                 Err(rejection) => best = best.map_err(|other| lesser(other, rejection)),
             }
@@ -119,8 +118,8 @@ impl<'a> Inverse<'a> {
         matches!(self, Self::Analytic { arm, .. } if arm.rounding().is_none())
     }
 
-    /// The configurations for `target` within the limits, one a branch, nearest to `near` \[rad\]: with shoulder in front and elbow
-    /// up first (there the arm stays above what lies around it), then the nearest. In closed form these are all there are;
+    /// The configurations for `target` within the limits, one a branch, nearest to `near` \[rad\]: with shoulder in front (or on either
+    /// side, where they are alike) and elbow up first (there the arm stays above what lies around it), then the nearest. In closed form these are all there are;
     /// otherwise those that a search of the given width finds, the nearest first.
     ///
     /// # Errors
@@ -150,7 +149,11 @@ impl<'a> Inverse<'a> {
                 sides: Some((label.shoulder, label.elbow)),
             })
             .collect();
-        let rank = |start: &Start| start.sides != Some((Shoulder::Front, Elbow::Up));
+        let in_front = |shoulder| shoulder == Shoulder::Front || arm.shoulder_sides_are_alike();
+        let rank = |start: &Start| {
+            let above = |(shoulder, elbow)| elbow == Elbow::Up && in_front(shoulder);
+            !start.sides.is_some_and(above)
+        };
         let far = |start: &Start| (start.q - near).norm();
         found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
         let mut starts = Vec::new();

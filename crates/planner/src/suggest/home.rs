@@ -16,6 +16,8 @@ use std::f64::consts::FRAC_PI_6;
 /// Places of the tip that are tried, where all branches are known; fewer where each is a search.
 const PLACES: u32 = 256;
 const SEARCHED_PLACES: u32 = 64;
+/// Clear configurations after which no further places are tried: an arm with eight branches at most places has them soon.
+const ENOUGH_CLEAR: usize = 512;
 
 /// Configurations that are tried where the tool points down at none of the places.
 const ANYWHERE: u32 = 4000;
@@ -204,8 +206,16 @@ impl Search<'_> {
             let starts = scene.inverse.starts(&target, &near, Width::Near).unwrap_or_default();
             Ok(starts.iter().filter_map(|start| self.candidate(&start.q)).collect())
         };
-        let found: Result<Vec<Vec<Candidate>>, PlanError> = (1..=places).into_par_iter().map(at).collect();
-        Ok(found?.into_iter().flatten().collect())
+        let mut clear = Vec::new();
+        for first in (1..=places).step_by(SEARCHED_PLACES as usize) {
+            let some = first..first + SEARCHED_PLACES;
+            let found: Result<Vec<Vec<Candidate>>, PlanError> = some.into_par_iter().map(at).collect();
+            clear.extend(found?.into_iter().flatten());
+            if clear.len() >= ENOUGH_CLEAR {
+                break;
+            }
+        }
+        Ok(clear)
     }
 
     /// The clear configurations of an even spread within the limits.

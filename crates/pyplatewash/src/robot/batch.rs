@@ -15,7 +15,7 @@ use nalgebra::{Matrix6, Quaternion};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::kinematics::batch::{self, Backend, BatchError};
 use platewash::kinematics::ik::AllBranchesError;
-use platewash::kinematics::ik::analytic::{AnalyticError, Label};
+use platewash::kinematics::ik::analytic::AnalyticError;
 use platewash::kinematics::model::manipulability as manipulability_of;
 use platewash::{Axes, Frame, IkError, IkSolution, IkSolver, Jacobian, JointVector, Pose, RobotModel};
 use pyo3::IntoPyObjectExt;
@@ -435,18 +435,10 @@ pub fn all<'py>(
     let (to, previous) = (target(to)?, seed(previous, "previous")?);
     let answer = alone(py, || solver.solve_all(&to, &previous))?;
     let answer = answer.map_err(|e| no_branches(py, &e))?;
-    let name = |label: Label| {
-        let words = [
-            format!("{:?}", label.shoulder),
-            format!("{:?}", label.elbow),
-            format!("{:?}", label.wrist),
-        ];
-        words.map(|word| word.to_lowercase()).join(" ")
-    };
-    let (labels, q): (Vec<_>, Vec<_>) = answer.configurations().map(|(label, q)| (name(label), q)).unzip();
+    let (labels, q): (Vec<_>, Vec<_>) = answer.configurations().map(|(label, q)| (label.to_string(), q)).unzip();
     let rejections = PyDict::new(py);
     for (label, why) in answer.rejections() {
-        rejections.set_item(name(label), why.to_string())?;
+        rejections.set_item(label.to_string(), why.to_string())?;
     }
     let class = BRANCHES.import(py, "pyplatewash._records", "IkBranches")?;
     class.call1((arrays::joint_rows(py, &q)?, labels, rejections))

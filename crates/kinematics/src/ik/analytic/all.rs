@@ -50,6 +50,16 @@ pub struct Solutions {
 }
 
 impl Solution {
+    /// Returns the configuration of this branch within the limits that is nearest to `start` \[rad\].
+    #[must_use]
+    pub fn nearest(&self, start: &JointVector) -> JointVector {
+        JointVector::from_fn(|i, _| {
+            let most = f64::from(self.turns[i] - 1);
+            let turns = ((start[i] - self.lowest[i]) / TAU).round().clamp(0.0, most);
+            (self.lowest[i] + TAU * turns).min(self.upper[i])
+        })
+    }
+
     /// Returns every configuration of this branch within the limits \[rad\].
     #[must_use]
     pub fn configurations(&self) -> Configurations {

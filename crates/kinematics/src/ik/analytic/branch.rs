@@ -9,6 +9,7 @@ use crate::ik::analytic::{AnalyticArm, AnalyticError, check_finite};
 use crate::rotation::RigidTransform;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 
 /// Configuration that brings body 6 to the target; limits are not checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -148,6 +149,14 @@ impl Label {
     #[must_use]
     pub const fn index(self) -> usize {
         4 * self.shoulder as usize + 2 * self.elbow as usize + self.wrist as usize
+    }
+}
+
+impl fmt::Display for Label {
+    /// Shoulder, elbow and wrist in words: "front up plain".
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words = format!("{:?} {:?} {:?}", self.shoulder, self.elbow, self.wrist);
+        f.write_str(&words.to_lowercase())
     }
 }
 

@@ -96,6 +96,8 @@ pub(crate) trait ClosedForm: Debug + Send + Sync {
     fn chain(&self) -> &Chain;
     /// Returns words for the structure.
     fn structure(&self) -> &'static str;
+    /// See [`AnalyticArm::shoulder_sides_are_alike`].
+    fn shoulder_sides_are_alike(&self) -> bool;
     /// Returns all branches in the order of [`Label::ALL`]; limits are not checked.
     fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8];
     /// Returns all branches, each with its configuration nearest to the start that is within the limits or nearly so.

@@ -44,6 +44,10 @@ impl ClosedForm for ParallelAxesArm {
         "axes 2, 3 and 4 parallel, axes 5 and 6 meet"
     }
 
+    fn shoulder_sides_are_alike(&self) -> bool {
+        true
+    }
+
     fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
         let goal = &self.links.goal(target);
         run_exact(AllSideBySide { arm: self, goal }).unwrap_or_else(|Rare| self.branches_in_turn(goal, previous))

@@ -119,6 +119,13 @@ impl AnalyticArm {
         self.form.structure()
     }
 
+    /// True if the arm works equally well with the wrist centre on either side of axis 1: with parallel axes 2, 3 and 4 a half turn of joint 1
+    /// mirrors it. With a spherical wrist the back is over the shoulder.
+    #[must_use]
+    pub fn shoulder_sides_are_alike(&self) -> bool {
+        self.form.shoulder_sides_are_alike()
+    }
+
     /// Returns the target of body 6, `T_base_body6`, for a target of `frame` on it, `T_base_frame`.
     ///
     /// `None` unless body 6, the one behind joint 6, carries the frame.

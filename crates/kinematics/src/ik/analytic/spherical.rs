@@ -41,6 +41,10 @@ impl ClosedForm for SphericalWristArm {
         "spherical wrist, axes 2 and 3 parallel"
     }
 
+    fn shoulder_sides_are_alike(&self) -> bool {
+        false
+    }
+
     fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
         self.branches_with_turns(target, previous).map(|slot| Ok(slot?.0))
     }
