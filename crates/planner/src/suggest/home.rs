@@ -17,7 +17,7 @@ use std::f64::consts::FRAC_PI_6;
 const PLACES: u32 = 256;
 const SEARCHED_PLACES: u32 = 64;
 /// Clear configurations after which no further places are tried: an arm with eight branches at most places has them soon.
-const ENOUGH_CLEAR: usize = 512;
+const ENOUGH_CLEAR: usize = 256;
 
 /// Configurations that are tried where the tool points down at none of the places.
 const ANYWHERE: u32 = 4000;
