@@ -1,34 +1,45 @@
-//! Analytic inverse kinematics of arms with a spherical wrist and parallel axes 2 and 3.
+//! Analytic inverse kinematics: all branches of an arm in closed form, for two structures of arms.
 //!
 //! # Which arms
 //!
 //! [`AnalyticArm::recognise`] looks at the folded chain alone, `T_base_6 = Π F_i Rot_z(q_i)`, so zero positions,
-//! axis signs and the way frames are hung on the links do not matter. It asks that
+//! axis signs and the way frames are hung on the links do not matter. Of both structures it asks that
 //!
 //! - axes 2 and 3 are parallel, and axis 1 is perpendicular to them (it need not meet axis 2, nor be vertical,
 //!   nor pass through the base's origin);
-//! - axes 4, 5 and 6 meet in one point, the *wrist centre*, with 4 ⟂ 5 and 5 ⟂ 6;
-//! - the upper arm (axis 2 to axis 3) and the forearm (axis 3 to the wrist centre) have a length.
+//! - axis 5 is perpendicular to axes 4 and 6;
+//! - the upper arm (axis 2 to axis 3) and the forearm have a length.
 //!
-//! That is the ortho-parallel basis with spherical wrist (Brandstötter, Angerer & Hofbaur, 2014), with the
-//! direction of axis 4 left open. Each property must hold to [`GEOMETRY_TOLERANCE_M`] and
+//! A **spherical wrist**: axes 4, 5 and 6 meet in one point, the *wrist centre*, where the forearm ends. That is the ortho-parallel basis
+//! with spherical wrist (Brandstötter, Angerer & Hofbaur, 2014), with the direction of axis 4 left open.
+//!
+//! **Parallel axes 2, 3 and 4**, as of the UR series: axes 5 and 6 meet in the wrist centre, which has an offset along axis 2 from axis 1;
+//! the forearm ends at axis 4. The order of the steps is that of IK-Geo for three parallel axes (Elias & Wen 2025).
+//!
+//! Each property must hold to [`GEOMETRY_TOLERANCE_M`] and
 //! [`GEOMETRY_TOLERANCE_RAD`], or up to the rounding of printed numbers (1e-5 rad, 1e-6 m: [`AnalyticArm::rounding`]); anything else is
 //! refused with the property and its deviation ([`StructureMismatch`]). The answers for a rounded arm are closed by Gauss–Newton steps on
 //! the chain as described, until the pose is met to [`CLOSED`] m and rad; a branch whose steps do not get there counts as out of its
 //! limits, as it may near a singularity.
+//!
+//! Each structure is a `ClosedForm`; what uses an [`AnalyticArm`] does not know which it has.
 //!
 //! # Equations
 //!
 //! The *shoulder frame* S stands on axis 1 at the height of axis 2: z along axis 1, y along ± axis 2, x = y × z to
 //! the *front*. In it axis 2 passes through (a₁, ·, 0) and the wrist centre always has y = b.
 //!
-//! 1. Wrist centre `w` of the target, in S at q₁ = 0. Joint 1 (`equations`, like the steps below):
+//! 1. Wrist centre `w` of the target, in S at q₁ = 0. Joint 1 (`links`, like step 2):
 //!    `Rot_z(q₁) (X, b, Z) = w`, so `Z = w_z` and `X = ±√(w_x² + w_y² − b²)`: front or back.
 //! 2. In the plane of the arm, with `p = Z + i (X − a₁)` and `θ` the turn about y:
 //!    `p = L₂ e^{i φ₂} + L₃ e^{i (φ₂ + ψ)}`, so `cos ψ = (|p|² − L₂² − L₃²) / (2 L₂ L₃)`, `ψ = ±…`: elbow up or down, and
 //!    `e^{i φ₂} ∥ p · conj(L₂ + L₃ e^{i ψ})`. Joints 2 and 3 are φ₂ and ψ less their values at the zero position.
-//! 3. What is left for the wrist is a rotation of z–y–z form:
+//! 3. What is left for the wrist is a rotation of z–y–z form (`wrist`):
 //!    `Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R = Rot_z(q₄) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`: plain or flipped.
+//!
+//! With parallel axes 2, 3 and 4, step 3 comes before step 2: `Kᵀ Rot_z(−q₁) R = Rot_z(θ) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)` has the turn θ of
+//! joints 2 to 4 together. The vector `v` from axis 4 to the wrist centre turns by it, so that step 2 has `p − e^{iθ} v` in place of `p`;
+//! joint 4 is what joints 2 and 3 leave of θ.
 //!
 //! Sines and cosines are carried through algebraically; each joint value costs one `atan2`.
 //!
@@ -36,13 +47,15 @@
 //!
 //! Every step uses the rounded result of the one before it: an elbow angle that full stretch leaves uncertain
 //! by √ε is used as it is for joint 2 and the wrist, and joint 6 is read off after undoing the joint 4
-//! that was found. So the pose is met to rounding (about 1e-15 m and rad on an arm of 1 m) even where
-//! single joints are ill-determined, and no iteration is needed.
+//! that was found. So the pose is met to rounding (about 1e-15 m and rad on an arm of 1 m, or what the description's axes deviate within the
+//! tolerances) even where single joints are ill-determined, and no iteration is needed.
 //!
 //! # Singularities
 //!
-//! - **Wrist** (`|sin(q₅ + α₅)| ≤` [`FREE_WRIST_RAD`]): joint 4 keeps its previous value and joint 6 takes the rest; where a
-//!   limit of joint 6 forbids that, joint 4 moves just as far as it must. Both wrist labels hold the same answer.
+//! - **Wrist** (`|sin(q₅ + α₅)| ≤` [`FREE_WRIST_RAD`]): joint 4, or the sum of joints 2 to 4 where these axes are parallel, keeps its previous
+//!   value and joint 6 takes the rest; where a limit or the elbow's reach forbids that, it moves just as far as it must. Both wrist labels hold
+//!   the same answer. Near the singularity that sum is uncertain; where it puts the elbow out of reach by no more than that, the elbow is
+//!   stretched or folded.
 //! - **Shoulder** (b = 0 and the wrist centre within [`FREE_SHOULDER_M`] of axis 1): joint 1 keeps its previous value;
 //!   where limits forbid that, it moves to the next value at which they allow an answer ([`AnalyticArm::nearest`]).
 //! - **Stretch, fold, and the column |b| around axis 1**: the two branches meet. A target up to
