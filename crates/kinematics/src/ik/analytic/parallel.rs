@@ -13,7 +13,7 @@ use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::links::{Goal, Links, Swing, Triangle};
 use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
 use crate::ik::analytic::side_by_side::Rare;
-use crate::ik::analytic::side_by_side::parallel::{AllSideBySide, NearestSideBySide};
+use crate::ik::analytic::side_by_side::parallel::AllSideBySide;
 use crate::ik::analytic::wrist::{Turn, Turns};
 use crate::ik::analytic::{Candidate, ClosedForm, FREE_WRIST_RAD};
 use crate::lanes::run_exact;
@@ -50,7 +50,18 @@ impl ClosedForm for ParallelAxesArm {
 
     fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
         let goal = &self.links.goal(target);
-        run_exact(AllSideBySide { arm: self, goal }).unwrap_or_else(|Rare| self.branches_in_turn(goal, previous))
+        let all = AllSideBySide {
+            arm: self,
+            goal,
+            window: None,
+        };
+        match run_exact(all) {
+            Ok(all) => Label::ALL.map(|label| {
+                let (q, degenerate) = all.branches[label.index()]?;
+                Ok(Branch::new(q, label, degenerate))
+            }),
+            Err(Rare) => self.branches_in_turn(goal, previous),
+        }
     }
 
     fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8] {
@@ -62,17 +73,32 @@ impl ClosedForm for ParallelAxesArm {
 
     fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
         let goal = &self.links.goal(target);
-        let all = AllSideBySide { arm: self, goal };
-        let side_by_side = NearestSideBySide { all, target, window };
-        run_exact(side_by_side).unwrap_or_else(|Rare| {
-            let mut search = Search::new(self, target, window);
-            for branch in self.branches_in_turn(goal, &window.anchor).iter().flatten() {
-                if let Some(q) = window.nearest(&branch.q) {
-                    search.offer(q, branch.label, branch.degenerate);
+        let all = AllSideBySide {
+            arm: self,
+            goal,
+            window: Some(window),
+        };
+        let mut search = Search::new(self, target, window);
+        match run_exact(all) {
+            Ok(all) => {
+                for label in Label::ALL
+                    .into_iter()
+                    .filter(|label| all.admitted >> label.index() & 1 == 1)
+                {
+                    if let Ok((q, degenerate)) = all.branches[label.index()] {
+                        search.offer(q, label, degenerate);
+                    }
                 }
             }
-            search.best
-        })
+            Err(Rare) => {
+                for branch in self.branches_in_turn(goal, &window.anchor).iter().flatten() {
+                    if let Some(q) = window.nearest(&branch.q) {
+                        search.offer(q, branch.label, branch.degenerate);
+                    }
+                }
+            }
+        }
+        search.best
     }
 
     /// Other values of joint 4, where the sum of joints 2 to 4 is free, nearest to the anchor first.

@@ -3,13 +3,12 @@
 
 use crate::JointVector;
 use crate::ik::analytic::FREE_WRIST_RAD;
-use crate::ik::analytic::branch::{Branch, Degeneracies, Label, OutOfReach, Shoulder, Wrist};
+use crate::ik::analytic::branch::{Degeneracies, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::links::{ELBOWS_MEET, Goal};
-use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
+use crate::ik::analytic::nearest::Window;
 use crate::ik::analytic::parallel::ParallelAxesArm;
 use crate::ik::analytic::side_by_side::{Complexes, Rare, Swings, Triangles, Turns, Within, of_both, product, splat};
 use crate::lanes::{Kernel, LANES, Vector};
-use crate::rotation::RigidTransform;
 use crate::trig::atan2_vector;
 use nalgebra::Complex;
 use std::f64::consts::PI;
@@ -20,19 +19,21 @@ fn lane(shoulder: Shoulder, wrist: Wrist) -> usize {
     2 * shoulder as usize + wrist as usize
 }
 
-/// All branches of a target; limits are not checked.
+/// All branches of a target.
 #[derive(Clone)]
 pub(crate) struct AllSideBySide<'a> {
     pub arm: &'a ParallelAxesArm,
     pub goal: &'a Goal,
+    /// Limits and start, where each joint is to take the value within the limits that is nearest to the start.
+    pub window: Option<&'a Window<'a>>,
 }
 
-/// The search for the nearest answer.
-#[derive(Clone)]
-pub(crate) struct NearestSideBySide<'a> {
-    pub all: AllSideBySide<'a>,
-    pub target: &'a RigidTransform,
-    pub window: &'a Window<'a>,
+/// Branches as the lanes have them.
+pub(crate) struct AllBranches {
+    /// In the order of [`Label::ALL`].
+    pub branches: [Result<(JointVector, Degeneracies), OutOfReach>; 8],
+    /// Branches within the limits, as bits in that order; all without a window.
+    pub admitted: u8,
 }
 
 /// Joints in every lane.
@@ -48,28 +49,60 @@ struct Lanes<V> {
 }
 
 impl Kernel for AllSideBySide<'_> {
-    type Output = Result<[Result<Branch, OutOfReach>; 8], Rare>;
+    type Output = Result<AllBranches, Rare>;
 
     #[inline(always)]
     fn run<V: Vector>(self) -> Self::Output {
-        let lanes = self.lanes::<V>()?;
+        let mut lanes = self.lanes::<V>()?;
+        let admitted = match self.window {
+            Some(window) => lanes.move_within(window)?,
+            None => [!0; 2],
+        };
         let (outer, inner) = (arrays(lanes.outer), [arrays(lanes.inner[0]), arrays(lanes.inner[1])]);
         let (reached, end) = (
             lanes.reached.sign_bits(),
             [lanes.end[0].to_array(), lanes.end[1].to_array()],
         );
-        let mut branches = [Err(OutOfReach::NOWHERE); 8];
+        let mut all = AllBranches {
+            branches: [Err(OutOfReach::NOWHERE); 8],
+            admitted: 0,
+        };
         for label in Label::ALL {
-            let l = lane(label.shoulder, label.wrist);
-            branches[label.index()] = if reached >> l & 1 == 1 {
-                let q = joints(&outer, &inner[label.elbow as usize], l);
-                Ok(Branch::new(q, label, degeneracies(lanes.meets, l)))
+            let (l, elbow) = (lane(label.shoulder, label.wrist), label.elbow as usize);
+            all.branches[label.index()] = if reached >> l & 1 == 1 {
+                all.admitted |= (admitted[elbow] >> l & 1) << label.index();
+                Ok((joints(&outer, &inner[elbow], l), degeneracies(lanes.meets, l)))
             } else {
                 let miss = self.arm.links.triangle(Complex::new(end[0][l], end[1][l])).err();
                 Err(miss.unwrap_or(OutOfReach::NOWHERE))
             };
         }
-        Ok(branches)
+        Ok(all)
+    }
+}
+
+impl<V: Vector> Lanes<V> {
+    /// Moves each joint to its value within the limits that is nearest to the start; returns the lanes that have all of them, elbow up and down.
+    #[inline(always)]
+    fn move_within(&mut self, window: &Window<'_>) -> Result<[u8; 2], Rare> {
+        let mut within = Within::all();
+        let [q1, q5, q6] = self.outer;
+        self.outer = [
+            within.value(window, 0, q1),
+            within.value(window, 4, q5),
+            within.value(window, 5, q6),
+        ];
+        let mut admitted = [0; 2];
+        for elbow in 0..2 {
+            let ([q2, q3, q4], mut within) = (self.inner[elbow], within);
+            self.inner[elbow] = [
+                within.value(window, 1, q2),
+                within.value(window, 2, q3),
+                within.value(window, 3, q4),
+            ];
+            admitted[elbow] = within.admitted(self.reached)?;
+        }
+        Ok(admitted)
     }
 }
 
@@ -83,44 +116,6 @@ fn arrays<V: Vector>(joints: [V; 3]) -> [[f64; LANES]; 3] {
 fn joints(outer: &[[f64; LANES]; 3], inner: &[[f64; LANES]; 3], l: usize) -> JointVector {
     let ([q1, q5, q6], [q2, q3, q4]) = (outer, inner);
     JointVector::new(q1[l], q2[l], q3[l], q4[l], q5[l], q6[l])
-}
-
-impl Kernel for NearestSideBySide<'_> {
-    type Output = Result<Option<NearestConfiguration>, Rare>;
-
-    #[inline(always)]
-    fn run<V: Vector>(self) -> Self::Output {
-        let lanes = self.all.lanes::<V>()?;
-        let (window, mut within) = (self.window, Within::all());
-        let [q1, q5, q6] = lanes.outer;
-        let outer = [
-            within.value(window, 0, q1),
-            within.value(window, 4, q5),
-            within.value(window, 5, q6),
-        ];
-        let mut admitted = [0; 2];
-        let mut inner = [[[0.0; LANES]; 3]; 2];
-        for elbow in 0..2 {
-            let ([q2, q3, q4], mut within) = (lanes.inner[elbow], within);
-            let q = [
-                within.value(window, 1, q2),
-                within.value(window, 2, q3),
-                within.value(window, 3, q4),
-            ];
-            admitted[elbow] = within.admitted(lanes.reached)?;
-            inner[elbow] = arrays(q);
-        }
-        let outer = arrays(outer);
-        let mut search = Search::new(self.all.arm, self.target, window);
-        for label in Label::ALL {
-            let (l, elbow) = (lane(label.shoulder, label.wrist), label.elbow as usize);
-            if admitted[elbow] >> l & 1 == 1 {
-                let q = joints(&outer, &inner[elbow], l);
-                search.offer(q, label, degeneracies(lanes.meets, l));
-            }
-        }
-        Ok(search.best)
-    }
 }
 
 #[inline(always)]
@@ -253,13 +248,13 @@ mod tests {
             target.translation *= stretch;
             let goal = arm.links.goal(&target);
             let expected = arm.branches_in_turn(&goal, &start.into());
-            for found in portable_and_exact(&AllSideBySide { arm: &arm, goal: &goal }).into_iter().flatten() {
-                for (found, expected) in found.iter().zip(&expected) {
+            for found in portable_and_exact(&AllSideBySide { arm: &arm, goal: &goal, window: None }).into_iter().flatten() {
+                for (found, expected) in found.branches.iter().zip(&expected) {
                     match (found, expected) {
-                        (Ok(found), Ok(expected)) => {
-                            prop_assert_eq!((found.label, found.degenerate), (expected.label, expected.degenerate));
-                            let apart = (found.q - expected.q).map(|d| (d / 2.0).sin());
-                            prop_assert!(apart.amax() < 1e-7, "{} {}", found.q, expected.q);
+                        (Ok((found, degenerate)), Ok(expected)) => {
+                            prop_assert_eq!(*degenerate, expected.degenerate);
+                            let apart = (found - expected.q).map(|d| (d / 2.0).sin());
+                            prop_assert!(apart.amax() < 1e-7, "{} {}", found, expected.q);
                         }
                         (Err(found), Err(expected)) => prop_assert!((found.by_m - expected.by_m).abs() < 1e-7),
                         _ => prop_assert!(false, "{:?} {:?}", found, expected),
@@ -276,6 +271,7 @@ mod tests {
         let all = AllSideBySide {
             arm: &arm,
             goal: &arm.links.goal(&target),
+            window: None,
         };
         assert!(portable_and_exact(&all).iter().all(Result::is_ok));
     }
