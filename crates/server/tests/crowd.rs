@@ -5,6 +5,7 @@ mod toy;
 
 use std::io::Write;
 use std::net::TcpStream;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::thread::{scope, sleep};
@@ -72,9 +73,12 @@ fn grown_kib(meanwhile: impl FnOnce()) -> usize {
             }
             most
         });
-        meanwhile();
+        // Even after a failure, or the scope would wait for ever.
+        let ended = catch_unwind(AssertUnwindSafe(meanwhile));
         is_over.store(true, SeqCst);
-        most.join().unwrap() - before
+        let most = most.join().unwrap();
+        ended.unwrap_or_else(|failure| resume_unwind(failure));
+        most - before
     })
 }
 
