@@ -93,14 +93,14 @@ impl<V: Vector> Lanes<V> {
             within.value(window, 5, q6),
         ];
         let mut admitted = [0; 2];
-        for elbow in 0..2 {
-            let ([q2, q3, q4], mut within) = (self.inner[elbow], within);
-            self.inner[elbow] = [
+        for (inner, admitted) in self.inner.iter_mut().zip(&mut admitted) {
+            let ([q2, q3, q4], mut within) = (*inner, within);
+            *inner = [
                 within.value(window, 1, q2),
                 within.value(window, 2, q3),
                 within.value(window, 3, q4),
             ];
-            admitted[elbow] = within.admitted(self.reached)?;
+            *admitted = within.admitted(self.reached)?;
         }
         Ok(admitted)
     }
