@@ -402,7 +402,7 @@ impl AllBranchesAnswer {
         );
         // Writing to a String cannot fail.
         for row in &self.branches {
-            let joints: String = row.q_deg.iter().map(|x| format!(" {:>12}", fixed(*x, 6))).collect();
+            let joints = columns(&row.q_deg, 6);
             let more: f64 = row.turns.iter().map(|turns| f64::from(*turns)).product();
             let more = match more {
                 1.0 => String::new(),
@@ -419,11 +419,16 @@ impl AllBranchesAnswer {
 
 /// Joint positions in degrees and radians, two lines.
 fn both_units(q: &JointVector) -> String {
-    let line = |v: &JointVector, digits: usize| {
-        let all = v.iter().map(|x| format!(" {:>12}", fixed(*x, digits)));
-        all.collect::<String>()
-    };
-    format!("q, deg {}\nq, rad {}\n", line(&q.map(f64::to_degrees), 6), line(q, 9))
+    format!(
+        "q, deg {}\nq, rad {}\n",
+        columns(&q.map(f64::to_degrees), 6),
+        columns(q, 9)
+    )
+}
+
+/// Numbers in columns.
+fn columns(v: &JointVector, digits: usize) -> String {
+    v.iter().map(|x| format!(" {:>12}", fixed(*x, digits))).collect()
 }
 
 fn frame(arm: &RobotModel, scenario: &Scenario, name: &str) -> Result<Frame> {

@@ -34,7 +34,7 @@ pub(crate) struct Start {
 pub(crate) enum Inverse<'a> {
     /// Closed form.
     Analytic {
-        arm: Box<AnalyticArm>,
+        arm: AnalyticArm,
         tip: Frame,
         limits: &'a JointLimits,
     },
@@ -64,7 +64,7 @@ impl<'a> Inverse<'a> {
     pub fn new(robot: &'a RobotModel, tip: Frame) -> Result<Self, IkSettingsError> {
         if let (Ok(arm), AXES) = (AnalyticArm::recognise(robot), tip.body()) {
             return Ok(Self::Analytic {
-                arm: Box::new(arm),
+                arm,
                 tip,
                 limits: robot.limits(),
             });
@@ -149,11 +149,9 @@ impl<'a> Inverse<'a> {
                 sides: Some((label.shoulder, label.elbow)),
             })
             .collect();
-        let in_front = |shoulder| shoulder == Shoulder::Front || arm.shoulder_sides_are_alike();
-        let rank = |start: &Start| {
-            let above = |(shoulder, elbow)| elbow == Elbow::Up && in_front(shoulder);
-            !start.sides.is_some_and(above)
-        };
+        let above =
+            |(shoulder, elbow)| elbow == Elbow::Up && (shoulder == Shoulder::Front || arm.shoulder_sides_are_alike());
+        let rank = |start: &Start| !start.sides.is_some_and(above);
         let far = |start: &Start| (start.q - near).norm();
         found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
         let mut starts = Vec::new();

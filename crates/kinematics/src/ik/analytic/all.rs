@@ -55,9 +55,13 @@ impl Solution {
     pub fn nearest(&self, start: &JointVector) -> JointVector {
         JointVector::from_fn(|i, _| {
             let most = f64::from(self.turns[i] - 1);
-            let turns = ((start[i] - self.lowest[i]) / TAU).round().clamp(0.0, most);
-            (self.lowest[i] + TAU * turns).min(self.upper[i])
+            self.value(i, ((start[i] - self.lowest[i]) / TAU).round().clamp(0.0, most))
         })
+    }
+
+    /// Returns a joint's value some whole turns above the lowest \[rad\].
+    fn value(&self, joint: usize, turns: f64) -> f64 {
+        (self.lowest[joint] + TAU * turns).min(self.upper[joint])
     }
 
     /// Returns every configuration of this branch within the limits \[rad\].
@@ -75,9 +79,7 @@ impl Iterator for Configurations {
 
     fn next(&mut self) -> Option<JointVector> {
         let now = self.next?;
-        let Solution {
-            lowest, upper, turns, ..
-        } = &self.solution;
+        let turns = &self.solution.turns;
         let mut after = now;
         // Count up, joint 6 first; past the last combination nothing is left.
         self.next = (0..AXES).rev().find(|&i| now[i] + 1 < turns[i]).map(|i| {
@@ -85,9 +87,7 @@ impl Iterator for Configurations {
             after[i + 1..].fill(0);
             after
         });
-        Some(JointVector::from_fn(|i, _| {
-            (lowest[i] + TAU * f64::from(now[i])).min(upper[i])
-        }))
+        Some(JointVector::from_fn(|i, _| self.solution.value(i, f64::from(now[i]))))
     }
 }
 

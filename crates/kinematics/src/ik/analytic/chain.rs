@@ -29,27 +29,13 @@ pub(crate) struct Chain {
 impl Chain {
     /// Returns `q` within the limits, if it is so up to rounding or the free joints can make up for the rest. On a rounded arm all joints
     /// are corrected, as the closed form holds only nearly. `regularity` is |det J| up to a constant factor.
-    #[inline]
-    pub fn moved_within_limits(
-        &self,
-        target: &RigidTransform,
-        q: JointVector,
-        limits: &JointLimits,
-        regularity: impl FnOnce(&JointVector) -> f64,
-    ) -> Option<JointVector> {
-        if self.rounding.is_none() && limits.contain(&q) {
-            return Some(q);
-        }
-        self.move_within_limits(target, q, limits, regularity)
-    }
-
     #[cold]
-    fn move_within_limits(
+    pub fn move_within_limits(
         &self,
         target: &RigidTransform,
         q: JointVector,
         limits: &JointLimits,
-        regularity: impl FnOnce(&JointVector) -> f64,
+        regularity: impl FnOnce() -> f64,
     ) -> Option<JointVector> {
         let mut here = limits.clamp(&q);
         let beyond = (here - q).amax();
@@ -57,7 +43,7 @@ impl Chain {
             if beyond <= LIMIT_ROUNDING_RAD {
                 return Some(here);
             }
-            if regularity(&q) * beyond > HOPELESS {
+            if regularity() * beyond > HOPELESS {
                 return None;
             }
         }

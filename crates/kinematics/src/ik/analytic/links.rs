@@ -170,6 +170,16 @@ impl Links {
 }
 
 impl Links {
+    /// Returns |det J| up to a constant factor, `|sin ψ · X / (L₂ + L₃) · sin(wrist)|`: zero at full stretch or fold, with the wrist centre
+    /// beside axis 1, and with axes 4 and 6 parallel. `hand` goes from the end of the forearm to the wrist centre in the turned plane \[m\],
+    /// `wrist` is q₅ + α₅ \[rad\].
+    pub fn regularity(&self, q: &JointVector, hand: Complex<f64>, wrist: f64) -> f64 {
+        let (end, elbow) = self.end(q);
+        let out = self.shoulder_offset + (end + hand).im;
+        let (wrist, _) = sin_cos(wrist);
+        (elbow * out / self.reach()[0] * wrist).abs()
+    }
+
     /// Returns the end of the forearm in the turned plane, from axis 2, `Z + i (X − a₁)` \[m\], and `sin ψ`.
     pub fn end(&self, q: &JointVector) -> (Complex<f64>, f64) {
         let [upper, fore] = self.lengths;

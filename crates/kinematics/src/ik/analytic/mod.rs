@@ -122,7 +122,7 @@ pub(crate) trait ClosedForm: Debug + Send + Sync {
     /// Returns |det J| up to a constant factor.
     fn regularity(&self, q: &JointVector) -> f64;
 
-    /// Returns `q` within the limits: see [`Chain::moved_within_limits`].
+    /// Returns `q` within the limits: see [`Chain::move_within_limits`].
     #[inline]
     fn moved_within_limits(
         &self,
@@ -130,8 +130,11 @@ pub(crate) trait ClosedForm: Debug + Send + Sync {
         q: JointVector,
         limits: &JointLimits,
     ) -> Option<JointVector> {
-        self.chain()
-            .moved_within_limits(target, q, limits, |q| self.regularity(q))
+        let chain = self.chain();
+        if chain.rounding.is_none() && limits.contain(&q) {
+            return Some(q);
+        }
+        chain.move_within_limits(target, q, limits, || self.regularity(&q))
     }
 }
 

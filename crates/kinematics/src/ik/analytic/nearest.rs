@@ -150,11 +150,17 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Returns the anchor with another value of one joint \[rad\].
-    pub fn anchor_with(&self, joint: usize, value: f64) -> JointVector {
-        let mut anchor = self.anchor;
-        anchor[joint] = value;
-        anchor
+    /// Returns the anchor with other values of one joint, the finite ones, those nearest to the anchor first \[rad\].
+    pub fn anchors_with(&self, joint: usize, values: impl Iterator<Item = f64>) -> Vec<JointVector> {
+        let far = |value: &f64| (value - self.anchor[joint]).abs();
+        let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+        values.sort_by(|a, b| far(a).total_cmp(&far(b)));
+        let anchored = |value| {
+            let mut anchor = self.anchor;
+            anchor[joint] = value;
+            anchor
+        };
+        values.into_iter().map(anchored).collect()
     }
 
     /// Returns the value `angle + 2πk` within the limits that is nearest to the start, or failing that the one within [`LIMIT_NEAR_RAD`] of

@@ -114,24 +114,12 @@ impl ClosedForm for ParallelAxesArm {
             .filter_map(of_side)
             .flatten();
         let links = self.sign_4 * self.turn_of_links(anchor[1], anchor[2]);
-        let mut moves: Vec<f64> = sums
-            .map(|sum| principal(sum - links - anchor[3]))
-            .filter(|by| by.is_finite())
-            .collect();
-        moves.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        moves
-            .into_iter()
-            .map(|by| window.anchor_with(3, anchor[3] + by))
-            .collect()
+        window.anchors_with(3, sums.map(|sum| anchor[3] + principal(sum - links - anchor[3])))
     }
 
-    /// `|sin ψ · X / (L₂ + L₃) · sin(q₅ + α₅)|`: zero at full stretch or fold, with the wrist centre beside axis 1, and with axes 4 and 6
-    /// parallel.
     fn regularity(&self, q: &JointVector) -> f64 {
-        let (end, elbow) = self.links.end(q);
-        let out = self.links.shoulder_offset + (end + self.turned_hand(self.sum(q))).im;
-        let (wrist, _) = sin_cos(q[4] + self.turns.at_zero[0]);
-        (elbow * out / self.links.reach()[0] * wrist).abs()
+        let hand = self.turned_hand(self.sum(q));
+        self.links.regularity(q, hand, q[4] + self.turns.at_zero[0])
     }
 }
 
@@ -178,7 +166,7 @@ impl ParallelAxesArm {
     /// Returns θ, joints 5 and 6, and the triangle with the elbow stretched or folded, if θ is so uncertain that this is within rounding: the
     /// sine of the angle between axes 4 and 6 times the error of θ is the error of the orientation.
     #[cold]
-    pub fn on_border(&self, swing: &Swing, turn: &Turn, wrist: Wrist) -> Option<([f64; 3], Triangle)> {
+    fn on_border(&self, swing: &Swing, turn: &Turn, wrist: Wrist) -> Option<([f64; 3], Triangle)> {
         let [found, ..] = self.turns.joints(turn, wrist);
         let borders = self.links.reach().map(|d| turns_at(swing.wrist, self.hand, d));
         let moves = borders
@@ -223,7 +211,6 @@ impl ParallelAxesArm {
         let (links, wrist) = (&self.links, swing.wrist);
         let [upper, fore] = links.lengths;
         let [_, _, q6] = self.turns.joints(turn, Wrist::Plain);
-        let sense = if turn.rotation.m33 < 0.0 { 1.0 } else { -1.0 };
         let mut found: Vec<f64> = links
             .reach()
             .iter()
@@ -237,7 +224,7 @@ impl ParallelAxesArm {
             found.extend(turns_at(wrist - links.upper_arm(limit[1]) * upper, self.hand, fore));
             found.extend(turns_at(wrist, self.hand, end.norm_sqr().sqrt()));
             found.extend(turns_at(wrist, bent_hand, upper));
-            found.push(self.sign_4 * (turn.angles[0] + sense * (limit[5] - q6)));
+            found.push(self.sign_4 * turn.first_after(limit[5] - q6));
         }
         let sign_4 = self.sign_4;
         found.into_iter().map(move |about_y| sign_4 * about_y)

@@ -50,7 +50,7 @@ pub enum StructureMismatch {
         /// Distance between the two lines \[m\].
         by_m: f64,
     },
-    /// The point where axes 5 and 6 meet passes through axis 1, on an arm with parallel axes 2, 3 and 4.
+    /// The point where axes 5 and 6 meet has no offset along axis 2 from axis 1, on an arm with parallel axes 2, 3 and 4.
     #[error("axes 2, 3 and 4 are parallel, and the point where axes 5 and 6 meet has no offset along them from axis 1")]
     NoLateralOffset,
     /// Axes 2 and 3 coincide.

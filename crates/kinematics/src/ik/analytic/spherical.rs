@@ -83,18 +83,12 @@ impl ClosedForm for SphericalWristArm {
         let bends = [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, side, elbow, window.anchor[1]));
         let roots = bends.iter().flat_map(|bend| self.roots(&goal, bend, window));
         let ends = [window.limits.lower[0], window.limits.upper[0]];
-        let anchor = window.anchor[0];
-        let mut found: Vec<f64> = roots.chain(ends).filter_map(|q1| window.value(0, q1)).collect();
-        found.sort_by(|a, b| (a - anchor).abs().total_cmp(&(b - anchor).abs()));
-        found.into_iter().map(|q1| window.anchor_with(0, q1)).collect()
+        window.anchors_with(0, roots.chain(ends).filter_map(|q1| window.value(0, q1)))
     }
 
-    /// `|sin ψ · X / (L₂ + L₃) · sin(q₅ + α₅)|`: zero at full stretch or fold, with the wrist centre beside axis 1, and with axes 4 and 6
-    /// parallel.
     fn regularity(&self, q: &JointVector) -> f64 {
-        let (end, elbow) = self.links.end(q);
-        let (wrist, _) = sin_cos(q[4] + self.turns.at_zero[0]);
-        (elbow * (self.links.shoulder_offset + end.im) / self.links.reach()[0] * wrist).abs()
+        self.links
+            .regularity(q, Complex::default(), q[4] + self.turns.at_zero[0])
     }
 }
 
@@ -187,8 +181,7 @@ impl SphericalWristArm {
     #[cold]
     fn free_wrist_within(&self, turn: &Turn, q6: f64, window: &Window<'_>) -> Option<[f64; 3]> {
         let kept = turn.angles[0];
-        let sense = if turn.rotation.m33 < 0.0 { 1.0 } else { -1.0 };
-        let moved = |limit: f64| window.value(3, kept + sense * (limit - q6));
+        let moved = |limit: f64| window.value(3, turn.first_after(limit - q6));
         let candidates = [window.limits.lower[5], window.limits.upper[5]].map(moved);
         let q4 = candidates
             .into_iter()

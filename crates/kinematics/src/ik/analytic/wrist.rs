@@ -63,6 +63,13 @@ impl Turn {
         Self::after(e, first, sin_cos(first))
     }
 
+    /// Returns the first angle once the third has moved on by `by` \[rad\], with axes 4 and 6 parallel or opposed: their sum or their difference
+    /// stays.
+    pub fn first_after(&self, by: f64) -> f64 {
+        let sense = if self.rotation.m33 < 0.0 { 1.0 } else { -1.0 };
+        self.angles[0] + sense * by
+    }
+
     /// Sine of the angle between axes 4 and 6, not negative.
     pub fn sine(&self) -> f64 {
         let e = &self.rotation;

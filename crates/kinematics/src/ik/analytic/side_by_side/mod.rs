@@ -1,14 +1,16 @@
 //! Branches side by side in the lanes of vectors. What is rare is left to the search branch by branch: joints that are free, joints that only
-//! the second, wider tolerance of the limits admits, and rounded arms.
+//! the second, wider tolerance of the limits admits, and rounded arms with a spherical wrist.
 
 pub(crate) mod parallel;
 pub(crate) mod spherical;
 
+use crate::ik::analytic::branch::Degeneracies;
 use crate::ik::analytic::links::{ELBOWS_MEET, Goal, Links};
 use crate::ik::analytic::nearest::Window;
 use crate::ik::analytic::{FREE_SHOULDER_M, FREE_WRIST_RAD, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, REACH_ROUNDING_M};
-use crate::lanes::Vector;
+use crate::lanes::{LANES, Vector};
 use crate::trig::atan2_vector;
+use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
 
 /// Case that the lanes do not treat.
@@ -161,10 +163,9 @@ pub(crate) struct Within<V> {
 impl<V: Vector> Within<V> {
     #[inline(always)]
     pub fn all() -> Self {
-        let all = V::splat(0.0).at_most(V::splat(0.0));
         Self {
-            exactly: all,
-            nearly: all,
+            exactly: all_lanes(),
+            nearly: all_lanes(),
         }
     }
 
@@ -199,7 +200,7 @@ impl<V: Vector> Within<V> {
 }
 
 #[inline(always)]
-pub(crate) fn splat<V: Vector>(z: nalgebra::Complex<f64>) -> Complexes<V> {
+pub(crate) fn splat<V: Vector>(z: Complex<f64>) -> Complexes<V> {
     [V::splat(z.re), V::splat(z.im)]
 }
 
@@ -218,9 +219,76 @@ pub(crate) fn squared_norm<V: Vector>([re, im]: Complexes<V>) -> V {
     re * re + im * im
 }
 
-/// Returns lanes 0 and 2 of two vectors, those of the first first: front and back, where two lanes of each are the same.
+/// Returns all bits in every lane.
 #[inline(always)]
-pub(crate) fn of_both<V: Vector>(a: V, b: V) -> V {
+pub(crate) fn all_lanes<V: Vector>() -> V {
+    V::splat(0.0).at_most(V::splat(0.0))
+}
+
+/// Returns the angles of two pairs of sine and cosine. Front and back have two lanes each, which are the same.
+#[inline(always)]
+pub(crate) fn angles_of_both<V: Vector>(a: (V, V), b: (V, V)) -> [V; 2] {
+    let [s, c] = [of_both(a.0, b.0), of_both(a.1, b.1)];
+    let [front, back, front_2, back_2] = atan2_vector(s, c).to_array();
+    [
+        V::from_array([front, front, back, back]),
+        V::from_array([front_2, front_2, back_2, back_2]),
+    ]
+}
+
+/// Returns lanes 0 and 2 of two vectors, those of the first first.
+#[inline(always)]
+fn of_both<V: Vector>(a: V, b: V) -> V {
     let ([front, _, back, _], [front_2, _, back_2, _]) = (a.to_array(), b.to_array());
     V::from_array([front, back, front_2, back_2])
+}
+
+/// Returns the columns of `Rot_z(−q) R` with the sine and cosine of q.
+#[inline(always)]
+pub(crate) fn turned<V: Vector>(r: &Matrix3<f64>, swing: (V, V)) -> [[V; 3]; 3] {
+    [
+        turned_column(r, 0, swing),
+        turned_column(r, 1, swing),
+        turned_column(r, 2, swing),
+    ]
+}
+
+#[inline(always)]
+fn turned_column<V: Vector>(r: &Matrix3<f64>, column: usize, (s, c): (V, V)) -> [V; 3] {
+    let [x, y, z] = [
+        V::splat(r[(0, column)]),
+        V::splat(r[(1, column)]),
+        V::splat(r[(2, column)]),
+    ];
+    [x * c + y * s, y * c - x * s, z]
+}
+
+/// Returns the rows of `K A` for a matrix A given by its columns.
+#[inline(always)]
+pub(crate) fn times<V: Vector>(k: &Matrix3<f64>, columns: [[V; 3]; 3]) -> [[V; 3]; 3] {
+    [
+        row_times(k, 0, columns),
+        row_times(k, 1, columns),
+        row_times(k, 2, columns),
+    ]
+}
+
+#[inline(always)]
+fn row_times<V: Vector>(k: &Matrix3<f64>, row: usize, [first, second, third]: [[V; 3]; 3]) -> [V; 3] {
+    let [a, b, d] = [V::splat(k[(row, 0)]), V::splat(k[(row, 1)]), V::splat(k[(row, 2)])];
+    [
+        a * first[0] + b * first[1] + d * first[2],
+        a * second[0] + b * second[1] + d * second[2],
+        a * third[0] + b * third[1] + d * third[2],
+    ]
+}
+
+/// Returns the degeneracies of a lane, given whether front and back meet and the sines of the elbows.
+#[inline(always)]
+pub(crate) fn degeneracies((shoulder, elbow): (bool, [f64; LANES]), lane: usize) -> Degeneracies {
+    Degeneracies {
+        shoulder,
+        elbow: elbow[lane] <= ELBOWS_MEET,
+        wrist: false,
+    }
 }

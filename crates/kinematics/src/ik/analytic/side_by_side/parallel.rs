@@ -4,10 +4,13 @@
 use crate::JointVector;
 use crate::ik::analytic::FREE_WRIST_RAD;
 use crate::ik::analytic::branch::{Degeneracies, Label, OutOfReach, Shoulder, Wrist};
-use crate::ik::analytic::links::{ELBOWS_MEET, Goal};
+use crate::ik::analytic::links::Goal;
 use crate::ik::analytic::nearest::Window;
 use crate::ik::analytic::parallel::ParallelAxesArm;
-use crate::ik::analytic::side_by_side::{Complexes, Rare, Swings, Triangles, Turns, Within, of_both, product, splat};
+use crate::ik::analytic::side_by_side::{
+    Complexes, Rare, Swings, Triangles, Turns, Within, all_lanes, angles_of_both, degeneracies, product, splat, times,
+    turned,
+};
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::trig::atan2_vector;
 use nalgebra::Complex;
@@ -118,22 +121,14 @@ fn joints(outer: &[[f64; LANES]; 3], inner: &[[f64; LANES]; 3], l: usize) -> Joi
     JointVector::new(q1[l], q2[l], q3[l], q4[l], q5[l], q6[l])
 }
 
-#[inline(always)]
-fn degeneracies((shoulder, elbow): (bool, [f64; LANES]), lane: usize) -> Degeneracies {
-    Degeneracies {
-        shoulder,
-        elbow: elbow[lane] <= ELBOWS_MEET,
-        wrist: false,
-    }
-}
-
 impl AllSideBySide<'_> {
     #[inline(always)]
     fn lanes<V: Vector>(&self) -> Result<Lanes<V>, Rare> {
         let (arm, links) = (self.arm, &self.arm.links);
         let swings = Swings::<V>::of(links, self.goal)?;
-        let all = V::splat(0.0).at_most(V::splat(0.0));
-        let turns = Turns::of(&self.rotation(swings.unit), all)?;
+        // `E = Kᵀ Rot_z(−q₁) R`.
+        let rotation = times(&arm.turns.from_shoulder, turned(&self.goal.rotation, swings.unit));
+        let turns = Turns::of(&rotation, all_lanes())?;
         let [q1, first] = angles_of_both(swings.swing, turns.first);
         let [second, third] = angles_of_both(turns.second, turns.third);
 
@@ -180,44 +175,12 @@ impl AllSideBySide<'_> {
         let (beyond, short) = (triangles.distance - longest, shortest - triangles.distance);
         let miss = beyond.if_above(short, beyond, short);
         let uncertain = V::splat(2.0 * FREE_WRIST_RAD * self.arm.hand.norm_sqr().sqrt());
-        let all = V::splat(0.0).at_most(V::splat(0.0));
-        let missed = triangles.reached.xor(all);
+        let missed = triangles.reached.xor(all_lanes());
         match (miss * sine).at_most(uncertain).and(missed).sign_bits() {
             0 => Ok(()),
             _ => Err(Rare),
         }
     }
-
-    /// Returns `E = Kᵀ Rot_z(−q₁) R` by rows.
-    #[inline(always)]
-    fn rotation<V: Vector>(&self, (s, c): (V, V)) -> [[V; 3]; 3] {
-        let (r, k) = (&self.goal.rotation, &self.arm.turns.from_shoulder);
-        let mut rotation = [[V::splat(0.0); 3]; 3];
-        for column in 0..3 {
-            let [x, y, z] = [
-                V::splat(r[(0, column)]),
-                V::splat(r[(1, column)]),
-                V::splat(r[(2, column)]),
-            ];
-            let (x, y) = (x * c + y * s, y * c - x * s);
-            for row in 0..3 {
-                let [a, b, d] = [V::splat(k[(row, 0)]), V::splat(k[(row, 1)]), V::splat(k[(row, 2)])];
-                rotation[row][column] = a * x + b * y + d * z;
-            }
-        }
-        rotation
-    }
-}
-
-/// Returns the angles of two pairs of sine and cosine. Front and back have two lanes each, which are the same.
-#[inline(always)]
-fn angles_of_both<V: Vector>(a: (V, V), b: (V, V)) -> [V; 2] {
-    let [s, c] = [of_both(a.0, b.0), of_both(a.1, b.1)];
-    let [front, back, front_2, back_2] = atan2_vector(s, c).to_array();
-    [
-        V::from_array([front, front, back, back]),
-        V::from_array([front_2, front_2, back_2, back_2]),
-    ]
 }
 
 #[cfg(test)]

@@ -3,17 +3,17 @@
 //! The equations are those of `links`, `wrist` and `spherical`, operation by operation, so that the answers have the same bits.
 
 use crate::JointVector;
-use crate::ik::analytic::branch::{Degeneracies, Elbow, Label, Shoulder, Wrist};
-use crate::ik::analytic::links::{ELBOWS_MEET, Goal};
+use crate::ik::analytic::branch::{Elbow, Label, Shoulder, Wrist};
+use crate::ik::analytic::links::Goal;
 use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
 use crate::ik::analytic::side_by_side::{
-    Complexes, Rare, Swings, Triangles, Turns, Within, conjugate, of_both, product, splat, squared_norm,
+    Complexes, Rare, Swings, Triangles, Turns, Within, angles_of_both, conjugate, degeneracies, product, splat,
+    squared_norm, times, turned,
 };
 use crate::ik::analytic::spherical::SphericalWristArm;
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::rotation::RigidTransform;
 use crate::trig::atan2_vector;
-use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
 /// Branches of the arm, in the order of the lanes.
@@ -94,12 +94,7 @@ impl Kernel for SideBySide<'_> {
                 }
                 let [q4, q5, q6] = [wrists[k][0][l], wrists[k][1][l], wrists[k][2][l]];
                 let q = JointVector::new(rows[0][l], rows[1][l], rows[2][l], q4, q5, q6);
-                let degenerate = Degeneracies {
-                    shoulder: arms.meets.0,
-                    elbow: arms.meets.1[l] <= ELBOWS_MEET,
-                    wrist: false,
-                };
-                search.offer(q, Label::new(shoulder, elbow, wrist), degenerate);
+                search.offer(q, Label::new(shoulder, elbow, wrist), degeneracies(arms.meets, l));
             }
         }
         Ok(search.best)
@@ -132,10 +127,7 @@ impl SideBySide<'_> {
         let Triangles {
             cosine, sine, reached, ..
         } = triangles;
-        let (s, c) = swings.swing;
-        let both = atan2_vector(of_both(s, sine), of_both(c, cosine)).to_array();
-        let q1 = V::from_array([both[0], both[0], both[1], both[1]]);
-        let psi = V::from_array([both[2], both[2], both[3], both[3]]);
+        let [q1, psi] = angles_of_both(swings.swing, (sine, cosine));
 
         // The elbow's side turns ψ round.
         let side = V::from_array([0.0, -0.0, -0.0, 0.0]);
@@ -147,10 +139,9 @@ impl SideBySide<'_> {
             product([turn[0] / norm, turn[1] / norm], bent),
             conjugate(splat(links.turn_at_zero)),
         );
-        let (s, c) = swings.unit;
         Ok(Arms {
             q: [q1, q2, q3],
-            wrist: self.rotation(s, c, forearm),
+            wrist: self.rotation(swings.unit, forearm),
             reached,
             meets: (swings.meets, sine.to_array()),
         })
@@ -158,24 +149,14 @@ impl SideBySide<'_> {
 
     /// Returns `E = Kᵀ Rot_y(−θ₂₃) Rot_z(−q₁) R`.
     #[inline(always)]
-    fn rotation<V: Vector>(&self, s: V, c: V, forearm: Complexes<V>) -> [[V; 3]; 3] {
-        let (r, k): (&Matrix3<f64>, _) = (&self.goal.rotation, &self.arm.turns.from_shoulder);
-        let [fore_c, fore_s] = forearm;
-        let mut rotation = [[V::splat(0.0); 3]; 3];
-        for column in 0..3 {
-            let [x, y, z] = [
-                V::splat(r[(0, column)]),
-                V::splat(r[(1, column)]),
-                V::splat(r[(2, column)]),
-            ];
-            let (x, y) = (x * c + y * s, y * c - x * s);
-            let (x, z) = (x * fore_c - z * fore_s, x * fore_s + z * fore_c);
-            for row in 0..3 {
-                let [a, b, d] = [V::splat(k[(row, 0)]), V::splat(k[(row, 1)]), V::splat(k[(row, 2)])];
-                rotation[row][column] = a * x + b * y + d * z;
-            }
-        }
-        rotation
+    fn rotation<V: Vector>(&self, swing: (V, V), forearm: Complexes<V>) -> [[V; 3]; 3] {
+        let [a, b, d] = turned(&self.goal.rotation, swing);
+        let leant = [
+            turned_about_y(a, forearm),
+            turned_about_y(b, forearm),
+            turned_about_y(d, forearm),
+        ];
+        times(&self.arm.turns.from_shoulder, leant)
     }
 
     /// Squared distances from the start, joint after joint.
@@ -188,6 +169,12 @@ impl SideBySide<'_> {
         let arm = square(arm[0], 0) + square(arm[1], 1) + square(arm[2], 2);
         (arm + square(wrist[0], 3) + square(wrist[1], 4) + square(wrist[2], 5)).to_array()
     }
+}
+
+/// Returns `Rot_y(−θ) v` with `e^{iθ}`.
+#[inline(always)]
+fn turned_about_y<V: Vector>([x, y, z]: [V; 3], [c, s]: Complexes<V>) -> [V; 3] {
+    [x * c - z * s, y, x * s + z * c]
 }
 
 #[cfg(test)]
