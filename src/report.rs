@@ -158,6 +158,7 @@ impl WashReport {
                 (None, None) => "home".to_owned(),
             };
             writeln!(f, "{name:<24} {:>9.2}  {}", transit.duration_s, transit.kind)?;
+            writeln!(f, "{:<24} {:>9}  {transit}", "", "")?;
             if let Some(visit) = self.visits.get(k) {
                 let name = format!("wash {}", plate_name(visit.plate));
                 let how = how(visit, &self.certificate);

@@ -273,6 +273,7 @@ def wash_paths(of: _core.Plan) -> list[Floats]:
             turns=curve.turns,
             start_angle_rad=curve.start_angle_rad,
             closing_ring=curve.closing_ring,
+            trim_rad=curve.get("trim_rad", 0.0),
             rings=None if rings is None else Rings(**rings),
         )
         points = shape.on(of.plates[path.plate], 1.5e-3)[1][:, :2]

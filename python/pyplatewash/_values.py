@@ -224,8 +224,10 @@ class WashCurve:
     turns: float
     #: Direction in which the spiral leaves the centre, counter-clockwise from +x [rad].
     start_angle_rad: float = 0.0
-    #: Whether a full circle at the outer radius follows.
+    #: Whether a circle at the outer radius follows.
     closing_ring: bool = True
+    #: Angle by which that circle ends before a full turn [rad].
+    trim_rad: float = 0.0
     #: That it consists of rings; without them, it is a spiral.
     rings: Rings | None = None
 

@@ -60,6 +60,7 @@ fn wash_path(terms: &JobTerms, plate: usize) -> WashPath {
             turns: settings.turns.unwrap(),
             start_angle_rad: trig::atan2(y, x),
             closing_ring: settings.closing_ring.unwrap(),
+            trim_rad: 0.0,
             rings: None,
         },
         lift_m: settings.lift_m,

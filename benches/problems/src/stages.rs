@@ -140,6 +140,7 @@ pub fn wash_path(job: &WashJob, plate: usize) -> Result<WashPath, Box<dyn Error>
             turns: settings.turns.unwrap_or(3.5),
             start_angle_rad: 0.0,
             closing_ring: settings.closing_ring.unwrap_or(true),
+            trim_rad: 0.0,
             rings: None,
         },
         lift_m: settings.lift_m,

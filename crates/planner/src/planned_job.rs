@@ -6,15 +6,17 @@
 //! therefore takes at least (A − π s²)/(2 s v).
 
 use crate::order::Optimality;
+use crate::pattern::length_m;
 use crate::redundancy::TiltChoice;
 use crate::scene::Scene;
-use crate::timing::{MotionLimits, TimedPath};
+use crate::timing::MotionLimits;
 use crate::transit::TransitKind;
 use platewash_kinematics::words::decimals_down;
 use platewash_kinematics::{AXES, Axes, JointVector};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
+use platewash_workcell::trajectory::{JointState, Trajectory};
 use platewash_workcell::wash_path::WashCurve;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -66,6 +68,11 @@ pub struct TransitSummary {
     pub kind: TransitKind,
     /// Time from contact to contact, or from or to home \[s\].
     pub duration_s: f64,
+    /// Lower bound on the time of any motion between its ends, by the limits of the joints \[s\].
+    pub least_s: f64,
+    /// Shares of the time at each limit.
+    #[serde(flatten)]
+    pub limits: LimitShares,
 }
 
 /// Estimated travel time of the order, compared with a simple one.
@@ -102,13 +109,45 @@ impl PlannedJob {
 /// A rate this near to its limit binds, as a part of it.
 const BINDING: f64 = 0.98;
 
+/// Number of moments of a motion at which its limits are looked at.
+const MOMENTS: u32 = 100;
+
 /// Least time of a wash, and the shares of its time at each limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Pace {
     /// Lower bound on the time of any wash of the plate with this sponge and wash speed \[s\].
     pub least_s: f64,
+    /// Lower bound on the time along its path at the wash speed \[s\].
+    pub path_s: f64,
     /// Length of the wash path \[m\].
     pub length_m: f64,
+    /// Shares of the time at each limit.
+    #[serde(flatten)]
+    pub limits: LimitShares,
+}
+
+impl Pace {
+    /// The pace of a wash of `plate` along `curve`.
+    pub(crate) fn of(
+        scene: &Scene<'_>,
+        plate: &Plate,
+        terms: &JobTerms,
+        (curve, motion): (&WashCurve, &Trajectory),
+        limits: &MotionLimits,
+    ) -> Self {
+        let (length_m, speed_m_s) = (length_m(curve, &plate.surface), terms.wash_speed_m_s());
+        Self {
+            least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * speed_m_s),
+            path_s: length_m / speed_m_s,
+            length_m,
+            limits: LimitShares::of(scene, motion, limits),
+        }
+    }
+}
+
+/// Shares of the time of a motion at each limit.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct LimitShares {
     /// Share of the time at the speed limit of the tip.
     pub tip_speed: f64,
     /// Share of the rest of it at the acceleration limit of the tip.
@@ -119,53 +158,39 @@ pub struct Pace {
     pub joint_acceleration: f64,
 }
 
-impl Pace {
-    /// The pace of a wash of `plate`, sampled in the middle of its pieces.
-    pub(crate) fn of(
-        scene: &Scene<'_>,
-        plate: &Plate,
-        terms: &JobTerms,
-        wash: &TimedPath,
-        limits: &MotionLimits,
-    ) -> Self {
+impl LimitShares {
+    /// The shares of a motion, by moments that are evenly apart.
+    pub(crate) fn of(scene: &Scene<'_>, motion: &Trajectory, limits: &MotionLimits) -> Self {
         let tip = limits
             .tip
             .map_or([f64::INFINITY; 2], |tip| [tip.speed_m_s, tip.acceleration_m_s2]);
-        let mut pace = Self {
-            least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * tip[0]),
-            length_m: 0.0,
-            tip_speed: 0.0,
-            tip_acceleration: 0.0,
-            joint_speed: 0.0,
-            joint_acceleration: 0.0,
+        let (mut shares, step_s) = (Self::default(), motion.duration_s() / f64::from(MOMENTS));
+        let velocity = |state: &JointState| {
+            let jacobian = scene.robot.fk(&state.q).jacobian(&scene.tip, Axes::Base);
+            jacobian.fixed_rows::<3>(0) * state.qd
         };
-        let times = wash.motion.times();
-        let place = |t: f64| wash.motion.at(t).map(|state| (scene.robot.fk(&state.q), state));
-        for ends in times.windows(2) {
-            let (middle, long_s) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0]);
-            let (Some((poses, state)), Some((next, later))) = (place(middle), place(middle + 1e-3 * long_s)) else {
+        for k in 0..MOMENTS {
+            let t_s = (f64::from(k) + 0.5) * step_s;
+            let (Some(state), Some(later)) = (motion.at(t_s), motion.at(t_s + 1e-3 * step_s)) else {
                 continue;
             };
-            let velocity = |poses: &platewash_kinematics::BodyPoses, qd| {
-                let jacobian = poses.jacobian(&scene.tip, Axes::Base);
-                jacobian.fixed_rows::<3>(0) * qd
+            let here = velocity(&state);
+            let acceleration = || (velocity(&later) - here) / (1e-3 * step_s);
+            let joints = |of: &dyn Fn(usize) -> f64| (0..AXES).map(of).fold(0.0, f64::max) >= BINDING;
+            let share = if here.norm() >= BINDING * tip[0] {
+                &mut shares.tip_speed
+            } else if acceleration().norm() >= BINDING * tip[1] {
+                &mut shares.tip_acceleration
+            } else if joints(&|j| state.qd[j].abs() / limits.velocity[j]) {
+                &mut shares.joint_speed
+            } else if joints(&|j| state.qdd[j].abs() / limits.acceleration[j]) {
+                &mut shares.joint_acceleration
+            } else {
+                continue;
             };
-            let here = velocity(&poses, state.qd);
-            let acceleration = (velocity(&next, later.qd) - here) / (1e-3 * long_s);
-            pace.length_m += here.norm() * long_s;
-            let joints = |of: &dyn Fn(usize) -> f64| (0..AXES).map(of).fold(0.0, f64::max);
-            let share = long_s / wash.motion.duration_s();
-            if here.norm() >= BINDING * tip[0] {
-                pace.tip_speed += share;
-            } else if acceleration.norm() >= BINDING * tip[1] {
-                pace.tip_acceleration += share;
-            } else if joints(&|j| state.qd[j].abs() / limits.velocity[j]) >= BINDING {
-                pace.joint_speed += share;
-            } else if joints(&|j| state.qdd[j].abs() / limits.acceleration[j]) >= BINDING {
-                pace.joint_acceleration += share;
-            }
+            *share += 1.0 / f64::from(MOMENTS);
         }
-        pace
+        shares
     }
 }
 
@@ -180,10 +205,32 @@ fn least_area_m2(plate: &Plate, terms: &JobTerms) -> f64 {
 
 impl fmt::Display for Pace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "path of {:.2} m", self.length_m)?;
+        write!(
+            f,
+            "path of {:.2} m, at least {} s",
+            self.length_m,
+            decimals_down(self.path_s, 2)
+        )?;
         if self.least_s > 0.0 {
             write!(f, "; no path is faster than {} s", decimals_down(self.least_s, 2))?;
         }
+        write!(f, "{}", self.limits)
+    }
+}
+
+impl fmt::Display for TransitSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the joints need at least {} s{}",
+            decimals_down(self.least_s, 2),
+            self.limits
+        )
+    }
+}
+
+impl fmt::Display for LimitShares {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shares = [
             ("tip speed", self.tip_speed),
             ("tip acceleration", self.tip_acceleration),

@@ -10,7 +10,7 @@ use platewash::paper::PaperSpiral;
 use platewash::paper::cubic::{self, Interpolation};
 use platewash::workcell::arc::{self, Arc};
 use platewash::workcell::surface::Surface;
-use platewash::workcell::wash_path::{MOST_RINGS, Rings, WashCurve};
+use platewash::workcell::wash_path::{MOST_RINGS, MOST_TRIM_RAD, Rings, WashCurve};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
 
@@ -86,6 +86,7 @@ pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
         turns: number("turns", [0.25, MOST_TURNS])?,
         start_angle_rad: number("start_angle_rad", [-1e3, 1e3])?,
         closing_ring: argument::field(whole, value, ("curve", "closing_ring"), argument::flag)?,
+        trim_rad: number("trim_rad", [0.0, MOST_TRIM_RAD])?,
         rings: rings?,
     };
     match curve.rings {

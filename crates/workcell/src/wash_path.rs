@@ -5,7 +5,7 @@
 //!
 //! Wash curves: ℓ as a function of θ.
 //!
-//! The angle θ goes from 0 to `Θ`, the spiral's turns, and on to `Θ + 2π` with a ring. ℓ grows at the constant rate
+//! The angle θ goes from 0 to `Θ`, the spiral's turns, and on to `Θ + 2π`, less a trim, with a ring. ℓ grows at the constant rate
 //! `a = R / (Θ − β/2)` until the last `β` = [`BLEND_RAD`] of the spiral, over which the rate falls to zero as `a (1 − S(x))`,
 //! `S(x) = x³ (10 − 15 x + 6 x²)`. So `ℓ(θ)` is C³ and meets the ring at `ℓ = R` without a bend.
 //!
@@ -13,7 +13,8 @@
 //!
 //! Of n rings the k-th, from 0, has ℓ = ℓ₀ + k (R − ℓ₀)/(n − 1). The arm follows it until λₖ before the full turn, and then moves over the
 //! angle wₖ to the next one by the septic smoothstep `S(x) = x⁴ (35 − 84 x + 70 x² − 20 x³)`, so that ℓ(θ) is C³. Blends farther out have
-//! about the same length in metres with a smaller angle: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one, a full turn.
+//! about the same length in metres with a smaller angle: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one: a full turn, or
+//! less by [`WashCurve::trim_rad`].
 
 use crate::plate::Plate;
 use crate::surface::Surface;
@@ -56,6 +57,9 @@ pub const BLEND_RAD: f64 = 1.0;
 /// Least outer radius of a wash curve \[m\].
 pub const LEAST_RADIUS_M: f64 = 1e-4;
 
+/// Greatest angle by which the closing ring is shorter than a full turn \[rad\].
+pub const MOST_TRIM_RAD: f64 = 1.5;
+
 /// Least number of turns of a wash curve.
 pub const LEAST_TURNS: f64 = 0.25;
 
@@ -87,11 +91,18 @@ pub struct WashCurve {
     pub turns: f64,
     /// Direction in which the spiral leaves the centre, counter-clockwise from +x \[rad\].
     pub start_angle_rad: f64,
-    /// True if a full circle at the outer radius follows.
+    /// True if a circle at the outer radius follows.
     pub closing_ring: bool,
+    /// Angle by which that circle ends before a full turn \[rad\].
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub trim_rad: f64,
     /// Rings joined by blends, which take `turns` turns; `None` for a spiral.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rings: Option<Rings>,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// A point of a wash curve, relative to the plate's centre, with derivatives by θ.
@@ -120,7 +131,7 @@ impl WashCurve {
     /// Last θ \[rad\].
     #[must_use]
     pub fn end(&self) -> f64 {
-        self.spiral_end() + if self.closing_ring { TAU } else { 0.0 }
+        self.spiral_end() + if self.closing_ring { TAU - self.trim_rad } else { 0.0 }
     }
 
     /// θ at which the closing ring begins \[rad\]: the end of the spiral, or of the last blend.
@@ -130,6 +141,12 @@ impl WashCurve {
             Some(rings) => rings.end(),
             None => TAU * self.turns,
         }
+    }
+
+    /// The curve with another trim of its closing ring.
+    #[must_use]
+    pub fn trimmed(&self, trim_rad: f64) -> Self {
+        Self { trim_rad, ..*self }
     }
 
     /// Distance between neighbouring windings along the meridian \[m\].

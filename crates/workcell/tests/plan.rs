@@ -17,6 +17,7 @@ fn plan() -> Plan {
                 turns: 3.5,
                 start_angle_rad: 0.1,
                 closing_ring: true,
+                trim_rad: 0.0,
                 rings: None,
             },
             lift_m: 0.03,

@@ -11,6 +11,7 @@ fn spirals() -> impl Strategy<Value = WashCurve> {
             turns,
             start_angle_rad,
             closing_ring,
+            trim_rad: 0.0,
             rings: None,
         },
     )
@@ -37,6 +38,7 @@ fn rings() -> impl Strategy<Value = WashCurve> {
                 turns: rings.turns(),
                 start_angle_rad,
                 closing_ring: true,
+                trim_rad: 0.0,
                 rings: Some(rings),
             }
         })
@@ -154,6 +156,7 @@ fn the_kitchen_has_the_expected_pitch() {
         turns: 3.5,
         start_angle_rad: 0.0,
         closing_ring: true,
+        trim_rad: 0.0,
         rings: None,
     };
     let expected = TAU * 0.124 / (7.0 * std::f64::consts::PI - 0.5);

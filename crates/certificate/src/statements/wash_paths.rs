@@ -8,7 +8,9 @@
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TURNS, WashPath};
+use platewash_workcell::wash_path::{
+    LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TRIM_RAD, MOST_TURNS, WashPath,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Greatest outer radius of a path, and greatest lift \[m\].
@@ -41,6 +43,7 @@ fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
         number("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, GREATEST_M]),
         number("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS]),
         number("curve.start_angle_rad", curve.start_angle_rad, [-TAU, TAU]),
+        number("curve.trim_rad", curve.trim_rad, [0.0, MOST_TRIM_RAD]),
         number("length of the curve", length_m, [0.0, LONGEST_M]),
         number("lift_m", path.lift_m, [f64::MIN_POSITIVE, GREATEST_M]),
         number("cone_rad", path.cone_rad, [0.0, tilt_rad]),

@@ -14,6 +14,7 @@ pub fn spiral(radius_m: f64, turns: f64) -> WashCurve {
         turns,
         start_angle_rad: 0.3,
         closing_ring: true,
+        trim_rad: 0.0,
         rings: None,
     }
 }

@@ -50,6 +50,7 @@ impl Recipe {
                 turns: 3.5,
                 start_angle_rad: 0.3,
                 closing_ring: true,
+                trim_rad: 0.0,
                 rings: None,
             },
             order,

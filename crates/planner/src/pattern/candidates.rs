@@ -1,9 +1,10 @@
 //! Candidate curves.
 //!
-//! Estimates for a curve: its time at the limits of washing, and its effect on the bare face.
+//! Estimates for a curve: its time at the limits of washing and of the arm, and its effect on the bare face.
 
-use crate::pattern::promise::{Margin, Promise, SampledWash};
-use crate::scene::AxisRule;
+use crate::pattern::promise::{Promise, SampledWash};
+use crate::scene::{AxisRule, TiltPolicy};
+use crate::timing::TipLimits;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_workcell::contact::{Moment, SpongePose};
@@ -20,11 +21,14 @@ const PITCHES: [f64; 9] = [1.95, 1.8, 1.65, 1.5, 1.4, 1.3, 1.2, 1.0, 0.8];
 /// Distances of the outermost winding from the rim that are tried, in sponge radii.
 const INSETS: [f64; 6] = [0.95, 0.92, 0.85, 0.77, 0.7, 0.5];
 
-/// λ₀ and w₀ of blends \[rad\]: shorter ones are shorter ways, and on the IRB 120 longer times, as joints reach their accelerations.
-const BLEND: [f64; 2] = [2.0, 1.7];
+/// λ₀ and w₀ of blends \[rad\]: shorter ones are shorter ways, and longer times where joints reach their accelerations.
+const BLENDS: [[f64; 2]; 2] = [[2.0, 1.7], [1.8, 1.4]];
 
 /// ℓ of the innermost ring, relative to that of evenly spaced rings: farther out it lies nearer to the next ones.
 const INNER: [f64; 3] = [1.0, 1.08, 1.17];
+
+/// Trims of the closing ring that are tried \[rad\], the greatest first: the blend before it covers some of its beginning.
+pub(crate) const TRIMS_RAD: [f64; 4] = [0.55, 0.4, 0.2, 0.0];
 
 /// Rings that are tried at most, where their number is not stated.
 const MOST_TRIED: usize = 40;
@@ -41,7 +45,7 @@ pub(crate) enum Density {
     Dense,
 }
 
-/// Lists all curves of a density that the settings leave open; at least one of the usual density.
+/// Lists all curves of a density that the settings leave open, with the greatest trim; at least one of the usual density.
 pub(crate) fn candidates(
     settings: &PlannerSettings,
     surface: &Surface,
@@ -80,6 +84,7 @@ fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Densi
         Density::Usual => &PITCHES,
         Density::Dense => &DENSE_PITCHES,
     };
+    let is_stated = settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some();
     let mut all = Vec::new();
     for radius_m in outer(settings, arc_m, sponge_m) {
         let turns = match settings.turns {
@@ -95,6 +100,7 @@ fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Densi
                 turns: turns.clamp(LEAST_TURNS, MOST_TURNS),
                 start_angle_rad: 0.0,
                 closing_ring: settings.closing_ring.unwrap_or(true),
+                trim_rad: if is_stated { 0.0 } else { TRIMS_RAD[0] },
                 rings: None,
             });
         }
@@ -125,14 +131,16 @@ fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density
         }
         for radius_m in outers.into_iter().map(|radius_m| radius_m.max(LEAST_RADIUS_M)) {
             let even_m = radius_m / (2 * count - 1) as f64;
-            all.extend(INNER.map(|share| with_inner(count, share * even_m, radius_m)));
+            for inner_m in INNER.map(|share| share * even_m) {
+                all.extend(BLENDS.map(|blend| ringed(count, [inner_m, radius_m], blend)));
+            }
         }
     }
     all
 }
 
-fn with_inner(count: usize, inner_m: f64, radius_m: f64) -> WashCurve {
-    let [lead_rad, blend_rad] = BLEND;
+/// Rings with ℓ of the innermost and of the outermost.
+fn ringed(count: usize, [inner_m, radius_m]: [f64; 2], [lead_rad, blend_rad]: [f64; 2]) -> WashCurve {
     let rings = Rings {
         count,
         inner_m,
@@ -144,24 +152,20 @@ fn with_inner(count: usize, inner_m: f64, radius_m: f64) -> WashCurve {
         turns: rings.turns(),
         start_angle_rad: 0.0,
         closing_ring: true,
+        trim_rad: TRIMS_RAD[0],
         rings: Some(rings),
     }
 }
 
-/// Largest deviation of a chord from the curve that is checked \[m\].
-const CHORD_M: f64 = 5e-5;
-
-/// The longest stride between moments \[m\].
+/// Stride between moments \[m\], and the longest between their angles \[rad\].
 const STRIDE_M: f64 = 3e-3;
-
-/// The tilt of the tool that is reckoned with on flat faces, as a share of the cone: the arm tilts it as suits it.
-const LEAN: f64 = 0.8;
+const STRIDE_RAD: f64 = 0.15;
 
 /// A curve that may be chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Candidate {
-    curve: WashCurve,
-    /// Lower bound of its time, but for rare curves \[s\]; only the order of candidates depends on it.
+    pub curve: WashCurve,
+    /// Lower bound of its estimated time, but for rare curves \[s\]; only the order of candidates depends on it.
     bound_s: f64,
 }
 
@@ -172,13 +176,14 @@ const COARSE_RAD: f64 = 0.4;
 const COARSE_SHARE: f64 = 0.99;
 
 impl Candidate {
-    /// A curve on a surface, washed as fast as the limits allow \[m/s, m/s²\].
-    pub fn new(curve: WashCurve, surface: &Surface, [speed_m_s, most_m_s2]: [f64; 2]) -> Self {
+    /// A curve on a surface, washed as fast as the limits allow.
+    pub fn new(curve: WashCurve, surface: &Surface, limits: &TipLimits) -> Self {
+        let speed_m_s = limits.speed_m_s;
         let steps = (curve.end() / COARSE_RAD).ceil();
         let points = (0..=steps as u32).map(|k| curve.on(surface, curve.end() * f64::from(k) / steps).position);
         let points: Vec<_> = points.collect();
         let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-        let bound_s = COARSE_SHARE * length_m / speed_m_s + speed_m_s / most_m_s2;
+        let bound_s = COARSE_SHARE * length_m / speed_m_s + speed_m_s / limits.acceleration_m_s2;
         Self { curve, bound_s }
     }
 }
@@ -187,7 +192,7 @@ impl Candidate {
 #[derive(Debug)]
 pub(crate) struct ByTime<'a> {
     surface: &'a Surface,
-    limits: [f64; 2],
+    limits: &'a TipLimits,
     left: Vec<Waiting>,
 }
 
@@ -203,14 +208,14 @@ impl Waiting {
     fn least_s(&self) -> f64 {
         match self {
             Self::Bounded(candidate) => candidate.bound_s,
-            Self::Timed(estimate) => estimate.least_s,
+            Self::Timed(estimate) => estimate.time_s,
         }
     }
 }
 
 impl<'a> ByTime<'a> {
-    /// Candidates on a surface, with the greatest speed and acceleration of washing \[m/s, m/s²\].
-    pub fn new(candidates: &[Candidate], surface: &'a Surface, limits: [f64; 2]) -> Self {
+    /// Candidates on a surface, with the limits of washing.
+    pub fn new(candidates: &[Candidate], surface: &'a Surface, limits: &'a TipLimits) -> Self {
         let left = candidates.iter().copied().map(Waiting::Bounded).collect();
         Self { surface, limits, left }
     }
@@ -238,56 +243,74 @@ impl Iterator for ByTime<'_> {
 }
 
 /// A curve and its time.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(crate) struct Estimate {
     pub curve: WashCurve,
-    /// Least time from rest to rest, without the limits of the arm \[s\].
-    pub least_s: f64,
+    /// Points along it with their angles.
+    points: Vec<(f64, SurfacePoint)>,
+    /// Estimated time from rest to rest, with the acceleration that the limits state in every direction \[s\].
+    pub time_s: f64,
+    /// Length of the curve \[m\].
+    pub length_m: f64,
     speed_m_s: f64,
 }
 
 impl Estimate {
-    /// A curve on a surface, washed as fast as the limits allow \[m/s, m/s²\].
-    pub fn new(curve: WashCurve, surface: &Surface, [speed_m_s, most_m_s2]: [f64; 2]) -> Self {
-        let mut least_s = speed_m_s / most_m_s2;
-        for [from, to] in pairs(&points(&curve, surface)) {
+    /// A curve on a surface, washed as fast as the limits allow.
+    pub fn new(curve: WashCurve, surface: &Surface, limits: &TipLimits) -> Self {
+        let (most_m_s2, speed_m_s) = (limits.acceleration_m_s2, limits.speed_m_s);
+        let (mut moving_s, mut length_m) = (0.0, 0.0);
+        let points = points(&curve, surface);
+        for pair in points.windows(2) {
+            let [from, to] = [&pair[0].1, &pair[1].1];
             let along_m = (to.position - from.position).norm();
             let turned = (to.first.normalize() - from.first.normalize()).norm();
             // The curvature of the piece bounds the speed: v² κ ≤ a.
             let slow_m_s = (most_m_s2 * along_m / turned.max(1e-9)).sqrt();
-            least_s += along_m / speed_m_s.min(slow_m_s);
+            moving_s += along_m / speed_m_s.min(slow_m_s);
+            length_m += along_m;
         }
         Self {
             curve,
-            least_s,
+            points,
+            // At both ends it takes v/a to reach the mean speed, on half the way.
+            time_s: moving_s + length_m / moving_s / most_m_s2,
+            length_m,
             speed_m_s,
         }
     }
 
-    /// Checks that the curve keeps the promise on the bare face, with the tool set by its rule.
-    pub fn keeps_promise(&self, promise: &Promise, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> bool {
+    /// Samples of the sponge on the bare face along the curve, with the tool set by its rule.
+    pub fn sampled(&self, promise: &Promise, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> SampledWash {
         let swept = promise.swept_within(surface, cone_rad);
         let (promise, cone_rad) = swept.as_ref().map_or((promise, cone_rad), |swept| (swept, 0.0));
-        SampledWash::new(*promise, *surface, self.moments(surface, rule, cone_rad)).keeps_shares(&Margin::BARE_FACE)
+        SampledWash::new(*promise, *surface, self.moments(surface, rule, cone_rad))
     }
 
     /// The sponge along the curve at the speed of washing, the tool by its rule and leaning as is usual within a cone.
-    pub fn moments(&self, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> Vec<Moment> {
-        let (lean_s, lean_c) = sin_cos(if surface.is_flat() { LEAN * cone_rad } else { 0.0 });
+    fn moments(&self, surface: &Surface, rule: &AxisRule, cone_rad: f64) -> Vec<Moment> {
+        // On flat faces the arm tilts the tool as this policy does; it is taken to be in the direction of -x.
+        let policy = TiltPolicy::sloping(cone_rad, 0.0, self.curve.radius_m);
         let mut moments: Vec<Moment> = Vec::new();
         let mut t_s = 0.0;
-        for (theta, here) in &points(&self.curve, surface) {
+        for (theta, here) in &self.points {
             if let Some(last) = moments.last() {
                 t_s += (here.position - last.pose.tip).norm() / self.speed_m_s;
             }
             let [arc_m, ..] = self.curve.arc(*theta);
             let [c, s] = rule.direction(arc_m);
+            let leans_rad = if surface.is_flat() {
+                policy.tilt(here.position.x)
+            } else {
+                0.0
+            };
+            let (lean_s, lean_c) = sin_cos(leans_rad);
             let out = here.position.xy().try_normalize(0.0).unwrap_or_default();
             moments.push(Moment {
                 t_s,
                 pose: SpongePose {
                     tip: here.position,
-                    axis: Vector3::new(s * out.x + lean_s, s * out.y, -c * lean_c),
+                    axis: Vector3::new(s * out.x - lean_s, s * out.y, -c * lean_c),
                 },
                 speed: here.first.normalize() * self.speed_m_s,
                 turning: Vector3::zeros(),
@@ -297,23 +320,23 @@ impl Estimate {
     }
 }
 
-/// Points of a curve, neighbours no farther apart than [`STRIDE_M`].
+/// Points of a curve with their angles, neighbours about a stride apart.
 fn points(curve: &WashCurve, surface: &Surface) -> Vec<(f64, SurfacePoint)> {
-    let mut all: Vec<(f64, SurfacePoint)> = Vec::new();
-    for theta in curve.parameters(surface, CHORD_M) {
+    let (mut all, mut theta) = (Vec::new(), 0.0);
+    while theta < curve.end() {
         let here = curve.on(surface, theta);
-        if let Some((before, last)) = all.last().copied() {
-            let pieces = ((here.position - last.position).norm() / STRIDE_M).ceil();
-            for k in 1..pieces as u32 {
-                let between = before + (theta - before) * f64::from(k) / pieces;
-                all.push((between, curve.on(surface, between)));
-            }
-        }
         all.push((theta, here));
+        theta += (STRIDE_M / here.first.norm()).min(STRIDE_RAD);
     }
+    all.push((curve.end(), curve.on(surface, curve.end())));
     all
 }
 
-fn pairs(points: &[(f64, SurfacePoint)]) -> impl Iterator<Item = [&SurfacePoint; 2]> {
-    points.windows(2).map(|pair| [&pair[0].1, &pair[1].1])
+/// Lower bound of the length of a curve, close to it \[m\].
+pub(crate) fn length_m(curve: &WashCurve, surface: &Surface) -> f64 {
+    let points = points(curve, surface);
+    let chords = points
+        .windows(2)
+        .map(|pair| (pair[1].1.position - pair[0].1.position).norm());
+    chords.sum()
 }

@@ -1,20 +1,24 @@
 //! The curve of the tip on a plate: pitch, pattern and tilt chosen together, for a short wash that keeps the promises of the job.
 //!
 //! A curve that the job states is kept; parameters that it leaves out are chosen. Candidates (`candidates.rs`) are tried in order
-//! of length: the first one is taken that brings enough of the bare face into contact (`promise.rs`), with the tool by its rule
-//! and at the speed limit. Where there is none, denser and slower ones are tried. Each plate is checked again with the arm's own
-//! tilts. Where the curve fails there, or the arm finds no way along it, the next ones are tried.
+//! of their estimated times: those are taken that bring enough of the bare face into contact (`promise.rs`), with the tool by its
+//! rule, at the speed limit or at the greatest share of it that leaves enough time of contact. Where there is none, denser ones are
+//! tried. Each plate is checked again with the arm's own tilts. Where the curve fails there, or the arm finds no way along it, or
+//! takes longer than estimated, the next ones are tried.
 
 mod candidates;
 mod promise;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use crate::pattern::candidates::length_m;
 pub(crate) use crate::pattern::promise::foundation;
 pub use crate::pattern::promise::{ContactPromise, Margin, Promise, SampledWash, Shortfall};
 
-use crate::pattern::candidates::{ByTime, Candidate, Density, Estimate, candidates};
+use crate::pattern::candidates::{ByTime, Candidate, Density, Estimate, TRIMS_RAD, candidates};
+use crate::pattern::promise::Kept;
 use crate::scene::{AXIS_SHARE, AxisRule};
+use crate::timing::TipLimits;
 use crate::trig::atan2;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
@@ -32,11 +36,20 @@ const NARROW: f64 = 0.5;
 /// Share of the cone for places that are not reached with the narrow one.
 const WIDE: f64 = 0.85;
 
-/// Patterns that are offered within a cone at most.
-const MOST_OFFERED: usize = 2;
+/// Margins with which patterns are offered within a cone: the second one is for plates on which the arm presses less.
+const OFFERED: [Margin; 2] = [Margin::BARE_FACE, Margin::STEADY];
 
-/// Least share of the wash speed that is tried where no curve keeps the promise at full speed.
+/// Least share of the wash speed that is tried where a curve does not keep the promise at full speed.
 const SLOWEST: f64 = 0.1;
+
+/// Curves that are too quick at full speed among which is chosen.
+const MOST_HASTY: usize = 6;
+
+/// Radius of curves that stay farther from the rim, as a share of that of the others.
+const INWARDS: f64 = 0.998;
+
+/// Least share of the speed along a whole curve with which a trimmed one is quicker.
+const TRIMMED: f64 = 0.97;
 
 /// Denser and slower curves among which is chosen.
 const MOST_SLOWED: usize = 4;
@@ -50,18 +63,18 @@ pub struct Pattern {
     pub cone_rad: f64,
     /// The share of the speed limit of washing at which it is followed at most.
     pub speed_share: f64,
-    /// Least time at the limits of washing, from rest to rest, without the limits of the arm \[s\].
-    pub least_s: f64,
+    /// Estimated time from rest to rest \[s\].
+    pub time_s: f64,
 }
 
 impl Pattern {
-    /// A curve within a cone, at a share of the wash speed.
-    fn candidate(estimate: &Estimate, cone_rad: f64, speed_share: f64) -> Self {
+    /// A curve within a cone at full speed.
+    fn at_full_speed(estimate: &Estimate, cone_rad: f64) -> Self {
         Self {
             curve: estimate.curve,
             cone_rad,
-            speed_share,
-            least_s: estimate.least_s / speed_share,
+            speed_share: 1.0,
+            time_s: estimate.time_s,
         }
     }
 }
@@ -72,8 +85,8 @@ pub struct Patterns {
     surface: Surface,
     promise: Promise,
     rule: AxisRule,
-    /// Greatest speed and acceleration of washing \[m/s, m/s²\].
-    limits: [f64; 2],
+    /// Limits of washing: the greatest speed, and the greatest acceleration in every direction, of the job and of the arm.
+    limits: TipLimits,
     /// Curves among which is chosen; at least one.
     candidates: Vec<Candidate>,
     /// True where the job promises something about contact.
@@ -82,26 +95,36 @@ pub struct Patterns {
     dense: Vec<WashCurve>,
     /// The cones to plan with, the best first; at least one.
     cones: Vec<f64>,
-    first: Vec<Pattern>,
-    /// Patterns of each cone but the first, and slower ones of each cone, once they were asked for.
-    wider: Vec<OnceLock<Vec<Pattern>>>,
+    /// Patterns of each cone, those of each cone where there are none, and slower ones of each cone, once they were asked for.
+    quick: Vec<[OnceLock<Option<Pattern>>; OFFERED.len()]>,
+    instead: Vec<OnceLock<Vec<Pattern>>>,
     slower: Vec<OnceLock<Vec<Pattern>>>,
+    /// Pattern farther from the rim, once it was asked for.
+    farther_in: OnceLock<Option<Pattern>>,
     /// Token that ends the search for patterns; the patterns found by then are offered.
     cancel: CancelToken,
 }
 
 impl Patterns {
-    /// Returns the patterns that a job offers on a surface.
+    /// Returns the patterns that a job offers on a surface where the arm accelerates the tip by up to `arm_m_s2` \[m/s²\].
     #[must_use]
-    pub fn new(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface, cancel: &CancelToken) -> Self {
+    pub fn new(
+        terms: &JobTerms,
+        settings: &PlannerSettings,
+        surface: &Surface,
+        arm_m_s2: f64,
+        cancel: &CancelToken,
+    ) -> Self {
         let promise = Promise::of(terms, surface);
-        let limits = [terms.wash_speed_m_s(), terms.wash_acceleration_m_s2()];
+        let limits = TipLimits {
+            speed_m_s: terms.wash_speed_m_s(),
+            acceleration_m_s2: terms.wash_acceleration_m_s2().min(arm_m_s2),
+        };
         let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density);
         let usual = curves(Density::Usual).into_iter();
-        let candidates = usual.map(|curve| Candidate::new(curve, surface, limits)).collect();
+        let candidates = usual.map(|curve| Candidate::new(curve, surface, &limits)).collect();
         let cones = cones(terms, settings, surface);
-        let unasked = || vec![OnceLock::new(); cones.len()];
-        let mut patterns = Self {
+        Self {
             surface: *surface,
             promise,
             rule: AxisRule::new(surface, settings.axis_share.unwrap_or(AXIS_SHARE)),
@@ -109,41 +132,62 @@ impl Patterns {
             candidates,
             has_contact: terms.requirements.contact.is_some(),
             dense: curves(Density::Dense),
-            first: Vec::new(),
-            wider: unasked(),
-            slower: unasked(),
+            quick: vec![Default::default(); cones.len()],
+            instead: vec![OnceLock::new(); cones.len()],
+            slower: vec![OnceLock::new(); cones.len()],
+            farther_in: OnceLock::new(),
             cones,
             cancel: cancel.clone(),
-        };
-        patterns.first = patterns.within(patterns.cones[0]);
-        patterns
+        }
     }
 
     /// The same offer with one curve and one cone alone: those of another plan.
     #[must_use]
     pub fn along(&self, path: &WashPath) -> Self {
-        let mut patterns = Self {
-            candidates: vec![Candidate::new(path.curve, &self.surface, self.limits)],
+        Self {
+            candidates: vec![Candidate::new(path.curve, &self.surface, &self.limits)],
             dense: Vec::new(),
             cones: vec![path.cone_rad],
-            wider: vec![OnceLock::new()],
+            quick: vec![Default::default()],
+            instead: vec![OnceLock::new()],
             slower: vec![OnceLock::new()],
+            farther_in: OnceLock::new(),
             ..self.clone()
-        };
-        patterns.first = patterns.within(path.cone_rad);
-        patterns
+        }
     }
 
     /// Patterns that are tried first, the best first; at least one.
-    #[must_use]
-    pub fn first(&self) -> &[Pattern] {
-        &self.first
+    pub fn first(&self) -> impl Iterator<Item = Pattern> {
+        self.of_cone(0)
     }
 
     /// Patterns of wider cones, for places that the first ones do not reach.
     pub fn wider_patterns(&self) -> impl Iterator<Item = Pattern> {
-        let cones = self.cones.iter().zip(&self.wider).skip(1);
-        cones.flat_map(|(cone, known)| known.get_or_init(|| self.within(*cone)).iter().copied())
+        (1..self.cones.len()).flat_map(|k| self.of_cone(k))
+    }
+
+    /// The quickest pattern with the widest cone that stays farther from the rim than those tried first, for plates on which the arm does
+    /// not reach as far out as these.
+    pub fn farther_in(&self) -> Option<Pattern> {
+        let Pattern { cone_rad, curve, .. } = self.widest();
+        let search = || self.quickest(cone_rad, &Margin::BARE_FACE, INWARDS * curve.radius_m);
+        *self.farther_in.get_or_init(search)
+    }
+
+    /// Patterns of the same cone that come after another one.
+    pub fn after(&self, pattern: Pattern) -> impl Iterator<Item = Pattern> {
+        let cone = self.cones.iter().position(|cone| *cone == pattern.cone_rad);
+        let all = cone.into_iter().flat_map(|k| self.of_cone(k));
+        all.skip_while(move |other| *other != pattern).skip(1)
+    }
+
+    /// The quickest candidates that keep the promise within a cone; where there are none, denser or slower ones, and a stated curve
+    /// at full speed before these.
+    fn of_cone(&self, k: usize) -> impl Iterator<Item = Pattern> {
+        let quick = (0..OFFERED.len()).filter_map(move |n| self.quick(k, n));
+        let instead = || self.instead[k].get_or_init(|| self.instead(self.cones[k]));
+        let instead = self.quick(k, 0).is_none().then(instead);
+        quick.chain(instead.into_iter().flatten().copied())
     }
 
     /// Denser and slower patterns, for plates on which the arm presses less of the face than the estimate on the bare face.
@@ -157,9 +201,15 @@ impl Patterns {
     #[must_use]
     pub fn widest(&self) -> Pattern {
         let cone_rad = self.cones.iter().copied().fold(0.0, f64::max);
+        let any = || {
+            Pattern::at_full_speed(
+                &Estimate::new(self.candidates[0].curve, &self.surface, &self.limits),
+                cone_rad,
+            )
+        };
         Pattern {
             cone_rad,
-            ..self.first[0]
+            ..self.first().next().unwrap_or_else(any)
         }
     }
 
@@ -169,35 +219,119 @@ impl Patterns {
         self.candidates.len() > 1
     }
 
-    /// The shortest candidates that keep the promise within a cone: at full speed, or else denser or slower; a stated curve comes
-    /// at full speed first. Where none of the usual ones keeps it, the longest of them comes last: the arm may lean less than is
-    /// assumed here.
-    fn within(&self, cone_rad: f64) -> Vec<Pattern> {
-        let mut chosen = self.usual(cone_rad);
-        if self.is_chosen() && !chosen.is_empty() {
-            return chosen;
-        }
-        chosen.extend(self.slower(cone_rad, &Margin::BARE_FACE));
-        if self.is_chosen() {
-            let last = self.by_time().last();
-            chosen.extend(last.map(|last| Pattern::candidate(&last, cone_rad, 1.0)));
-        }
+    /// Patterns where none of the usual curves keeps the promise: denser or slower ones. The longest of the usual ones comes last, as
+    /// the arm may lean less than is assumed here; a stated curve comes first.
+    fn instead(&self, cone_rad: f64) -> Vec<Pattern> {
+        let mut chosen = self.slower(cone_rad, &Margin::BARE_FACE);
+        let longest = self.by_time().last();
+        let longest = longest.map(|estimate| Pattern::at_full_speed(&estimate, cone_rad));
+        let place = if self.is_chosen() { chosen.len() } else { 0 };
+        chosen.splice(place..place, longest);
         chosen
     }
 
     /// Candidates, the quickest first.
     fn by_time(&self) -> ByTime<'_> {
-        ByTime::new(&self.candidates, &self.surface, self.limits)
+        ByTime::new(&self.candidates, &self.surface, &self.limits)
     }
 
-    /// The shortest of the usual curves that keep the promise at full speed; a stated curve is taken in any case.
-    fn usual(&self, cone_rad: f64) -> Vec<Pattern> {
-        let keeps = |estimate: &Estimate| estimate.keeps_promise(&self.promise, &self.surface, &self.rule, cone_rad);
-        let tried = self.by_time().take_while(|_| !self.cancel.is_cancelled());
-        let kept = tried.filter(|estimate| !self.is_chosen() || keeps(estimate));
-        kept.take(MOST_OFFERED)
-            .map(|estimate| Pattern::candidate(&estimate, cone_rad, 1.0))
-            .collect()
+    /// The pattern that is offered within the `k`-th cone with the `n`-th margin; none where the curve is stated.
+    fn quick(&self, k: usize, n: usize) -> Option<Pattern> {
+        *self.quick[k][n].get_or_init(|| self.quickest(self.cones[k], &OFFERED[n], f64::INFINITY))
+    }
+
+    /// The quickest of the usual curves that keep the promise with a margin, at the speed of washing or at a share of it.
+    /// Only curves of a radius below `within_m` are considered.
+    fn quickest(&self, cone_rad: f64, margin: &Margin, within_m: f64) -> Option<Pattern> {
+        let least = if self.has_contact { SLOWEST } else { 1.0 };
+        let (mut best, mut hasty, mut suspects): (Option<Pattern>, _, _) = (None, Vec::new(), Vec::new());
+        let mut most_trim_rad = 0.0;
+        let mut kept = |estimate: &Estimate, least| {
+            let sampled = estimate.sampled(&self.promise, &self.surface, &self.rule, cone_rad);
+            sampled.keeps_shares(margin, least, &mut suspects)
+        };
+        let is_open = |estimate: &Estimate| self.is_chosen() && estimate.curve.radius_m < within_m;
+        let candidates = self.by_time().filter(is_open);
+        for trimmed in candidates.take_while(|_| !self.cancel.is_cancelled()) {
+            if best.is_some_and(|best| best.time_s <= trimmed.time_s) {
+                break;
+            }
+            most_trim_rad = trimmed.curve.trim_rad;
+            // What a whole ring lacks, a trimmed one lacks, too.
+            let whole = self.estimate(trimmed.curve.trimmed(0.0));
+            match kept(&whole, least) {
+                Kept::AtFullSpeed => {
+                    let trims = TRIMS_RAD.iter().filter(|trim_rad| **trim_rad <= trimmed.curve.trim_rad);
+                    let estimates = trims.map(|trim_rad| self.estimate(trimmed.curve.trimmed(*trim_rad)));
+                    let estimate = estimates
+                        .into_iter()
+                        .find(|estimate| estimate.curve == whole.curve || kept(estimate, 1.0) == Kept::AtFullSpeed);
+                    let pattern = Pattern::at_full_speed(&estimate.unwrap_or(whole), cone_rad);
+                    best = best.filter(|best| best.time_s <= pattern.time_s).or(Some(pattern));
+                }
+                Kept::Slower(share) => hasty.push((self.quickest_s(&whole, share), whole)),
+                Kept::Never => {}
+            }
+        }
+        hasty.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let mut found = 0;
+        for (time_s, whole) in hasty {
+            let bound_s = best.map_or(f64::INFINITY, |best| best.time_s);
+            if time_s >= bound_s || found == MOST_HASTY {
+                break;
+            }
+            let least = (whole.length_m / (self.limits.speed_m_s * bound_s)).clamp(SLOWEST, 1.0);
+            let mut slowed = |curve: &Estimate, least| self.slowed(curve, cone_rad, margin, least, &mut suspects);
+            if let Some(pattern) = slowed(&whole, TRIMMED * least) {
+                found += 1;
+                let trims = TRIMS_RAD
+                    .iter()
+                    .filter(|trim_rad| **trim_rad <= most_trim_rad && **trim_rad > 0.0);
+                let mut trimmed = trims.map(|trim_rad| self.estimate(whole.curve.trimmed(*trim_rad)));
+                let trimmed = trimmed.find_map(|estimate| slowed(&estimate, TRIMMED * pattern.speed_share));
+                let quicker = [Some(pattern), trimmed]
+                    .into_iter()
+                    .flatten()
+                    .filter(|pattern| pattern.time_s < bound_s);
+                best = quicker.min_by(|a, b| a.time_s.total_cmp(&b.time_s)).or(best);
+            }
+        }
+        best
+    }
+
+    fn estimate(&self, curve: WashCurve) -> Estimate {
+        Estimate::new(curve, &self.surface, &self.limits)
+    }
+
+    /// Lower bound of the time along a curve at a share of the wash speed \[s\].
+    fn quickest_s(&self, estimate: &Estimate, share: f64) -> f64 {
+        estimate.time_s.max(estimate.length_m / (share * self.limits.speed_m_s))
+    }
+
+    /// A curve with the greatest share of the wash speed, at least `least`, at which it keeps the promise with a margin.
+    fn slowed(
+        &self,
+        estimate: &Estimate,
+        cone_rad: f64,
+        margin: &Margin,
+        least: f64,
+        suspects: &mut Vec<u32>,
+    ) -> Option<Pattern> {
+        let sampled = estimate.sampled(&self.promise, &self.surface, &self.rule, cone_rad);
+        let speed_share = sampled.speed_share(margin, least, suspects)?;
+        let pattern = Pattern::at_full_speed(estimate, cone_rad);
+        if speed_share == 1.0 {
+            return Some(pattern);
+        }
+        let limits = TipLimits {
+            speed_m_s: speed_share * self.limits.speed_m_s,
+            ..self.limits
+        };
+        Some(Pattern {
+            speed_share,
+            time_s: Estimate::new(estimate.curve, &self.surface, &limits).time_s,
+            ..pattern
+        })
     }
 
     /// The quickest curves, dense ones among them, each with the greatest share of the wash speed at which it keeps the promise
@@ -206,19 +340,22 @@ impl Patterns {
         if !self.has_contact {
             return Vec::new();
         }
-        let dense = self.dense.iter();
-        let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, self.limits));
+        let (dense, mut suspects) = (self.dense.iter(), Vec::new());
+        let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, &self.limits));
         let all = self.by_time().chain(dense);
         let all = all.take_while(|_| !self.cancel.is_cancelled());
         let kept = all.filter_map(|estimate| {
-            let moments = estimate.moments(&self.surface, &self.rule, cone_rad);
-            let share = SampledWash::new(self.promise, self.surface, moments).speed_share(margin, SLOWEST)?;
-            Some(Pattern::candidate(&estimate, cone_rad, share))
+            let whole = if self.is_chosen() {
+                self.estimate(estimate.curve.trimmed(0.0))
+            } else {
+                estimate
+            };
+            self.slowed(&whole, cone_rad, margin, SLOWEST, &mut suspects)
         });
         let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);
         let mut kept: Vec<Pattern> = kept.take(MOST_SLOWED).collect();
-        kept.sort_by(|a, b| a.least_s.total_cmp(&b.least_s));
-        kept.truncate(MOST_OFFERED);
+        kept.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        kept.truncate(OFFERED.len());
         kept
     }
 }

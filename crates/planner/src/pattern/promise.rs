@@ -27,6 +27,12 @@ const PLACES: u32 = 2000;
 const FIRST: u32 = 250;
 const LACKING: f64 = 8e-3;
 
+/// Number of places that are checked at once where a candidate is likely to fail.
+const BATCH: usize = 100;
+
+/// Number of places at which other candidates lacked that are checked first.
+const MOST_SUSPECTS: usize = 120;
+
 /// Stride from one of the first places to the next.
 const STRIDE: u32 = PLACES / FIRST;
 
@@ -65,7 +71,14 @@ pub struct Margin {
 impl Margin {
     /// Margin before the arm's own tilts are known.
     pub const BARE_FACE: Self = Self {
-        more: [1.1; 2],
+        more: [1.05; 2],
+        ..Self::ARM
+    };
+
+    /// Margin on the bare face where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) allows for.
+    pub const STEADY: Self = Self {
+        more: [1.12; 2],
+        part: 0.35,
         ..Self::ARM
     };
 
@@ -77,8 +90,7 @@ impl Margin {
         tilt_rad: 5e-4,
     };
 
-    /// Margin on the bare face where an arm pressed less than [`BARE_FACE`](Self::BARE_FACE) allows for; no factor on time and dose is
-    /// larger.
+    /// Margin on the bare face where an arm pressed less than [`STEADY`](Self::STEADY) allows for; no factor on time and dose is larger.
     pub const WEAK_ARM: Self = Self {
         more: [1.3; 2],
         part: 0.5,
@@ -291,6 +303,17 @@ impl Promise {
     }
 }
 
+/// Speed at which the places of a face keep a promise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kept {
+    /// They keep it at full speed.
+    AtFullSpeed,
+    /// They may keep it at about this share of the speed.
+    Slower(f64),
+    /// They keep it at none of the speeds allowed.
+    Never,
+}
+
 /// A wash as moments, and the amounts that places of the face get from it, which are computed when they are first asked for.
 #[derive(Debug)]
 pub struct SampledWash {
@@ -321,48 +344,98 @@ impl SampledWash {
         overload.or_else(|| self.missing(margin))
     }
 
-    /// Checks that the places of the face keep the promise with a margin.
-    pub(crate) fn keeps_shares(&self, margin: &Margin) -> bool {
-        !self.first_samples_fail(margin) && self.missing(margin).is_none()
-    }
-
-    /// Checks that a few of the first places lack enough to refuse all of them: most candidates are refused by these.
-    fn first_samples_fail(&self, margin: &Margin) -> bool {
-        let mut kept = [FIRST; 3];
-        (0..FEW).any(|k| {
-            let dwell = self.dwell((k * SPREAD % FIRST) * STRIDE);
-            for (kept, keeps) in kept.iter_mut().zip(self.promise.keeps(&dwell, margin)) {
-                *kept -= u32::from(!keeps);
+    /// Checks that the places of the face keep the promise with a margin at full speed, or at a share of it, at least `least`. A few
+    /// places come first, then those at which other washes lacked, which are in `suspects` with the latest first, and then the others from
+    /// the rim inwards: most washes are refused by these few.
+    pub(crate) fn keeps_shares(&self, margin: &Margin, least: f64, suspects: &mut Vec<u32>) -> Kept {
+        let margins = [*margin, margin.slowed(least)];
+        let mut dwells: Vec<Option<Dwell>> = vec![None; PLACES as usize];
+        let mut lacking = [[0; 3]; 2];
+        let few = (0..FEW).map(|k| (k * SPREAD % FIRST) * STRIDE).collect();
+        let known = std::mem::take(suspects);
+        let inwards: Vec<u32> = (0..PLACES).rev().collect();
+        let batches = [few, known.clone()]
+            .into_iter()
+            .chain(inwards.chunks(BATCH).map(<[u32]>::to_vec));
+        let (mut verdict, mut share) = (None, 1.0);
+        for (batch, mut places) in batches.enumerate() {
+            places.retain(|k| dwells[*k as usize].is_none());
+            let found: Vec<Dwell> = places.par_iter().map(|k| self.dwell(*k)).collect();
+            for (k, dwell) in places.into_iter().zip(found) {
+                for (lacking, margin) in lacking.iter_mut().zip(&margins) {
+                    for (lacking, keeps) in lacking.iter_mut().zip(self.promise.keeps(&dwell, margin)) {
+                        *lacking += u32::from(!keeps);
+                    }
+                }
+                dwells[k as usize] = Some(dwell);
             }
-            self.promise.short(kept, FIRST, margin, LACKING).is_some()
+            // The few places may be more unlike the face than all of them.
+            let (of, slack) = if batch == 0 { (FIRST, LACKING) } else { (PLACES, 0.0) };
+            let is_short = |lacking: &[u32; 3]| {
+                self.promise
+                    .short(lacking.map(|lacking| of - lacking), of, margin, slack)
+                    .is_some()
+            };
+            if batch == 0 {
+                let times_s = dwells.iter().flatten().map(|dwell| dwell.time_s).collect();
+                share = self.share(margin, times_s, 1.0 / f64::from(FEW));
+            }
+            if is_short(&lacking[1]) {
+                verdict = Some(Kept::Never);
+            } else if is_short(&lacking[0]) && batch > 0 {
+                verdict = Some(Kept::Slower(share.max(least)));
+            }
+            if verdict.is_some() {
+                break;
+            }
+        }
+        let lacks = |k: &u32| {
+            let dwell = dwells[*k as usize].as_ref();
+            dwell.is_some_and(|dwell| self.promise.keeps(dwell, &margins[1]) != [true; 3])
+        };
+        suspects.extend((0..PLACES).rev().filter(lacks).take(MOST_SUSPECTS));
+        suspects.extend(known.into_iter().filter(|k| !lacks(k)));
+        suspects.truncate(MOST_SUSPECTS);
+        verdict.unwrap_or_else(|| {
+            self.all.get_or_init(|| dwells.into_iter().flatten().collect());
+            Kept::AtFullSpeed
         })
     }
 
     /// The share of the face that is too small, checked place by place.
     fn missing(&self, margin: &Margin) -> Option<Shortfall> {
-        let counted = |dwells: &[Dwell]| {
-            dwells.iter().fold([0; 3], |kept: [u32; 3], dwell| {
-                let keeps = self.promise.keeps(dwell, margin);
-                std::array::from_fn(|i| kept[i] + u32::from(keeps[i]))
-            })
-        };
-        let short = self.promise.short(counted(self.first()), FIRST, margin, LACKING);
-        short.or_else(|| self.promise.short(counted(self.all()), PLACES, margin, 0.0))
+        let short = self
+            .promise
+            .short(self.kept(self.first(), margin), FIRST, margin, LACKING);
+        short.or_else(|| self.promise.short(self.kept(self.all(), margin), PLACES, margin, 0.0))
+    }
+
+    /// Number of places that keep each promise with a margin.
+    fn kept(&self, dwells: &[Dwell], margin: &Margin) -> [u32; 3] {
+        dwells.iter().fold([0; 3], |kept: [u32; 3], dwell| {
+            let keeps = self.promise.keeps(dwell, margin);
+            std::array::from_fn(|i| kept[i] + u32::from(keeps[i]))
+        })
     }
 
     /// Greatest share of the speed, from `least` to 1, at which the places of the face keep the promise with a margin. A lower
     /// speed makes the contact longer; depth and dose stay the same.
-    pub(crate) fn speed_share(&self, margin: &Margin, least: f64) -> Option<f64> {
-        let time_s = self.promise.thresholds.time_s;
-        if !self.keeps_shares(&margin.slowed(least)) {
+    pub(crate) fn speed_share(&self, margin: &Margin, least: f64, suspects: &mut Vec<u32>) -> Option<f64> {
+        if self.keeps_shares(&margin.slowed(least), 1.0, suspects) != Kept::AtFullSpeed {
             return None;
         }
-        let mut times_s: Vec<f64> = self.all().iter().map(|dwell| dwell.time_s).collect();
+        let times_s = self.all().iter().map(|dwell| dwell.time_s).collect();
+        Some(self.share(margin, times_s, 0.0).max(least))
+    }
+
+    /// Share of the speed, up to 1, at which enough of some places, but for a part `slack` of them, are in contact long enough with a margin;
+    /// their times of contact at full speed are `times_s` \[s\].
+    fn share(&self, margin: &Margin, mut times_s: Vec<f64>, slack: f64) -> f64 {
         times_s.sort_by(|a, b| b.total_cmp(a));
         let [_, share, _] = self.promise.shares;
-        let needed = f64::from(PLACES) * margin.required(share);
-        let longest_s = times_s.get((needed.ceil() as usize).saturating_sub(1))?;
-        Some((longest_s / (margin.more[0] * time_s)).clamp(least, 1.0))
+        let needed = times_s.len() as f64 * (margin.required(share) - slack);
+        let longest_s = times_s.get((needed.ceil() as usize).saturating_sub(1)).copied();
+        (longest_s.unwrap_or(0.0) / (margin.more[0] * self.promise.thresholds.time_s)).min(1.0)
     }
 
     /// Amounts at every eighth place: these seeds of a sunflower are spread as evenly as all.

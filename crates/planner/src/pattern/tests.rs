@@ -11,14 +11,9 @@ fn disc() -> Surface {
 }
 
 fn offered(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Vec<Pattern> {
-    let patterns = Patterns::new(terms, settings, surface, &CancelToken::new());
+    let patterns = Patterns::new(terms, settings, surface, f64::INFINITY, &CancelToken::new());
     let widest = patterns.widest();
-    let all: Vec<Pattern> = patterns
-        .first()
-        .iter()
-        .copied()
-        .chain(patterns.wider_patterns())
-        .collect();
+    let all: Vec<Pattern> = patterns.first().chain(patterns.wider_patterns()).collect();
     assert!(all.iter().all(|pattern| pattern.cone_rad <= widest.cone_rad));
     all
 }
@@ -128,6 +123,7 @@ fn a_job_that_states_all_has_one_pattern() {
         turns: 3.5,
         start_angle_rad: 0.0,
         closing_ring: true,
+        trim_rad: 0.0,
         rings: None,
     };
     assert_eq!((only.curve, only.cone_rad), (curve, job.terms().tilt_max_rad()));
@@ -142,7 +138,7 @@ fn chooses_short_wash_paths_on_the_plate() {
     for surface in surfaces {
         let chosen = offered(job.terms(), &open(), &surface);
         let narrow: Vec<_> = chosen.iter().filter(|p| p.cone_rad == chosen[0].cone_rad).collect();
-        assert!(!chosen.is_empty() && narrow.is_sorted_by(|a, b| a.least_s <= b.least_s));
+        assert!(!chosen.is_empty() && narrow.is_sorted_by(|a, b| a.time_s <= b.time_s));
         for pattern in chosen {
             assert!(pattern.curve.radius_m < surface.arc_m());
             let terms = job.terms();
@@ -150,7 +146,7 @@ fn chooses_short_wash_paths_on_the_plate() {
             // A sponge that reaches over the rim washes more than the face.
             let area = surface.area_m2() / (2.0 * sponge_m * terms.wash_speed_m_s());
             assert!(
-                pattern.least_s > area && pattern.least_s < 2.0 * area,
+                pattern.time_s > area && pattern.time_s < 2.0 * area,
                 "{pattern:?} {area}"
             );
         }

@@ -3,8 +3,9 @@
 use crate::error::PlanError;
 use crate::pipeline::motion::assemble;
 use crate::pipeline::shared::Pipeline;
+use crate::pipeline::tour::least_time;
 use crate::pipeline::visit::Visit;
-use crate::planned_job::{Pace, PlannedJob, TransitSummary, VisitSummary};
+use crate::planned_job::{LimitShares, Pace, PlannedJob, TransitSummary, VisitSummary};
 use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -117,13 +118,19 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
             &scene,
             &pipeline.plates[visit.path.plate],
             job.terms(),
-            &visit.wash,
+            (&visit.path.curve, &visit.wash.motion),
             &pipeline.washing,
         ),
     });
-    let transits = transits.iter().map(|transit| TransitSummary {
-        kind: transit.kind,
-        duration_s: duration(&transit.timed.motion),
+    let transits = transits.iter().map(|transit| {
+        let motion = &transit.timed.motion;
+        let (from, to) = (motion.positions()[0], motion.positions()[motion.positions().len() - 1]);
+        TransitSummary {
+            kind: transit.kind,
+            duration_s: duration(motion),
+            least_s: least_time(&from, &to, &pipeline.transit),
+            limits: LimitShares::of(&scene, motion, &pipeline.transit),
+        }
     });
     Ok(PlannedJob {
         plan: Plan::sealed(job.terms().clone(), parts)?,

@@ -52,7 +52,7 @@ impl Pipeline<'_> {
         let [mut near, _] = self.terms.home_rad;
         if self.blocked(scene, order, turn)?.is_none() {
             let before = &order[..turn];
-            let washed = self.turns(scene, order, |other| before.contains(&other));
+            let washed = self.turns(scene, order, Self::washing_by_patterns, |other| before.contains(&other));
             let last = washed.filter_map(Result::ok).last();
             near = last.and_then(|turn| turn.washing.q.last().copied()).unwrap_or(near);
         }
@@ -118,7 +118,7 @@ impl Pipeline<'_> {
         let scene = moved.scene()?;
         let (order, _) = moved.order(&scene)?;
         let (mut lines, mut at): (Vec<[LiftLine; 2]>, _) = (Vec::new(), None);
-        for turn in moved.turns(&scene, &order, |_| true) {
+        for turn in moved.turns(&scene, &order, Pipeline::washing_by_patterns, |_| true) {
             let Turn { path, washing, .. } = match turn {
                 Ok(washed) => washed,
                 Err(failed) => match failed.error {

@@ -4,17 +4,18 @@ use crate::error::PlanError;
 use crate::infeasible::PlaceSearch;
 use crate::pattern::Patterns;
 use crate::redundancy::places::SEARCHED_M;
-use crate::scene::{AXIS_SHARE, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
+use crate::scene::{AXIS_SHARE, Contact, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::ClearanceShortfall;
+use crate::trig::sin_cos;
 use crate::watch::Watch;
 use nalgebra::Vector3;
-use platewash_kinematics::{JointVector, Pose, RobotModel};
-use platewash_workcell::cancel::CancelToken;
+use platewash_kinematics::{Axes, JointVector, Pose, RobotModel};
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::job::{End, JobTerms, PlannerSettings, WashJob};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The longest line over a plate \[m\].
@@ -22,6 +23,9 @@ const LONGEST_LIFT_M: f64 = 10.0;
 
 /// Most waypoints of the arc round the base.
 const MOST_ARC_POINTS: f64 = 1e4;
+
+/// Number of directions in which the acceleration of the tip is computed.
+const DIRECTIONS: u32 = 16;
 
 /// Data that the phases of planning share.
 #[derive(Debug)]
@@ -84,7 +88,7 @@ impl<'a> Pipeline<'a> {
                 acceleration_m_s2,
             }),
         };
-        Ok(Self {
+        let mut pipeline = Self {
             robot,
             mount: *mount,
             terms,
@@ -100,11 +104,13 @@ impl<'a> Pipeline<'a> {
             },
             tilt_reserve_rad: TILT_RESERVE_RAD,
             explains: true,
-            patterns: by_plate(terms, settings, plates, watch.cancel),
+            patterns: Vec::new(),
             asked_order: None,
             asked_paths: Vec::new(),
             watch: *watch,
-        })
+        };
+        pipeline.patterns = pipeline.patterns_by_plate()?;
+        Ok(pipeline)
     }
 
     /// A job as it stands, its plates in that order, and along those paths as far as there are any.
@@ -201,6 +207,49 @@ impl<'a> Pipeline<'a> {
         self.robot.fk(home).rigid(&scene.tip).translation
     }
 
+    /// The patterns of each plate; of equal faces they are the same.
+    fn patterns_by_plate(&self) -> Result<Vec<Arc<Patterns>>, PlanError> {
+        let scene = self.scene()?;
+        let mut all: Vec<Arc<Patterns>> = Vec::with_capacity(self.plates.len());
+        for (k, plate) in self.plates.iter().enumerate() {
+            let is_like = |other: &&Plate| other.surface == plate.surface;
+            all.push(match self.plates[..k].iter().position(|other| is_like(&other)) {
+                Some(like) => all[like].clone(),
+                None => {
+                    let alike = self.plates.iter().filter(is_like);
+                    let most = alike
+                        .filter_map(|plate| self.tip_acceleration(&scene, plate))
+                        .reduce(f64::max);
+                    let most_m_s2 = most.unwrap_or(f64::INFINITY);
+                    let (surface, cancel) = (&plate.surface, self.watch.cancel);
+                    Arc::new(Patterns::new(self.terms, self.settings, surface, most_m_s2, cancel))
+                }
+            });
+        }
+        Ok(all)
+    }
+
+    /// Acceleration of the tip \[m/s²\] along the face at the centre of a plate that the accelerations of the joints allow, with the tool
+    /// upright and not turning: the time on a circle is that of this acceleration in every direction.
+    fn tip_acceleration(&self, scene: &Scene<'_>, plate: &Plate) -> Option<f64> {
+        let (centre, normal) = (plate.centre(), plate.normal_at(&plate.centre()));
+        let q = scene.configuration(
+            &Contact::on_normal(centre, normal),
+            &self.policy(),
+            &self.terms.home_rad[0],
+        )?;
+        let inverse = self.robot.fk(&q).jacobian(&scene.tip, Axes::Base).try_inverse()?;
+        let axes =
+            [Vector3::x(), Vector3::y()].map(|axis| inverse.fixed_columns::<3>(0) * (plate.pose.rotation * axis));
+        let slowness = |k: u32| {
+            let (s, c) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
+            let needed = (axes[0] * c + axes[1] * s).component_div(&self.washing.acceleration);
+            needed.amax().sqrt()
+        };
+        let mean = (0..DIRECTIONS).map(slowness).sum::<f64>() / f64::from(DIRECTIONS);
+        Some(1.0 / (mean * mean))
+    }
+
     /// Refuses a plate that is not there.
     pub fn check_plate(&self, plate: usize) -> Result<(), PlanError> {
         let count = self.plates.len();
@@ -225,24 +274,6 @@ impl<'a> Pipeline<'a> {
         }
         Ok(())
     }
-}
-
-/// The patterns of each plate; of equal faces they are the same.
-fn by_plate(
-    terms: &JobTerms,
-    settings: &PlannerSettings,
-    plates: &[Plate],
-    cancel: &CancelToken,
-) -> Vec<Arc<Patterns>> {
-    let mut all: Vec<Arc<Patterns>> = Vec::with_capacity(plates.len());
-    for (k, plate) in plates.iter().enumerate() {
-        let like = plates[..k].iter().position(|other| other.surface == plate.surface);
-        all.push(match like {
-            Some(like) => all[like].clone(),
-            None => Arc::new(Patterns::new(terms, settings, &plate.surface, cancel)),
-        });
-    }
-    all
 }
 
 fn ends(terms: &JobTerms) -> impl Iterator<Item = (End, &JointVector)> {

@@ -75,7 +75,7 @@ impl Pipeline<'_> {
 }
 
 /// Least time from rest to rest of the joint that takes longest \[s\]: full acceleration, the speed limit, full deceleration.
-fn least_time(from: &JointVector, to: &JointVector, limits: &MotionLimits) -> f64 {
+pub(crate) fn least_time(from: &JointVector, to: &JointVector, limits: &MotionLimits) -> f64 {
     let time = |joint: usize| {
         let (way, v, a) = (
             (to[joint] - from[joint]).abs(),

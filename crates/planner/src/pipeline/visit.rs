@@ -39,10 +39,28 @@ pub(crate) struct Turn {
     pub path: WashPath,
     /// The configurations along it.
     pub washing: Washing,
-    /// Greatest speed of the tip \[m/s\].
-    pub speed_m_s: f64,
+    /// Pattern of the path.
+    pub pattern: Pattern,
     /// Shortfall against the promise about contact, as far as its configurations show.
     pub shortfall: Option<Shortfall>,
+    /// The wash in time, from rest to rest, once it was timed.
+    pub wash: Option<TimedPath>,
+}
+
+impl Turn {
+    /// Times the wash along its configurations.
+    pub fn timed(&self, pipeline: &Pipeline<'_>, scene: &Scene<'_>) -> Result<TimedPath, PlanError> {
+        let mut limits = pipeline.washing;
+        if let Some(tip) = &mut limits.tip {
+            tip.speed_m_s *= self.pattern.speed_share;
+        }
+        let Washing {
+            theta, q, end_slopes, ..
+        } = &self.washing;
+        let joints = JointPath::through(theta.clone(), q.clone(), Ends::Clamped(*end_slopes))?;
+        scene.check_cancelled()?;
+        Ok(timing::time_optimal(&joints, scene.robot, &scene.tip, &limits)?)
+    }
 }
 
 /// A plate with all that is done on it.
@@ -92,20 +110,11 @@ pub(crate) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
 impl Visit {
     /// Plans a visit with the configurations found for it.
     pub fn plan(pipeline: &Pipeline<'_>, scene: &Scene<'_>, turn: Turn) -> Result<Self, PlanError> {
-        let Turn {
-            path,
-            washing,
-            speed_m_s,
-            ..
-        } = turn;
-        let mut limits = pipeline.washing;
-        if let Some(tip) = &mut limits.tip {
-            tip.speed_m_s = tip.speed_m_s.min(speed_m_s);
-        }
-        let ends = Ends::Clamped(washing.end_slopes);
-        let joints = JointPath::through(washing.theta.clone(), washing.q.clone(), ends)?;
-        scene.check_cancelled()?;
-        let wash = timing::time_optimal(&joints, scene.robot, &scene.tip, &limits)?;
+        let wash = match &turn.wash {
+            Some(wash) => wash.clone(),
+            None => turn.timed(pipeline, scene)?,
+        };
+        let Turn { path, washing, .. } = turn;
         let lines = lines(pipeline, scene, &path, &washing)?;
         Ok(Self {
             path,
@@ -247,7 +256,7 @@ mod tests {
             half_turns in -1.0..1.0f64,
             closing_ring in any::<bool>(),
         ) {
-            let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring, rings: None };
+            let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring, trim_rad: 0.0, rings: None };
             let (s, c) = crate::trig::sin_cos(0.5 * TAU * half_turns);
             let towards = Vector3::new(c, s, 0.0);
             let curve = turned(curve, &towards);

@@ -4,7 +4,7 @@
 
 use crate::error::PlanError;
 use crate::infeasible::{PlaceSearch, UnwashablePlate};
-use crate::pattern::{Margin, Promise, SampledWash};
+use crate::pattern::{Margin, Pattern, Promise, SampledWash};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{Turn, Visit, turned_as, wash_path};
@@ -19,6 +19,9 @@ use platewash_workcell::job::WashJob;
 use platewash_workcell::wash_path::WashPath;
 use rayon::prelude::*;
 
+/// Time of a wash over the estimate for its pattern from which on others are timed, too.
+const UNEXPECTED: f64 = 1.3;
+
 /// A plate for which no configurations were found.
 #[derive(Debug)]
 pub(crate) struct FailedVisit {
@@ -30,6 +33,9 @@ pub(crate) struct FailedVisit {
     pub error: RedundancyError,
 }
 
+/// How the washing along a path is found, from a configuration not far from the one given.
+type FindWashing<P> = fn(&P, &Scene<'_>, &WashPath, &JointVector) -> Result<Turn, RedundancyError>;
+
 impl Pipeline<'_> {
     pub fn visits(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Visit>, PlanError> {
         // At once, before others are searched for minutes.
@@ -39,7 +45,7 @@ impl Pipeline<'_> {
             }
         }
         let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
-        for turn in self.turns(scene, order, |_| true) {
+        for turn in self.turns(scene, order, Self::quickest_washing, |_| true) {
             let turn = turn.map_err(|failed| self.unwashable(scene, *failed))?;
             self.check_promise(&turn)?;
             visits.push(Visit::plan(self, scene, turn)?);
@@ -53,15 +59,22 @@ impl Pipeline<'_> {
         scene.check_cancelled()?;
         let [near, _] = self.terms.home_rad;
         let path = self.path_of(scene, order, k);
-        let Ok(task) = Task::new(scene, &path, self.clearance_m(), &near) else {
+        let task = |path: &WashPath| Task::new(scene, path, self.clearance_m(), &near);
+        let Ok(widest) = task(&path) else {
             return Ok(None);
         };
-        if !redundancy::is_blocked(&task)? {
+        if !redundancy::is_blocked(&widest)? {
+            return Ok(None);
+        }
+        let farther_in = self.patterns[path.plate].farther_in();
+        if let Some(Ok(farther_in)) = farther_in.map(|pattern| task(&by_pattern(&path, &pattern)))
+            && !redundancy::is_blocked(&farther_in)?
+        {
             return Ok(None);
         }
         self.report_visit(order, k);
         // A tilt between those of the search may still do.
-        let error = redundancy::washing(&task).err();
+        let error = redundancy::washing(&widest).err();
         Ok(error.map(|error| FailedVisit { path, near, error }))
     }
 
@@ -71,6 +84,7 @@ impl Pipeline<'_> {
         &self,
         scene: &Scene<'_>,
         order: &[usize],
+        washing: FindWashing<Self>,
         wanted: impl Fn(usize) -> bool,
     ) -> impl Iterator<Item = Result<Turn, Box<FailedVisit>>> {
         let [mut near, _] = self.terms.home_rad;
@@ -78,7 +92,7 @@ impl Pipeline<'_> {
         turns.map(move |k| {
             self.report_visit(order, k);
             let path = self.path_of(scene, order, k);
-            match self.washing_by_patterns(scene, &path, &near) {
+            match washing(self, scene, &path, &near) {
                 Ok(turn) => {
                     near = turn.washing.q.last().copied().unwrap_or(near);
                     Ok(turn)
@@ -112,7 +126,8 @@ impl Pipeline<'_> {
 
     /// The washing of a plate by its patterns, with a path that ends where `like` does: by the first with which the arm finds a way and
     /// presses as is promised with a margin, or else without one; where it never presses so, by one with which it finds a way. Denser and
-    /// slower patterns are tried last, where the arm finds a way by another one and does not press so with a little margin.
+    /// slower patterns are tried last, where the arm finds a way by another one and does not press so with a little margin; one that stays farther
+    /// from the rim where it finds none.
     pub fn washing_by_patterns(
         &self,
         scene: &Scene<'_>,
@@ -122,38 +137,29 @@ impl Pipeline<'_> {
         let plate = like.plate;
         let patterns = &self.patterns[plate];
         let mut found: Result<Turn, RedundancyError> = Err(RedundancyError::Plate { plate, count: 0 });
-        let mut offered = patterns.first().iter().copied().chain(patterns.wider_patterns());
+        let mut offered = patterns.first().chain(patterns.wider_patterns());
         let mut denser = patterns.denser();
+        let mut farther_in = std::iter::once_with(|| patterns.farther_in()).flatten();
         // Samples of the washing found, where the job promises contact.
         let mut samples: Option<SampledWash> = None;
         // True where it lacks a little of the margin, once that is checked.
         let mut lacks = None;
         loop {
             let Some(pattern) = offered.next().or_else(|| {
+                if found.is_err() {
+                    return farther_in.next();
+                }
                 let samples = samples.as_ref()?;
                 let lacks = lacks.get_or_insert_with(|| samples.shortfall(&Margin::CLOSE).is_some());
                 lacks.then(|| denser.next())?
             }) else {
                 return found;
             };
-            let path = WashPath {
-                curve: turned_as(pattern.curve, &like.curve),
-                cone_rad: pattern.cone_rad,
-                ..*like
-            };
-            match self.washing(scene, &path, near) {
+            match self.washing_by(scene, like, near, &pattern) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
                 // The last error is reported: that of the widest cone.
                 Err(error) => found = found.or(Err(error)),
-                Ok(washing) => {
-                    let speed_m_s = pattern.speed_share * self.terms.wash_speed_m_s();
-                    let mut turn = Turn {
-                        path,
-                        washing,
-                        speed_m_s,
-                        shortfall: None,
-                    };
-                    let sampled = self.sampled(scene, &turn);
+                Ok((mut turn, sampled)) => {
                     let shortfall = |margin| sampled.as_ref().and_then(|sampled| sampled.shortfall(margin));
                     if shortfall(&Margin::ARM).is_none() {
                         return Ok(turn);
@@ -170,12 +176,75 @@ impl Pipeline<'_> {
         }
     }
 
+    /// The washing of [`washing_by_patterns`](Self::washing_by_patterns), timed; where the arm takes much longer than estimated, the quickest
+    /// of this one and of those by the next patterns of the same cone.
+    fn quickest_washing(
+        &self,
+        scene: &Scene<'_>,
+        like: &WashPath,
+        near: &JointVector,
+    ) -> Result<Turn, RedundancyError> {
+        let mut best = self.washing_by_patterns(scene, like, near)?;
+        // An error of the timing is reported by the caller that needs it.
+        let Ok(wash) = best.timed(self, scene) else {
+            return Ok(best);
+        };
+        let mut time_s = wash.motion.duration_s();
+        best.wash = Some(wash);
+        let tried = best.pattern;
+        if time_s < UNEXPECTED * tried.time_s || best.shortfall.is_some() {
+            return Ok(best);
+        }
+        for pattern in self.patterns[like.plate].after(tried) {
+            match self.washing_by(scene, like, near, &pattern) {
+                Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                Ok((mut turn, sampled))
+                    if sampled
+                        .as_ref()
+                        .is_none_or(|sampled| sampled.shortfall(&Margin::ARM).is_none()) =>
+                {
+                    turn.wash = turn.timed(self, scene).ok();
+                    let other_s = turn
+                        .wash
+                        .as_ref()
+                        .map_or(f64::INFINITY, |wash| wash.motion.duration_s());
+                    if other_s < time_s {
+                        (best, time_s) = (turn, other_s);
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(best)
+    }
+
+    /// The washing of a plate by a pattern, with a path that ends where `like` does, and its samples where the job promises contact.
+    fn washing_by(
+        &self,
+        scene: &Scene<'_>,
+        like: &WashPath,
+        near: &JointVector,
+        pattern: &Pattern,
+    ) -> Result<(Turn, Option<SampledWash>), RedundancyError> {
+        let path = by_pattern(like, pattern);
+        let turn = Turn {
+            path,
+            washing: self.washing(scene, &path, near)?,
+            pattern: *pattern,
+            shortfall: None,
+            wash: None,
+        };
+        let sampled = self.sampled(scene, &turn);
+        Ok((turn, sampled))
+    }
+
     /// Samples of a plate's washing at its configurations; `None` without a promise about contact.
     fn sampled(&self, scene: &Scene<'_>, turn: &Turn) -> Option<SampledWash> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
         let promise = Promise::of(self.terms, &plate.surface);
-        Some(promise.sampled(scene, plate, &turn.washing.q, turn.speed_m_s))
+        let speed_m_s = turn.pattern.speed_share * self.terms.wash_speed_m_s();
+        Some(promise.sampled(scene, plate, &turn.washing.q, speed_m_s))
     }
 
     /// Refuses a washing with a chosen curve if no plan of it could be proved; the certificate judges stated curves.
@@ -190,6 +259,15 @@ impl Pipeline<'_> {
     /// The washing along a path from a configuration not far from `near` \[rad\].
     pub fn washing(&self, scene: &Scene<'_>, path: &WashPath, near: &JointVector) -> Result<Washing, RedundancyError> {
         redundancy::washing(&Task::new(scene, path, self.clearance_m(), near)?)
+    }
+}
+
+/// The path by a pattern that ends where another one does.
+fn by_pattern(like: &WashPath, pattern: &Pattern) -> WashPath {
+    WashPath {
+        curve: turned_as(pattern.curve, &like.curve),
+        cone_rad: pattern.cone_rad,
+        ..*like
     }
 }
 
@@ -251,7 +329,7 @@ impl Pipeline<'_> {
         let blocked: Result<Vec<_>, Cancelled> = turns.map(|k| self.blocked(scene, order, k)).collect();
         let mut failed: Vec<FailedVisit> = blocked?.into_iter().flatten().collect();
         let known: Vec<usize> = failed.iter().map(|failed| failed.path.plate).collect();
-        let others = self.turns(scene, order, |plate| !known.contains(&plate));
+        let others = self.turns(scene, order, Self::washing_by_patterns, |plate| !known.contains(&plate));
         failed.extend(others.filter_map(Result::err).map(|failed| *failed));
         scene.check_cancelled()?;
         Ok(failed)

@@ -38,6 +38,7 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
         turns: 3.5,
         start_angle_rad: 0.3,
         closing_ring: true,
+        trim_rad: 0.0,
         rings: None,
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();

@@ -41,6 +41,7 @@ impl Scenario {
                 .unwrap_or((radius_m / pitch_m).clamp(LEAST_TURNS, MOST_TURNS)),
             start_angle_rad: 0.0,
             closing_ring: self.wash.closing_ring.unwrap_or(true),
+            trim_rad: 0.0,
             rings: None,
         }
     }

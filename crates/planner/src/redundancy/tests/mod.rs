@@ -46,6 +46,7 @@ fn curve(radius_m: f64) -> WashCurve {
         turns: 3.5,
         start_angle_rad: 0.3,
         closing_ring: true,
+        trim_rad: 0.0,
         rings: None,
     }
 }
