@@ -80,7 +80,7 @@ fn removes_the_simulation_of_an_earlier_plan() {
     platewash(dir, &["run"]).done();
     let of_run = names(&out);
     let executed = std::fs::read(out.join("executed.csv")).unwrap();
-    platewash(dir, &["simulate", "out/plan.json", "--frequency", "20"]).done();
+    platewash(dir, &["simulate", "out/plan.json", "--frequency", "40"]).done();
     assert_eq!(std::fs::read(out.join("executed.csv")).unwrap(), executed);
     assert!(out.join("simulation.json").exists() && out.join("simulated.csv").exists());
     platewash(dir, &["run", "--seed", "2"]).done();

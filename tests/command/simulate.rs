@@ -130,7 +130,7 @@ fn refuses_plans_that_cannot_be_simulated() {
     refused(&["--damping", "NaN"], &["finite"]);
     refused(&["--rate", "1e12"], &["too much work", "control.rate_hz"]);
     refused(&["--dt", "1e-9"], &["--dt", "from 0.000001 to 10"]);
-    refused(&["--dt", "1e-5"], &["time step", "rows", "at least 0.0000328 s"]);
+    refused(&["--dt", "1e-5"], &["time step", "rows", "at least 0.0000318 s"]);
     assert_eq!(
         names(&dir.join("out")),
         ["plan.json", "trajectory.csv"],
@@ -150,7 +150,7 @@ fn tune_shows_the_effect_of_frequency_and_damping() {
         "--law",
         "pd_gravity",
         "--frequencies",
-        "10,30,5000",
+        "10,60,5000",
         "--dampings",
         "1",
         "--json",

@@ -219,6 +219,12 @@ const KITCHEN: [Case; 64] = [
     Case("wash_paths[].curve.closing_ring", Breaks(&[PathDeviation]), |p| {
         curve(p).closing_ring = false
     }),
+    Case("wash_paths[].curve.trim_rad", Breaks(&[PathDeviation]), |p| {
+        curve(p).trim_rad = 0.0
+    }),
+    Case("wash_paths[].curve.trim_rad", Breaks(&[WashPaths]), |p| {
+        curve(p).trim_rad = 2.0
+    }),
     Case("wash_paths[].curve.start_angle_rad", Breaks(&[PathDeviation]), |p| {
         curve(p).start_angle_rad += 0.05
     }),

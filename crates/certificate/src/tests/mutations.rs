@@ -435,6 +435,7 @@ fn names_invalid_wash_paths() {
         ("curve.radius_m: NaN", |w| w.curve.radius_m = f64::NAN),
         ("curve.turns: 0.2; expected from 0.25 to 200", |w| w.curve.turns = 0.2),
         ("curve.turns: 1000000000000", |w| w.curve.turns = 1e12),
+        ("curve.trim_rad: 2; expected from 0 to 1.5", |w| w.curve.trim_rad = 2.0),
         ("length of the curve: 125", |w| {
             (w.curve.radius_m, w.curve.turns) = (1.0, 38.0)
         }),
