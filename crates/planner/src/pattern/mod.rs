@@ -43,7 +43,7 @@ const OFFERED: [Margin; 2] = [Margin::BARE_FACE, Margin::STEADY];
 const SLOWEST: f64 = 0.1;
 
 /// Curves that are too quick at full speed among which is chosen.
-const MOST_HASTY: usize = 6;
+const MOST_HASTY: usize = 12;
 
 /// Radius of curves that stay farther from the rim, as a share of that of the others.
 const INWARDS: f64 = 0.998;
