@@ -13,6 +13,7 @@ mod dry_run;
 mod facade;
 mod faces;
 mod knots;
+mod looser_limits;
 mod mutation;
 mod programs;
 mod proved_only;

@@ -42,7 +42,7 @@ const PLANNED: &str = "it says how was planned, and no requirement rests on it";
 const SIMULATED: &str = "no proof rests on a simulation";
 
 /// Edits of `kitchen`, seed 1, with one plate: flat, rings, contact promised.
-const KITCHEN: [Case; 64] = [
+const KITCHEN: [Case; 66] = [
     Case("job.requirements.contact", Kept(LESS), |p| {
         p.job.requirements.contact = None
     }),
