@@ -17,7 +17,7 @@ const FEW_FACTORS: [f64; 2] = [1.0, 4.0];
 /// Plates behind posts: the tilts are found by a search, whose time nothing estimates.
 const SEARCHED: &str = "rack";
 
-/// How much longer a plan may take with looser limits.
+/// Greatest ratio of the times with looser and with tighter limits.
 const LONGER: f64 = 1.02;
 
 /// Duration of the plan of a scenario with its speeds and accelerations multiplied \[s\].

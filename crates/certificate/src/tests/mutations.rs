@@ -428,7 +428,7 @@ fn the_wash_path_stated_must_be_followed() {
 #[test]
 fn names_invalid_wash_paths() {
     type Change = fn(&mut WashPath);
-    let changes: [(&str, Change); 9] = [
+    let changes: [(&str, Change); 10] = [
         ("curve.radius_m: 0; expected from 0.0001 to 10", |w| {
             w.curve.radius_m = 0.0
         }),

@@ -33,7 +33,7 @@ pub(crate) struct FailedVisit {
     pub error: RedundancyError,
 }
 
-/// How the washing along a path is found, from a configuration not far from the one given.
+/// Function that finds the washing along a path from a configuration not far from the one given.
 type FindWashing<P> = fn(&P, &Scene<'_>, &WashPath, &JointVector) -> Result<Turn, RedundancyError>;
 
 impl Pipeline<'_> {
