@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 use platewash_bundler::{Step, root, target};
 use std::fs;
 use std::path::Path;
+use std::time::SystemTime;
 
 /// Members of the workspace that are not published.
 const PRIVATE: [&str; 4] = ["pyplatewash", "platewash-playground", "platewash-problems", "xtask"];
@@ -64,6 +65,15 @@ pub fn tested() -> Result<()> {
         let file = packages.join(format!("{name}.crate"));
         let line = ["-m", "tarfile", "-e", &text(&file), &text(&outside)];
         Step::program("package unpacked", &python, &line).run()?;
+        // Packages of an earlier state have the same version and times: cargo must not take them for these.
+        for entry in ["src/lib.rs", "lib.rs"].map(|entry| outside.join(name).join(entry)) {
+            if entry.exists() {
+                fs::File::options()
+                    .write(true)
+                    .open(entry)?
+                    .set_modified(SystemTime::now())?;
+            }
+        }
         let bare = name.rsplit_once('-').map_or(name, |(bare, _)| bare);
         manifest += &format!("{bare} = {{ path = \"{name}\" }}\n");
     }

@@ -224,7 +224,7 @@ impl Patterns {
     fn instead(&self, cone_rad: f64) -> Vec<Pattern> {
         let mut chosen = self.slower(cone_rad, &Margin::BARE_FACE);
         let longest = self.by_time().last();
-        let longest = longest.map(|estimate| Pattern::at_full_speed(&estimate, cone_rad));
+        let longest = longest.map(|estimate| Pattern::at_full_speed(&self.whole(estimate), cone_rad));
         let place = if self.is_chosen() { chosen.len() } else { 0 };
         chosen.splice(place..place, longest);
         chosen
@@ -303,6 +303,15 @@ impl Patterns {
         Estimate::new(curve, &self.surface, &self.limits)
     }
 
+    /// The curve of a candidate with its whole closing ring; a stated curve as it is.
+    fn whole(&self, candidate: Estimate) -> Estimate {
+        if self.is_chosen() {
+            self.estimate(candidate.curve.trimmed(0.0))
+        } else {
+            candidate
+        }
+    }
+
     /// Lower bound of the time along a curve at a share of the wash speed \[s\].
     fn quickest_s(&self, estimate: &Estimate, share: f64) -> f64 {
         estimate.time_s.max(estimate.length_m / (share * self.limits.speed_m_s))
@@ -344,14 +353,8 @@ impl Patterns {
         let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, &self.limits));
         let all = self.by_time().chain(dense);
         let all = all.take_while(|_| !self.cancel.is_cancelled());
-        let kept = all.filter_map(|estimate| {
-            let whole = if self.is_chosen() {
-                self.estimate(estimate.curve.trimmed(0.0))
-            } else {
-                estimate
-            };
-            self.slowed(&whole, cone_rad, margin, SLOWEST, &mut suspects)
-        });
+        let kept =
+            all.filter_map(|estimate| self.slowed(&self.whole(estimate), cone_rad, margin, SLOWEST, &mut suspects));
         let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);
         let mut kept: Vec<Pattern> = kept.take(MOST_SLOWED).collect();
         kept.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
