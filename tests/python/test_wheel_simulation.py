@@ -159,7 +159,7 @@ def test_each_step_agrees_with_the_plant() -> None:
 def test_control_laws_differ_as_expected(plan: pw.Plan) -> None:
     rms = {}
     for law in ("pd", "pd_gravity", "computed_torque"):
-        settings = pw.SimulationSettings.of(plan).replace(law=law, control={"frequency_rad_s": 15.0}, plant={"contact_stiffness_pa": None})
+        settings = pw.SimulationSettings.of(plan).replace(law=law, control={"frequency_rad_s": 20.0}, plant={"contact_stiffness_pa": None})
         report = pw.simulate(plan, settings=settings).report()
         rms[law] = report.tracking.tip_m.rms
         assert report.law == law and (report.verdict == "washed") == (law != "pd"), report.headline
