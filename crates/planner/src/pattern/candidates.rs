@@ -28,7 +28,7 @@ const BLENDS: [[f64; 2]; 2] = [[2.0, 1.7], [1.8, 1.4]];
 const INNER: [f64; 3] = [1.0, 1.08, 1.17];
 
 /// Trims of the closing ring that are tried \[rad\], the greatest first: the blend before it covers some of its beginning.
-pub(crate) const TRIMS_RAD: [f64; 4] = [0.55, 0.4, 0.2, 0.0];
+pub(crate) const TRIMS_RAD: [f64; 3] = [0.55, 0.4, 0.2];
 
 /// Rings that are tried at most, where their number is not stated.
 const MOST_TRIED: usize = 40;
@@ -52,8 +52,9 @@ pub(crate) fn candidates(
     sponge_m: f64,
     density: Density,
 ) -> Vec<WashCurve> {
-    let stated = settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some();
-    let pattern = settings.pattern.or(stated.then_some(PatternName::Spiral));
+    let pattern = settings
+        .pattern
+        .or(states_spiral(settings).then_some(PatternName::Spiral));
     let arc_m = surface.arc_m();
     let mut all = Vec::new();
     if settings.turns.is_some() && density == Density::Dense {
@@ -66,6 +67,11 @@ pub(crate) fn candidates(
         all.extend(spirals(settings, arc_m, sponge_m, density));
     }
     all
+}
+
+/// Checks that the settings state some of a spiral.
+fn states_spiral(settings: &PlannerSettings) -> bool {
+    settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some()
 }
 
 /// Greatest ℓ: the one stated, or those tried \[m\].
@@ -84,7 +90,7 @@ fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Densi
         Density::Usual => &PITCHES,
         Density::Dense => &DENSE_PITCHES,
     };
-    let is_stated = settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some();
+    let trim_rad = if states_spiral(settings) { 0.0 } else { TRIMS_RAD[0] };
     let mut all = Vec::new();
     for radius_m in outer(settings, arc_m, sponge_m) {
         let turns = match settings.turns {
@@ -100,7 +106,7 @@ fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Densi
                 turns: turns.clamp(LEAST_TURNS, MOST_TURNS),
                 start_angle_rad: 0.0,
                 closing_ring: settings.closing_ring.unwrap_or(true),
-                trim_rad: if is_stated { 0.0 } else { TRIMS_RAD[0] },
+                trim_rad,
                 rings: None,
             });
         }

@@ -201,12 +201,7 @@ impl Patterns {
     #[must_use]
     pub fn widest(&self) -> Pattern {
         let cone_rad = self.cones.iter().copied().fold(0.0, f64::max);
-        let any = || {
-            Pattern::at_full_speed(
-                &Estimate::new(self.candidates[0].curve, &self.surface, &self.limits),
-                cone_rad,
-            )
-        };
+        let any = || Pattern::at_full_speed(&self.estimate(self.candidates[0].curve), cone_rad);
         Pattern {
             cone_rad,
             ..self.first().next().unwrap_or_else(any)
@@ -245,7 +240,6 @@ impl Patterns {
     fn quickest(&self, cone_rad: f64, margin: &Margin, within_m: f64) -> Option<Pattern> {
         let least = if self.has_contact { SLOWEST } else { 1.0 };
         let (mut best, mut hasty, mut suspects): (Option<Pattern>, _, _) = (None, Vec::new(), Vec::new());
-        let mut most_trim_rad = 0.0;
         let mut kept = |estimate: &Estimate, least| {
             let sampled = estimate.sampled(&self.promise, &self.surface, &self.rule, cone_rad);
             sampled.keeps_shares(margin, least, &mut suspects)
@@ -256,17 +250,13 @@ impl Patterns {
             if best.is_some_and(|best| best.time_s <= trimmed.time_s) {
                 break;
             }
-            most_trim_rad = trimmed.curve.trim_rad;
             // What a whole ring lacks, a trimmed one lacks, too.
-            let whole = self.estimate(trimmed.curve.trimmed(0.0));
+            let whole = self.whole(trimmed);
             match kept(&whole, least) {
                 Kept::AtFullSpeed => {
-                    let trims = TRIMS_RAD.iter().filter(|trim_rad| **trim_rad <= trimmed.curve.trim_rad);
-                    let estimates = trims.map(|trim_rad| self.estimate(trimmed.curve.trimmed(*trim_rad)));
-                    let estimate = estimates
-                        .into_iter()
-                        .find(|estimate| estimate.curve == whole.curve || kept(estimate, 1.0) == Kept::AtFullSpeed);
-                    let pattern = Pattern::at_full_speed(&estimate.unwrap_or(whole), cone_rad);
+                    let mut trimmed = self.trimmed(whole.curve);
+                    let trimmed = trimmed.find(|estimate| kept(estimate, 1.0) == Kept::AtFullSpeed);
+                    let pattern = Pattern::at_full_speed(&trimmed.unwrap_or(whole), cone_rad);
                     best = best.filter(|best| best.time_s <= pattern.time_s).or(Some(pattern));
                 }
                 Kept::Slower(share) => hasty.push((self.quickest_s(&whole, share), whole)),
@@ -284,10 +274,7 @@ impl Patterns {
             let mut slowed = |curve: &Estimate, least| self.slowed(curve, cone_rad, margin, least, &mut suspects);
             if let Some(pattern) = slowed(&whole, TRIMMED * least) {
                 found += 1;
-                let trims = TRIMS_RAD
-                    .iter()
-                    .filter(|trim_rad| **trim_rad <= most_trim_rad && **trim_rad > 0.0);
-                let mut trimmed = trims.map(|trim_rad| self.estimate(whole.curve.trimmed(*trim_rad)));
+                let mut trimmed = self.trimmed(whole.curve);
                 let trimmed = trimmed.find_map(|estimate| slowed(&estimate, TRIMMED * pattern.speed_share));
                 let quicker = [Some(pattern), trimmed]
                     .into_iter()
@@ -310,6 +297,13 @@ impl Patterns {
         } else {
             candidate
         }
+    }
+
+    /// A curve with a trimmed closing ring, by the trims that the job leaves open, the greatest first.
+    fn trimmed(&self, curve: WashCurve) -> impl Iterator<Item = Estimate> {
+        let trims = TRIMS_RAD.into_iter();
+        let open = trims.filter(|trim_rad| *trim_rad <= self.candidates[0].curve.trim_rad);
+        open.map(move |trim_rad| self.estimate(curve.trimmed(trim_rad)))
     }
 
     /// Lower bound of the time along a curve at a share of the wash speed \[s\].
@@ -350,7 +344,7 @@ impl Patterns {
             return Vec::new();
         }
         let (dense, mut suspects) = (self.dense.iter(), Vec::new());
-        let dense = dense.map(|curve| Estimate::new(*curve, &self.surface, &self.limits));
+        let dense = dense.map(|curve| self.estimate(*curve));
         let all = self.by_time().chain(dense);
         let all = all.take_while(|_| !self.cancel.is_cancelled());
         let kept =

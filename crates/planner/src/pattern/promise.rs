@@ -361,12 +361,12 @@ impl SampledWash {
         for (batch, mut places) in batches.enumerate() {
             places.retain(|k| dwells[*k as usize].is_none());
             let found: Vec<Dwell> = places.par_iter().map(|k| self.dwell(*k)).collect();
-            for (k, dwell) in places.into_iter().zip(found) {
-                for (lacking, margin) in lacking.iter_mut().zip(&margins) {
-                    for (lacking, keeps) in lacking.iter_mut().zip(self.promise.keeps(&dwell, margin)) {
-                        *lacking += u32::from(!keeps);
-                    }
+            for (lacking, margin) in lacking.iter_mut().zip(&margins) {
+                for (lacking, kept) in lacking.iter_mut().zip(self.kept(&found, margin)) {
+                    *lacking += found.len() as u32 - kept;
                 }
+            }
+            for (k, dwell) in places.into_iter().zip(found) {
                 dwells[k as usize] = Some(dwell);
             }
             // The few places may be more unlike the face than all of them.

@@ -229,15 +229,22 @@ impl<'a> Pipeline<'a> {
         Ok(all)
     }
 
+    /// The configuration near another one with the tool upright at a point of a plate's face \[m\].
+    pub fn configuration_at(
+        &self,
+        scene: &Scene<'_>,
+        plate: &Plate,
+        point: Vector3<f64>,
+        near: &JointVector,
+    ) -> Option<JointVector> {
+        let contact = Contact::on_normal(point, plate.normal_at(&point));
+        scene.configuration(&contact, &self.policy(), near)
+    }
+
     /// Acceleration of the tip \[m/s²\] along the face at the centre of a plate that the accelerations of the joints allow, with the tool
     /// upright and not turning: the time on a circle is that of this acceleration in every direction.
     fn tip_acceleration(&self, scene: &Scene<'_>, plate: &Plate) -> Option<f64> {
-        let (centre, normal) = (plate.centre(), plate.normal_at(&plate.centre()));
-        let q = scene.configuration(
-            &Contact::on_normal(centre, normal),
-            &self.policy(),
-            &self.terms.home_rad[0],
-        )?;
+        let q = self.configuration_at(scene, plate, plate.centre(), &self.terms.home_rad[0])?;
         let inverse = self.robot.fk(&q).jacobian(&scene.tip, Axes::Base).try_inverse()?;
         let axes =
             [Vector3::x(), Vector3::y()].map(|axis| inverse.fixed_columns::<3>(0) * (plate.pose.rotation * axis));

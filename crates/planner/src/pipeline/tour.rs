@@ -4,7 +4,7 @@ use crate::error::PlanError;
 use crate::order::TravelTimes;
 use crate::pipeline::shared::Pipeline;
 use crate::planned_job::TourSummary;
-use crate::scene::{Contact, Scene};
+use crate::scene::Scene;
 use crate::timing::MotionLimits;
 use nalgebra::Vector3;
 use platewash_kinematics::{AXES, JointVector};
@@ -37,19 +37,20 @@ impl Pipeline<'_> {
     /// Times between homes and plates: a wash path ends towards where the arm goes next, and the next one begins at its plate's
     /// centre. A contact point that the tilt policy does not reach counts as the plate's centre, and that as home.
     fn travel_times(&self, scene: &Scene<'_>) -> Result<TravelTimes, Cancelled> {
-        let ([start, home], limits, policy) = (&self.terms.home_rad, &self.transit, self.policy());
+        let ([start, home], limits) = (&self.terms.home_rad, &self.transit);
         let centres: Vec<Vector3<f64>> = self.plates.iter().map(|plate| plate.centre()).collect();
-        let on = |plate: usize, point: Vector3<f64>| Contact::on_normal(point, self.plates[plate].normal_at(&point));
+        let at = |plate: usize, point, near: &_| {
+            let found = self.configuration_at(scene, &self.plates[plate], point, near);
+            found.unwrap_or(*near)
+        };
         let mut entries: Vec<JointVector> = Vec::with_capacity(centres.len());
         for (plate, centre) in centres.iter().enumerate() {
             scene.check_cancelled()?;
-            let entry = scene.configuration(&on(plate, *centre), &policy, start);
-            entries.push(entry.unwrap_or(*start));
+            entries.push(at(plate, *centre, start));
         }
         let exit = |plate: usize, towards: &Vector3<f64>| {
             let [_, foot] = self.widest_path(plate, towards).feet(&self.plates[plate]);
-            let exit = scene.configuration(&on(plate, foot), &policy, &entries[plate]);
-            exit.unwrap_or(entries[plate])
+            at(plate, foot, &entries[plate])
         };
         let home_tip = self.home_tip(scene, home);
         let mut times = TravelTimes {

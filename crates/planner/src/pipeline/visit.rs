@@ -109,9 +109,9 @@ pub(crate) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
 
 impl Visit {
     /// Plans a visit with the configurations found for it.
-    pub fn plan(pipeline: &Pipeline<'_>, scene: &Scene<'_>, turn: Turn) -> Result<Self, PlanError> {
-        let wash = match &turn.wash {
-            Some(wash) => wash.clone(),
+    pub fn plan(pipeline: &Pipeline<'_>, scene: &Scene<'_>, mut turn: Turn) -> Result<Self, PlanError> {
+        let wash = match turn.wash.take() {
+            Some(wash) => wash,
             None => turn.timed(pipeline, scene)?,
         };
         let Turn { path, washing, .. } = turn;

@@ -185,6 +185,9 @@ impl Pipeline<'_> {
         near: &JointVector,
     ) -> Result<Turn, RedundancyError> {
         let mut best = self.washing_by_patterns(scene, like, near)?;
+        if best.shortfall.is_some() {
+            return Ok(best);
+        }
         // An error of the timing is reported by the caller that needs it.
         let Ok(wash) = best.timed(self, scene) else {
             return Ok(best);
@@ -192,7 +195,7 @@ impl Pipeline<'_> {
         let mut time_s = wash.motion.duration_s();
         best.wash = Some(wash);
         let tried = best.pattern;
-        if time_s < UNEXPECTED * tried.time_s || best.shortfall.is_some() {
+        if time_s < UNEXPECTED * tried.time_s {
             return Ok(best);
         }
         for pattern in self.patterns[like.plate].after(tried) {

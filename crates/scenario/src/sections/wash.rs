@@ -33,8 +33,8 @@ pub struct WashSection {
     /// Height of the tip above the washing surface.
     #[key(unit = "m", domain = Number(0.0, 1.0), default = 0.05)]
     pub height_m: f64,
-    /// True where a full circle at the outer radius follows the spiral; rings always end with one. Without it, none in the paper's program;
-    /// in a certified job the planner chooses.
+    /// True where a full circle at the outer radius follows the spiral. Without it, none in the paper's program; in a certified job the planner
+    /// chooses, and a circle that it adds may end before a full turn, as that of rings may.
     #[key(domain = Bool)]
     pub closing_ring: Option<bool>,
     /// Least clearance that counts as free; at 0 only contact is a violation. In a certified job the planner keeps 0.5 mm more while washing,
