@@ -4,14 +4,18 @@ use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
+fn trims() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), 0.0..MOST_TRIM_RAD]
+}
+
 fn spirals() -> impl Strategy<Value = WashCurve> {
-    (0.02..0.3f64, 0.5..8.0f64, -4.0..4.0f64, prop::bool::ANY).prop_map(
-        |(radius_m, turns, start_angle_rad, closing_ring)| WashCurve {
+    (0.02..0.3f64, 0.5..8.0f64, -4.0..4.0f64, prop::bool::ANY, trims()).prop_map(
+        |(radius_m, turns, start_angle_rad, closing_ring, trim_rad)| WashCurve {
             radius_m,
             turns,
             start_angle_rad,
             closing_ring,
-            trim_rad: 0.0,
+            trim_rad,
             rings: None,
         },
     )
@@ -25,23 +29,26 @@ fn rings() -> impl Strategy<Value = WashCurve> {
         0.3..2.5f64,
         0.3..2.5f64,
         -4.0..4.0f64,
+        trims(),
     )
-        .prop_map(|(count, inner_m, pitch_m, lead_rad, blend_rad, start_angle_rad)| {
-            let rings = Rings {
-                count,
-                inner_m,
-                lead_rad,
-                blend_rad,
-            };
-            WashCurve {
-                radius_m: inner_m + pitch_m * (count - 1) as f64,
-                turns: rings.turns(),
-                start_angle_rad,
-                closing_ring: true,
-                trim_rad: 0.0,
-                rings: Some(rings),
-            }
-        })
+        .prop_map(
+            |(count, inner_m, pitch_m, lead_rad, blend_rad, start_angle_rad, trim_rad)| {
+                let rings = Rings {
+                    count,
+                    inner_m,
+                    lead_rad,
+                    blend_rad,
+                };
+                WashCurve {
+                    radius_m: inner_m + pitch_m * (count - 1) as f64,
+                    turns: rings.turns(),
+                    start_angle_rad,
+                    closing_ring: true,
+                    trim_rad,
+                    rings: Some(rings),
+                }
+            },
+        )
 }
 
 fn curves() -> impl Strategy<Value = WashCurve> {
@@ -86,7 +93,7 @@ proptest! {
         prop_assert_eq!(at(0), rings.inner_m);
         prop_assert!((at(steps) - curve.radius_m).abs() < 1e-15);
         prop_assert!((0..steps).all(|k| at(k) <= at(k + 1) + 1e-15));
-        prop_assert!((curve.end() - curve.spiral_end() - TAU).abs() < 1e-12);
+        prop_assert!((curve.end() - curve.spiral_end() - TAU + curve.trim_rad).abs() < 1e-12);
     }
 
     /// Between two θ no derivative is above what is stated, and points of a surface lie on it.
