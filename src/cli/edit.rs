@@ -221,7 +221,9 @@ impl ScenarioFile {
         let (plan, arm) = (&washing.planned.plan, &washing.arm);
         let certificate = prove_with(plan, arm, &options.cancel).map_err(Failure::from)?;
         let region = scenario.task_region();
-        page::add(files, options, plan, arm, Some(&certificate), None, &region)?;
+        if let Some(page) = page::of(options, plan, arm, Some(&certificate), None, &region)? {
+            files.add("page.html", page);
+        }
         files.add("plan.json", plan.to_json().map_err(Failure::from)?);
         files.add("certificate.json", json(&certificate)?);
         let report = WashReport::new(&washing.planned, &washing.findings, certificate);

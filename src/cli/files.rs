@@ -5,6 +5,7 @@ use super::output::{Reader, full_report, json};
 use anyhow::{Context, Result, bail};
 use platewash::CancelToken;
 use platewash::workcell::atomic_file::{FolderLock, StagedFile, folder_of};
+use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
@@ -36,6 +37,9 @@ pub const REPORTS: [&str; 5] = [
     "page.html",
 ];
 
+/// Content of a file, formatted when it is written.
+type Content<'a> = Box<dyn Display + Send + Sync + 'a>;
+
 /// Files that are written to a folder, all or none, in place of all that belong to the verb there.
 pub struct Files<'a> {
     /// Folder of the files; where it is `None`, nothing is written.
@@ -44,7 +48,7 @@ pub struct Files<'a> {
     prefix: OsString,
     /// Names that belong to the verb.
     owned: &'a [&'a str],
-    files: Vec<(PathBuf, Box<dyn Display + 'a>)>,
+    files: Vec<(PathBuf, Content<'a>)>,
 }
 
 impl<'a> Files<'a> {
@@ -81,12 +85,12 @@ impl<'a> Files<'a> {
     }
 
     /// Adds a file at a place of its own.
-    pub fn add_at(&mut self, place: PathBuf, content: impl Display + 'a) {
+    pub fn add_at(&mut self, place: PathBuf, content: impl Display + Send + Sync + 'a) {
         self.files.push((place, Box::new(content)));
     }
 
     /// Adds a file.
-    pub fn add(&mut self, name: &str, content: impl Display + 'a) {
+    pub fn add(&mut self, name: &str, content: impl Display + Send + Sync + 'a) {
         if let Some(place) = self.place(name) {
             self.add_at(place, content);
         }
@@ -131,12 +135,15 @@ impl<'a> Files<'a> {
     pub fn write_if(&self, cancel: &CancelToken, still: &dyn Fn() -> bool) -> Result<bool> {
         refuse_one_place_for_two(self.paths())?;
         let locks = self.locks()?;
-        let mut complete = Vec::new();
-        for (path, content) in &self.files {
-            let write = |out: &mut dyn Write| write!(out, "{content}").with_context(|| write_failure(path));
-            complete.push((stage(path, write)?, path));
+        let complete = self.files.par_iter().map(|(path, content)| {
             cancel.check()?;
-        }
+            let write = |out: &mut dyn Write| write!(out, "{content}").with_context(|| write_failure(path));
+            stage(path, write).map(|staged| (staged, path))
+        });
+        // Of several failures that of the first file is told.
+        let complete: Vec<Result<_>> = complete.collect();
+        let complete: Vec<_> = complete.into_iter().collect::<Result<_>>()?;
+        cancel.check()?;
         if !still() {
             return Ok(false);
         }

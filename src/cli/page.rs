@@ -2,7 +2,6 @@
 //! simulation on a page in real time, while it runs.
 
 use super::failure::internal;
-use super::files::Files;
 use super::options::Options;
 use super::output;
 use super::simulate::SimulationAnswer;
@@ -49,29 +48,25 @@ pub fn html(plan: &Plan, arm: &RobotModel, extras: &ViewExtras<'_>, bundle: &Bun
     Ok(platewash::viewer::page::html(&view, bundle)?)
 }
 
-/// Adds the page of a plan to the files beside its report. The first page of a checkout may take a minute. Without a bundle there is none, and
-/// a line on standard error says why.
-pub fn add(
-    files: &mut Files<'_>,
+/// The page of a plan, to be written beside its report. Without a bundle there is none, and a line on standard error says why.
+pub fn of(
     options: &Options,
     plan: &Plan,
     arm: &RobotModel,
     certificate: Option<&Certificate>,
     executed: Option<&ExecutedMotion>,
     region: &TaskRegion,
-) -> Result<()> {
-    if let Some(bundle) = bundle() {
-        options.cancel.check()?;
-        let beside = ViewExtras {
-            certificate,
-            executed,
-            region: Some(region),
-            events: None,
-        };
-        let page = html(plan, arm, &beside, &bundle).context("the page of the plan");
-        files.add("page.html", page.map_err(internal)?);
-    }
-    Ok(())
+) -> Result<Option<String>> {
+    let Some(bundle) = bundle() else { return Ok(None) };
+    options.cancel.check()?;
+    let beside = ViewExtras {
+        certificate,
+        executed,
+        region: Some(region),
+        events: None,
+    };
+    let page = html(plan, arm, &beside, &bundle).context("the page of the plan");
+    page.map(Some).map_err(internal)
 }
 
 /// Region in which a shipped scenario draws its plates, for a plan whose plates lie as that scenario lays them; empty for any other plan.

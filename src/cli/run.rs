@@ -173,7 +173,9 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -
     let is_swept = report.verdict == Verdict::Swept;
     let executed = ExecutedMotion::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
     let region = scenario.task_region();
-    page::add(&mut files, options, &plan, arm, None, Some(&executed), &region)?;
+    if let Some(page) = page::of(options, &plan, arm, None, Some(&executed), &region)? {
+        files.add("page.html", page);
+    }
     files.answer(options, &report, || arguments.details.printed(&report))?;
     Ok(ExitCode::from(report.verdict).job(scenario.job.on_failure))
 }
@@ -189,28 +191,44 @@ fn run_washing(
     let (plan, arm, motion) = (&washing.planned.plan, &washing.arm, &washing.motion()?);
     let lasts_s = lasts_at_most_s(plan, &plan.job.simulation);
     let dt_s = arguments.motion.time_step.or(scenario.control.dt_s, lasts_s)?;
-    let certificate = prove_with(plan, arm, &options.cancel).map_err(Failure::from)?;
-    let show = stage
-        .map(|stage| stage.open(options, plan, arm, &certificate))
-        .transpose()?;
-    let simulation = match &show {
-        Some(show) => show.simulated(options, plan, arm)?,
-        None => SimulationAnswer::new(options, plan, arm, &mut |_| {})?,
+    let prove = || prove_with(plan, arm, &options.cancel).map_err(Failure::from);
+    let (certificate, simulation, show) = match stage {
+        // Neither keeps all threads busy alone.
+        None => {
+            let simulate = || SimulationAnswer::new(options, plan, arm, &mut |_| {});
+            let (certificate, simulation) = rayon::join(prove, simulate);
+            (certificate?, simulation?, None)
+        }
+        Some(stage) => {
+            let certificate = prove()?;
+            let show = stage.open(options, plan, arm, &certificate)?;
+            let simulation = show.simulated(options, plan, arm)?;
+            (certificate, simulation, Some(show))
+        }
     };
     let search_time = arguments.motion.search_time();
     let remedies = infeasible::remedies_of_proof(options, scenario, (arm, &certificate), search_time)?;
-    let proof = json(&certificate)?;
+    let (executed, region) = (simulation.executed(), scenario.task_region());
+    // Outlives the files, which refer to it.
+    let report;
+    let (page, files) = rayon::join(
+        || page::of(options, plan, arm, Some(&certificate), executed.as_ref(), &region),
+        || {
+            let mut files = arguments.motion.files(options, scenario, arm, motion, plan)?;
+            files.add("certificate.json", json(&certificate)?);
+            anyhow::Ok(files)
+        },
+    );
+    let (page, mut files) = (page?, files?);
     let wash = WashReport::new(&washing.planned, &washing.findings, certificate);
-    let report = RunReport::new(wash, simulation, remedies);
-    let mut files = arguments.motion.files(options, scenario, arm, motion, plan)?;
-    files.add("certificate.json", proof);
+    report = RunReport::new(wash, simulation, remedies);
     if let SimulationAnswer::Done { execution, .. } = &report.simulation {
         files.add("executed.csv", table(execution, plan, arm, dt_s)?);
     }
     files.add_report("report", &report)?;
-    let executed = report.simulation.executed();
-    let (proof, region) = (&report.wash.certificate, scenario.task_region());
-    page::add(&mut files, options, plan, arm, Some(proof), executed.as_ref(), &region)?;
+    if let Some(page) = page {
+        files.add("page.html", page);
+    }
     files.answer(options, &report, || arguments.details.printed(&report))?;
     if let Some(show) = show {
         show.part(options);

@@ -29,19 +29,26 @@ pub fn read_site() -> Result<()> {
 
 /// Saves pictures of the pages of some shipped scenarios, or of all, in `target/screenshots`.
 pub fn screenshots(scenarios: &[String]) -> Result<()> {
-    Step::cargo("command", &["build", "--release", "-p", "platewash"]).run()?;
-    let (node, workshop) = workshop()?;
     let out = target().join("screenshots");
     if out.exists() {
         fs::remove_dir_all(&out).with_context(|| out.display().to_string())?;
     }
-    let out = out.display().to_string();
-    let line = [
-        &["run", "--silent", "screenshots", "--", &out][..],
-        &scenarios.iter().map(String::as_str).collect::<Vec<_>>(),
-    ]
-    .concat();
-    with_command(node.npm("pictures of pages", workshop.folder(), &line)).run()
+    let out = [vec![out.display().to_string()], scenarios.to_vec()].concat();
+    script("pictures of pages", "screenshots", &out)
+}
+
+/// Measures the page's first frame, and the time from the drop of a plate to its drawn proof.
+pub fn measure(arguments: &[String]) -> Result<()> {
+    script("times of the page", "measure", arguments)
+}
+
+/// Runs a script of the browser's package with the release build of the command.
+fn script(title: &'static str, name: &str, arguments: &[String]) -> Result<()> {
+    Step::cargo("command", &["build", "--release", "-p", "platewash"]).run()?;
+    let (node, workshop) = workshop()?;
+    let mut line = vec!["run", "--silent", name, "--"];
+    line.extend(arguments.iter().map(String::as_str));
+    with_command(node.npm(title, workshop.folder(), &line)).run()
 }
 
 /// Node, and the sources and packages of what looks at pages.

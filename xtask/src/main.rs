@@ -9,6 +9,7 @@
 //!     cargo xtask web                               makes the playground, the live cell for a static host, in target/playground
 //!     cargo xtask site                              makes the website of the documentation, in target/site
 //!     cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/screenshots, to look at; edit: a live cell
+//!     cargo xtask measure [DRAGS]                   times of the page in a browser: first frame, drop of a plate to its drawn proof
 //!     cargo xtask docs                              writes the pages that are made from the program
 
 mod benches;
@@ -39,6 +40,7 @@ cargo xtask screenshots [SCENARIO ...]        pictures of the page in target/scr
 cargo xtask page                              makes what all pages in 3-D share, crates/viewer/dist, where it is missing or old
 cargo xtask web                               makes the playground, the live cell for a static host, in target/playground
 cargo xtask site                              makes the website of the documentation, in target/site
+cargo xtask measure [DRAGS]                   times of the page in a browser: first frame, drop of a plate to its drawn proof
 cargo xtask docs                              writes the pages that are made from the program";
 
 /// What to do.
@@ -48,6 +50,7 @@ enum Chore {
     Bench(Vec<String>),
     Ledger,
     Screenshots(Vec<String>),
+    Measure(Vec<String>),
     Page,
     Web,
     Site,
@@ -69,6 +72,7 @@ fn main() -> ExitCode {
         Chore::Bench(arguments) => benches::run(&arguments),
         Chore::Ledger => ledger::run(),
         Chore::Screenshots(scenarios) => browser::screenshots(&scenarios),
+        Chore::Measure(arguments) => browser::measure(&arguments),
         Chore::Page => page::make(),
         Chore::Web => web::make(),
         Chore::Site => site::make(),
@@ -94,6 +98,7 @@ fn parse(arguments: &[String]) -> Result<Chore> {
         ["bench", ..] => Ok(Chore::Bench(arguments[1..].to_vec())),
         ["ledger"] => Ok(Chore::Ledger),
         ["screenshots", ..] => Ok(Chore::Screenshots(arguments[1..].to_vec())),
+        ["measure", ..] => Ok(Chore::Measure(arguments[1..].to_vec())),
         ["page"] => Ok(Chore::Page),
         ["web"] => Ok(Chore::Web),
         ["site"] => Ok(Chore::Site),

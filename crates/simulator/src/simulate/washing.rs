@@ -23,7 +23,8 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::simulation::SimulationSettings;
 use platewash_workcell::tool::{Tool, Touch};
-use platewash_workcell::trajectory::SegmentKind;
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt;
 
@@ -115,11 +116,9 @@ pub(crate) fn plates(
         .as_ref()
         .map(|foam| foam.judge(plan, contact.tip(), execution.period_s));
     let samples = &execution.samples;
-    let mut outcomes = Vec::new();
-    for (index, segment) in plan.segments.iter().enumerate() {
-        if segment.kind != SegmentKind::Wash {
-            continue;
-        }
+    let segments = plan.segments.par_iter().enumerate();
+    let washes = segments.filter(|(_, segment)| segment.kind == SegmentKind::Wash);
+    let outcome = |(index, segment): (usize, &PlanSegment)| {
         let from = samples.partition_point(|s| s.segment < index);
         let to = samples.partition_point(|s| s.segment <= index);
         let plate = &plan.job.plates[segment.plate];
@@ -137,9 +136,10 @@ pub(crate) fn plates(
         outcome.pressing = judge
             .as_ref()
             .and_then(|judge| judge.pressing(&samples[from..to], segment.plate, plate));
-        outcomes.push(outcome);
-    }
-    Ok(outcomes)
+        Ok(outcome)
+    };
+    let outcomes: Vec<Result<_, SimulationError>> = washes.map(outcome).collect();
+    outcomes.into_iter().collect()
 }
 
 /// The foam that was simulated.
