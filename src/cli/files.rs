@@ -191,7 +191,7 @@ pub fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -
 fn stage(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<StagedFile> {
     refuse_taken(path)?;
     let staged = StagedFile::in_folder(folder_of(path)).with_context(|| write_failure(path))?;
-    let mut buffered = BufWriter::new(staged);
+    let mut buffered = BufWriter::with_capacity(1 << 16, staged);
     write(&mut buffered)?;
     let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
     let synced = staged.and_then(|staged| staged.sync().map(|()| staged));

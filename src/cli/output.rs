@@ -63,12 +63,16 @@ pub fn json(value: &impl Serialize) -> Result<String> {
 
 /// A value as text without control characters but new lines, so that a terminal obeys no name out of a file.
 pub fn text(value: &impl Display) -> String {
-    let is_harmless = |c: char| !c.is_control() || c == '\n';
-    let written = |c: char| match is_harmless(c) {
-        true => c.to_string(),
-        false => c.escape_default().to_string(),
+    let text = value.to_string();
+    let is_harmful = |c: char| c.is_control() && c != '\n';
+    if !text.contains(is_harmful) {
+        return text;
+    }
+    let written = |c: char| match is_harmful(c) {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
     };
-    value.to_string().chars().map(written).collect()
+    text.chars().map(written).collect()
 }
 
 /// The whole report, as files hold it.

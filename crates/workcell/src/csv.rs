@@ -175,11 +175,20 @@ pub fn add_numbers<'a>(row: &mut String, values: impl IntoIterator<Item = &'a f6
 
 /// Adds a number as `{}` writes it, which takes longer: the shortest decimal that reads back exactly, without an exponent.
 fn add_number(row: &mut String, value: f64) {
-    if value == 0.0 || (1e-4..1e15).contains(&value.abs()) {
-        push_shortest(row, value);
-    } else {
+    if value != 0.0 && !(1e-300..1e15).contains(&value.abs()) {
         *row += &value.to_string();
+        return;
     }
+    let start = row.len();
+    push_shortest(row, value);
+    let Some((digits, exponent)) = row[start..].split_once('e') else {
+        return;
+    };
+    // The exponent is negative.
+    let zeros = exponent.parse().map_or(0, |exponent: i32| -1 - exponent).max(0) as usize;
+    let (sign, digits) = digits.strip_prefix('-').map_or(("", digits), |digits| ("-", digits));
+    let plain = format!("{sign}0.{:0<zeros$}{}", "", digits.replace('.', ""));
+    row.replace_range(start.., &plain);
 }
 
 /// Greatest absolute value of a number \[rad, rad/s, rad/s², N·m, s\]. A larger one has another unit, or is no motion.

@@ -31,15 +31,19 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
 /// # Errors
 /// A value that JSON cannot hold.
 pub fn write(value: &impl Serialize) -> Result<String, JsonError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| JsonError {
+    let mut text = serde_json::to_string_pretty(value).map_err(|error| JsonError {
         reason: error.to_string(),
     })?;
-    let is_harmless = |c: char| !c.is_control() || c == '\n';
-    let written = |c: char| match is_harmless(c) {
-        true => c.to_string(),
-        false => format!("\\u{:04x}", u32::from(c)),
-    };
-    Ok(text.chars().map(written).collect::<String>() + "\n")
+    let is_harmful = |c: char| c.is_control() && c != '\n';
+    if text.contains(is_harmful) {
+        let written = |c: char| match is_harmful(c) {
+            true => format!("\\u{:04x}", u32::from(c)),
+            false => c.to_string(),
+        };
+        text = text.chars().map(written).collect();
+    }
+    text.push('\n');
+    Ok(text)
 }
 
 /// Describes an error with its position.

@@ -6,7 +6,7 @@ use crate::dynamics::DynamicsModel;
 use crate::plant::{FoamLoad, SpongeOnPlates};
 use crate::simulate::execution::Sample;
 use platewash_kinematics::{Frame, JointVector};
-use platewash_workcell::contact::{ContactSampler, ContactThresholds, Foundation, Moment, SpongePose};
+use platewash_workcell::contact::{ContactSampler, ContactThresholds, Dwell, Foundation, Moment, SpongePose};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
 use serde::Serialize;
@@ -151,16 +151,18 @@ impl Judge<'_> {
             dose_pa_m: required.dose_pa_m,
         };
         let looks = ContactSampler::new(self.foundation, moments, wanted);
-        let (mut whole_m2, mut kept_m2) = (0.0, [0.0; 3]);
-        for (point, area_m2) in plate.surface.points(POINTS_APART_M) {
-            let got = looks.at(&point);
-            whole_m2 += area_m2;
-            let keeps = [
+        let keeps = |got: &Dwell| {
+            [
                 got.compression_m >= wanted.compression_m,
                 got.time_s >= wanted.time_s,
                 got.dose_pa_m >= wanted.dose_pa_m,
-            ];
-            for (kept_m2, keeps) in kept_m2.iter_mut().zip(keeps) {
+            ]
+        };
+        let (mut whole_m2, mut kept_m2) = (0.0, [0.0; 3]);
+        for (point, area_m2) in plate.surface.points(POINTS_APART_M) {
+            let got = looks.until(&point, |got| keeps(got).iter().all(|keeps| *keeps));
+            whole_m2 += area_m2;
+            for (kept_m2, keeps) in kept_m2.iter_mut().zip(keeps(&got)) {
                 *kept_m2 += if keeps { area_m2 } else { 0.0 };
             }
         }

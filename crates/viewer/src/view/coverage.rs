@@ -21,6 +21,9 @@ const CELLS: usize = 160_000;
 /// Cells along an edge of a raster, at least and at most.
 const EDGE: [usize; 2] = [24, 88];
 
+/// Least distance between the places of two moments \[m\].
+const STEP_M: f64 = 2e-3;
+
 /// Longest stroke that is made of several moments \[m\].
 const STROKE_M: f64 = 4e-3;
 
@@ -65,7 +68,7 @@ pub(super) fn plates(
     let one = |&index: &usize| {
         let plate = plan.job.plates.get(index)?;
         let of_plate = washes(plan).filter(|(washed, _)| *washed == index);
-        let ways = of_plate.map(|(_, span)| tips(span));
+        let ways = of_plate.map(|(_, span)| thinned(&tips(span)));
         let counted = PressedRule::on(plate, &plan.job);
         let tool = &plan.job.workcell.tool;
         Some(PlateCoverage {
@@ -77,6 +80,21 @@ pub(super) fn plates(
         })
     };
     order.par_iter().filter_map(one).collect()
+}
+
+/// The first moment, the last one, and those between whose places are not too near to each other.
+fn thinned(way: &[Tip]) -> Vec<Tip> {
+    let Some((last, before)) = way.split_last() else {
+        return Vec::new();
+    };
+    let mut kept: Vec<Tip> = Vec::with_capacity(way.len());
+    for tip in before {
+        if kept.last().is_none_or(|last| (tip.at - last.at).norm() >= STEP_M) {
+            kept.push(*tip);
+        }
+    }
+    kept.push(*last);
+    kept
 }
 
 /// Number of cells along an edge of a raster, by the number of plates, each of which may have two rasters.

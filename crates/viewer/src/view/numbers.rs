@@ -33,13 +33,13 @@ impl Numbers {
     /// Numbers in double precision.
     #[must_use]
     pub fn f64(shape: impl Into<Vec<usize>>, values: impl Iterator<Item = f64>) -> Self {
-        Self::new(shape, Data::F64(base64(values.flat_map(f64::to_le_bytes))))
+        Self::new(shape, Data::F64(base64(values.map(f64::to_le_bytes))))
     }
 
     /// Numbers in single precision.
     #[must_use]
     pub fn f32(shape: impl Into<Vec<usize>>, values: impl Iterator<Item = f32>) -> Self {
-        Self::new(shape, Data::F32(base64(values.flat_map(f32::to_le_bytes))))
+        Self::new(shape, Data::F32(base64(values.map(f32::to_le_bytes))))
     }
 
     /// Rows of N in single precision.
@@ -52,13 +52,13 @@ impl Numbers {
     /// Whole numbers of 16 bits.
     #[must_use]
     pub fn u16(shape: impl Into<Vec<usize>>, values: impl Iterator<Item = u16>) -> Self {
-        Self::new(shape, Data::U16(base64(values.flat_map(u16::to_le_bytes))))
+        Self::new(shape, Data::U16(base64(values.map(u16::to_le_bytes))))
     }
 
     /// Whole numbers of 8 bits.
     #[must_use]
     pub fn u8(shape: impl Into<Vec<usize>>, values: impl Iterator<Item = u8>) -> Self {
-        Self::new(shape, Data::U8(base64(values)))
+        Self::new(shape, Data::U8(base64(values.map(u8::to_le_bytes))))
     }
 
     fn new(shape: impl Into<Vec<usize>>, data: Data) -> Self {
@@ -67,8 +67,10 @@ impl Numbers {
     }
 }
 
-fn base64(bytes: impl Iterator<Item = u8>) -> String {
-    STANDARD.encode(bytes.collect::<Vec<_>>())
+fn base64<const N: usize>(values: impl Iterator<Item = [u8; N]>) -> String {
+    let mut bytes = Vec::new();
+    values.for_each(|value| bytes.extend_from_slice(&value));
+    STANDARD.encode(bytes)
 }
 
 #[cfg(test)]

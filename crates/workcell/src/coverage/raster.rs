@@ -29,6 +29,8 @@ pub(crate) struct Raster<'a> {
     cell: f64,
     /// Capsules that reach the current cell, after those that reach the cells around it.
     near: Vec<u32>,
+    /// Capsule that covers the last covered cell: often the next one, too.
+    covering: u32,
     /// Buffer for the sections of a column.
     sections: Vec<[f64; 2]>,
     unswept: UnsweptArea,
@@ -44,6 +46,7 @@ impl<'a> Raster<'a> {
             sponge_radius,
             cell,
             near,
+            covering: 0,
             sections: Vec::new(),
             unswept: UnsweptArea::default(),
         }
@@ -69,10 +72,16 @@ impl<'a> Raster<'a> {
         }
         let half_diagonal = half * std::f64::consts::SQRT_2;
         let (within, reach) = (self.sponge_radius - half_diagonal, self.sponge_radius + half_diagonal);
+        let covers = |squared: f64| within > 0.0 && squared <= within * within;
+        let squared_to = |capsule: u32| self.capsules.get(capsule as usize).map(|c| c.distance_squared(middle));
+        if squared_to(self.covering).is_some_and(covers) {
+            return;
+        }
         let last = self.near.len();
         for k in first..last {
             let squared = self.capsules[self.near[k] as usize].distance_squared(middle);
-            if within > 0.0 && squared <= within * within {
+            if covers(squared) {
+                self.covering = self.near[k];
                 self.near.truncate(last);
                 return;
             }
