@@ -57,7 +57,9 @@ fn answer_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWr
     let (mut planned, gone) = (None, answer.gone.clone());
     rayon::in_place_scope(|scope| {
         scope.spawn(|_| planned = Some(plan_here(&placed.job, &Watch::silent(&gone))));
-        tell_preview(&placed, answer);
+        if !question.guessed {
+            tell_preview(&placed, answer);
+        }
     });
     answer.step("plan");
     let (plan, certificate, headline) = match planned {

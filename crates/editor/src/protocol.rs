@@ -26,6 +26,9 @@ pub struct CellQuestion {
     pub want: LastStage,
     /// Id of the arm that the page has.
     pub arm: Option<String>,
+    /// True where the page shows an outlook already: then none is computed beside the plan, which comes sooner.
+    #[serde(default)]
+    pub guessed: bool,
 }
 
 /// A change to a scenario.

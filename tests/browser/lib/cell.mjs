@@ -41,7 +41,7 @@ export async function onScreen(page, place_m) {
 }
 
 /** Height of the plates' faces in the shipped scenarios [m]. */
-const FACE_M = 0.03;
+export const FACE_M = 0.03;
 
 /** Drags a plate with the mouse, by its middle or from `grip` [m] beside it. */
 export async function drag(page, plate, to_m, { steps = 8, grip = [0, 0], release = true } = {}) {

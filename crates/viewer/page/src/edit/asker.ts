@@ -55,6 +55,8 @@ export interface LaneSettings {
   want: CellQuestion["want"];
   /** Id of the arm that the page has. */
   arm: () => string | null;
+  /** Whether the page shows a guess. */
+  guessed: () => boolean;
   /** A line of the question that is asked has come. */
   line(asked: Asked, line: CellLine): void;
   /** It was answered to its end, or will not be. */
@@ -98,7 +100,7 @@ export class Lane {
     this.#asked = asked;
     this.#abort = abort;
     const { text, edits } = version;
-    const question: CellQuestion = { session, text, edits: [...edits], want, arm: this.#settings.arm() };
+    const question: CellQuestion = { session, text, edits: [...edits], want, arm: this.#settings.arm(), guessed: this.#settings.guessed() };
     channel.ask("/cell", question, (line) => this.#hear(asked, line), abort.signal).then(
       () => this.#end(asked, null),
       (error: unknown) => this.#end(asked, error instanceof ChannelError ? error : new ChannelError("lost", "The answer cannot be read.")),
@@ -168,8 +170,8 @@ export class Asker {
     this.#asking = asking;
     const line = (asked: Asked, said: CellLine): void => this.#hear(asked, said);
     const common = { channel, time, timings: this.timings, arm: () => this.seen.arm?.id ?? null, line };
-    this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview", end: () => this.#looked() });
-    this.#planning = new Lane({ ...common, session, want: "proof", end: (asked, error) => this.#planned(asked, error) });
+    this.#looking = new Lane({ ...common, session: `${session}p`, want: "preview", guessed: () => false, end: () => this.#looked() });
+    this.#planning = new Lane({ ...common, session, want: "proof", guessed: () => this.seen.preview !== null, end: (asked, error) => this.#planned(asked, error) });
   }
 
   /** The question of plan and proof that was asked last. */

@@ -58,6 +58,8 @@ export interface CellQuestion {
   want: "preview" | "proof";
   /** Id of the arm that the page has; null for none. */
   arm: string | null;
+  /** Whether the page shows a guess already, so that none is made beside the plan. */
+  guessed: boolean;
 }
 
 /** Milliseconds that steps took where they were done. */
