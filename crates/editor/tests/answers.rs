@@ -74,6 +74,12 @@ fn answers_a_scenario_from_its_text_to_its_proof() {
     assert_eq!(lines[3]["heading"]["hash"].as_str(), planned.hash.as_deref());
     assert_eq!(lines[4]["certificate"]["passes"], true);
     assert_eq!(lines[4]["proved"].as_array().unwrap().len(), 4);
+    let mut guessed = cell(KITCHEN, &json!([]));
+    guessed["guessed"] = json!(true);
+    assert_eq!(
+        kinds(&ask(&editor, "/cell", &guessed)),
+        ["scenario", "cell", "plan", "proof"]
+    );
     let latest = editor.latest().unwrap();
     assert_eq!(latest.plan.unwrap().hash, planned.hash);
     assert!(latest.certificate.unwrap().passes());

@@ -12,7 +12,7 @@ test("a scenario is looked at, planned and proved", async () => {
   assert.equal(cell.state, "previewing");
   const asked = channel.last("proof");
   assert.equal(asked.path, "/cell");
-  assert.deepEqual(asked.question, { session: "s", text: "name = \"a\"", edits: [], want: "proof", arm: null });
+  assert.deepEqual(asked.question, { session: "s", text: "name = \"a\"", edits: [], want: "proof", arm: null, guessed: false });
   asked.drawn();
   assert.equal(cell.state, "planning");
   asked.say(PREVIEW);

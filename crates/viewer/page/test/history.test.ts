@@ -61,7 +61,7 @@ test("random edits: undo to the start is the first text, redo to the end the las
     const last = cell.version;
     const steps = cell.history.steps.length;
     while (cell.history.undoes !== null) cell.undo();
-    assert.equal(written({ ...cell.version, edits: [...cell.version.edits], session: "", want: "proof", arm: null }), first, `seed ${seed}`);
+    assert.equal(written({ ...cell.version, edits: [...cell.version.edits], session: "", want: "proof", arm: null, guessed: false }), first, `seed ${seed}`);
     for (let k = 1; k < steps; k++) cell.redo();
     assert.ok(sameVersion(cell.version, last), `seed ${seed}`);
     cell.history.steps.forEach(({ version }, k) => {
