@@ -209,7 +209,7 @@ fn run_washing(
     let search_time = arguments.motion.search_time();
     let remedies = infeasible::remedies_of_proof(options, scenario, (arm, &certificate), search_time)?;
     let (executed, region) = (simulation.executed(), scenario.task_region());
-    // Outlives the files, which refer to it.
+    #[expect(clippy::needless_late_init, reason = "it must outlive the files, which refer to it")]
     let report;
     let (page, files) = rayon::join(
         || page::of(options, plan, arm, Some(&certificate), executed.as_ref(), &region),
