@@ -147,18 +147,27 @@ impl PlanUnderProof<'_> {
         let exclusions = Exclusions::of(subject)?;
         let model = exclusions.model(subject)?;
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
-        let along = arm.along(pieces);
-        let tips = Tips::new(&arm, subject, &along, schedule);
-        let wash_paths = wash_paths::check(plan);
-        let deviations = following::checks(&arm, subject, (pieces, &along), schedule);
-        // A deviation bounds the distance from the plate only where the stated path is on it.
-        let path_deviation_m = deviations[0].measure.and_then(|m| m.bound);
-        let path_deviation_m = path_deviation_m.filter(|_| wash_paths.status == Status::Proved);
-        let washes = self.washes(&arm, &along, &tips, path_deviation_m)?;
+        // Both have steps that keep a thread or two busy, no more.
+        let judge_tip = || {
+            let along = arm.along(pieces);
+            let (tips, deviations) = rayon::join(
+                || Tips::new(&arm, subject, &along, schedule),
+                || following::checks(&arm, subject, (pieces, &along), schedule),
+            );
+            let wash_paths = wash_paths::check(plan);
+            // A deviation bounds the distance from the plate only where the stated path is on it.
+            let path_deviation_m = deviations[0].measure.and_then(|m| m.bound);
+            let path_deviation_m = path_deviation_m.filter(|_| wash_paths.status == Status::Proved);
+            let washes = self.washes(&arm, &along, &tips, path_deviation_m)?;
+            Ok::<_, ProveError>((along, tips, wash_paths, deviations, washes))
+        };
+        let waived = exclusions.waived_in(&model);
+        let judge_pairs = || pairs::judge(subject, &model, &waived, self.timeline, schedule, self.cancel);
+        let (tip, clearance) = rayon::join(judge_tip, judge_pairs);
+        let (along, tips, wash_paths, deviations, washes) = tip?;
+        let clearance = clearance?;
         let contact: Vec<_> = washes.iter().filter_map(|wash| wash.contact).collect();
         let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
-        let waived = exclusions.waived_in(&model);
-        let clearance = pairs::judge(subject, &model, &waived, self.timeline, schedule, self.cancel)?;
         let upright_cosine = |plate| schedule.map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate));
 
         let mut checks = vec![
