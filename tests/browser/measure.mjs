@@ -58,6 +58,8 @@ async function drops(opened, count) {
     rows.push(
       await opened.evaluate(() => {
         const last = window.platewash.edit.timings().findLast(({ want }) => want === "proof");
+        // Where there is no plan there is nothing to measure.
+        if (last.drawnProof === null) return null;
         const since = (time) => time - Math.max(last.asked, window.dropped);
         const steps = Object.entries(last.ms).map(([name, ms]) => [`server: ${name}`, ms]);
         return {
@@ -67,7 +69,7 @@ async function drops(opened, count) {
       }),
     );
   }
-  return medians(rows);
+  return medians(rows.filter((row) => row !== null));
 }
 
 try {

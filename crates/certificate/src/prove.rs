@@ -147,7 +147,7 @@ impl PlanUnderProof<'_> {
         let exclusions = Exclusions::of(subject)?;
         let model = exclusions.model(subject)?;
         let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
-        // Both have steps that keep a thread or two busy, no more.
+        // Tip and pairs are judged apart from each other, and neither keeps all threads busy.
         let judge_tip = || {
             let along = arm.along(pieces);
             let (tips, deviations) = rayon::join(

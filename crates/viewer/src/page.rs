@@ -152,17 +152,15 @@ fn escaped(text: &str) -> String {
     })
 }
 
-/// True for bytes of characters that are never replaced.
-fn is_plain(byte: u8) -> bool {
-    byte.is_ascii() && !matches!(byte, b'&' | b'<' | b'>' | b'"' | b'\'')
-}
-
 fn replaced(text: &str, by: impl Fn(char) -> Option<&'static str>) -> String {
     let mut written = String::with_capacity(text.len() + text.len() / 16);
     let mut kept = 0;
-    // Bytes are looked at faster than characters; base64 and most of JSON is letters, digits and other plain signs.
-    for (at, _) in text.bytes().enumerate().filter(|(_, byte)| !is_plain(*byte)) {
-        let found = text.get(at..).and_then(|rest| rest.chars().next());
+    for (at, byte) in text.bytes().enumerate() {
+        // Nearly all of a document is ASCII, of which a byte is a character.
+        let found = match byte.is_ascii() {
+            true => Some(char::from(byte)),
+            false => text.get(at..).and_then(|rest| rest.chars().next()),
+        };
         if let Some((c, other)) = found.and_then(|c| Some((c, by(c)?))) {
             written.push_str(&text[kept..at]);
             written.push_str(other);
