@@ -13,6 +13,7 @@
 //! | the motion: joints, tip, wrist | `motion` |
 //! | clearance of every pair of bodies | `clearance` |
 //! | the tip and the sponge on the plates: coverage, contact, force, landing, reach | `washing` |
+//! | when the dose of places of a plate is proved, for display | `dose_times` |
 //! | the motion that a robot's controller makes of a plan | `program` |
 //! | a motion of an arm alone, by any planner | `arm_motion` |
 //! | the certificate and its texts | `report` |
@@ -20,6 +21,7 @@
 mod arm_motion;
 mod certified;
 mod clearance;
+mod dose_times;
 mod error;
 mod motion;
 mod program;
@@ -35,6 +37,7 @@ pub use crate::arm_motion::{ArmMotionProof, MotionRules, Timing, prove_arm_motio
 pub use crate::certified::{Certified, CertifyError, certify, certify_with};
 pub use crate::clearance::moments::ClearanceRule;
 pub use crate::clearance::pairs::{PairBound, PairRule};
+pub use crate::dose_times::{DoseTimes, dose_times};
 pub use crate::error::ProveError;
 pub use crate::program::{ProgramLimits, ProgramProof, prove_program};
 pub use crate::prove::{MotionProof, prove, prove_motion, prove_with};

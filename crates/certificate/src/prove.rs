@@ -273,13 +273,13 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
 }
 
 /// Checks that the job can be computed with, and that its bodies are valid.
-fn check_job(job: &JobTerms) -> Result<(), ProveError> {
+pub(crate) fn check_job(job: &JobTerms) -> Result<(), ProveError> {
     job.validate()?;
     subject::check(&job.workcell)
 }
 
 /// Returns the pieces of the motion.
-fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
+pub(crate) fn read(knots: &Knots) -> Result<Vec<Piece>, ProveError> {
     long_enough(piece::pieces(knots)?)
 }
 

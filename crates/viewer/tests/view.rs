@@ -196,6 +196,26 @@ fn the_pressed_share_agrees_with_the_proof() {
         serde_json::to_value(plan.job.requirements.contact).unwrap()
     );
     assert_eq!(contact["plates"], serde_json::json!([proved]));
+    // Dirt goes where the dose is proved. Without a certificate there is none.
+    let dirt = &shown["dirt"][0];
+    assert_eq!(
+        (&dirt["plate"], &dirt["dose_pa_m"]),
+        (&Value::from(0), &Value::from(proved.dose.threshold))
+    );
+    let (clean, _) = numbers(&dirt["clean"]);
+    let inside: Vec<_> = clean.iter().filter(|step| **step != 65534.0).collect();
+    let share = inside.iter().filter(|step| ***step < 65534.0).count() as f64 / inside.len() as f64;
+    assert!(
+        (share - proved.dose.at_least).abs() < 0.01,
+        "{share} {}",
+        proved.dose.at_least
+    );
+    let step_s = dirt["step_s"].as_f64().unwrap();
+    let washes = plan.segments.iter().filter(|segment| segment.kind == SegmentKind::Wash);
+    let [start_s, end_s] = washes.map(|wash| [wash.t_start_s, wash.t_end_s]).next().unwrap();
+    let is_within = |step: f64| (start_s..=end_s + step_s).contains(&(step * step_s));
+    assert!(inside.iter().all(|step| **step == 65535.0 || is_within(**step)));
+    assert_eq!(document(&plan, None)["dirt"], serde_json::json!([]));
     for words in [
         "pressed",
         "contact time",

@@ -1,8 +1,8 @@
 //! Bounds of the contact, against the same model on fine squares: never above it, and little below.
 
-use crate::tests::foundation::raster;
+use crate::tests::foundation::{dose_times_s, raster};
 use crate::tests::maker::{Recipe, irb120};
-use crate::{PlateContact, Requirement, Status, prove};
+use crate::{PlateContact, Requirement, Status, dose_times, prove};
 use platewash_workcell::fixtures::is_thorough;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;
@@ -164,4 +164,51 @@ fn bounds_of_pressed_profiles_agree_with_the_model() {
 #[test]
 fn bounds_of_a_deep_plate_agree_with_the_model() {
     compare("deep230", &profile("deep230"));
+}
+
+/// Places on a grid of 9 mm: the proof of their dose comes after the model has it, and soon after.
+#[test]
+fn doses_of_places_are_proved_when_they_are_there_and_soon_after() {
+    for recipe in [disc(0.006, 4.0, rings()), profile("deep230")] {
+        let plan = recipe.plan();
+        let certificate = prove(&plan, &irb120()).unwrap();
+        let grid = |_, rim_m: f64| {
+            let line = || (-20..=20).map(|k| 0.009 * f64::from(k));
+            let all = line().flat_map(|x| line().map(move |y| [x, y]));
+            all.filter(|[x, y]| x * x + y * y <= rim_m * rim_m).collect::<Vec<_>>()
+        };
+        let proved = dose_times(&plan, &irb120(), &certificate, grid).unwrap();
+        let seen = dose_times_s(&plan, &grid(0, plan.job.plates[0].rim_m()));
+        assert_eq!((proved.len(), proved[0].times_s.len()), (1, seen.len()));
+        let (mut reached, mut soon) = (0, 0);
+        for (proved_s, seen_s) in proved[0].times_s.iter().zip(&seen) {
+            // The model looks every 2 ms.
+            assert!(*proved_s >= seen_s - 0.01, "{proved_s} s proved, {seen_s} s seen");
+            reached += usize::from(seen_s.is_finite());
+            soon += usize::from(seen_s.is_finite() && *proved_s <= seen_s + 0.1);
+        }
+        assert!(
+            reached > seen.len() / 2 && soon > 95 * reached / 100,
+            "{soon} of {reached} soon"
+        );
+    }
+}
+
+#[test]
+fn no_dose_is_proved_at_a_place_without_a_certificate_of_it() {
+    let mut recipe = disc(0.006, 4.0, rings());
+    let plan = recipe.plan();
+    let mut certificate = prove(&plan, &irb120()).unwrap();
+    certificate.contact[0].dose.at_least = 0.0;
+    assert_eq!(
+        dose_times(&plan, &irb120(), &certificate, |_, _| vec![[0.0; 2]]),
+        Ok(Vec::new())
+    );
+    recipe.terms.requirements.contact = None;
+    let plan = recipe.plan();
+    let certificate = prove(&plan, &irb120()).unwrap();
+    assert_eq!(
+        dose_times(&plan, &irb120(), &certificate, |_, _| vec![[0.0; 2]]),
+        Ok(Vec::new())
+    );
 }

@@ -233,3 +233,34 @@ pub fn raster(plan: &Plan) -> RasterResult {
         torque_nm: stiffness[1] / high * most(3),
     }
 }
+
+/// Time at which each place of the first plate has the wanted dose, at both extremes of the plate's height; infinite where it never has \[s\].
+pub fn dose_times_s(plan: &Plan, places: &[[f64; 2]]) -> Vec<f64> {
+    let moments = moments(plan);
+    let (plate, sponge) = (&plan.job.plates[0], &plan.job.workcell.tool.sponge);
+    let wanted = plan.job.requirements.contact.unwrap();
+    let meridian = Meridian::new(&plate.surface);
+    let (s, c) = (sponge.radius_m, sponge.compression_m);
+    let softness = sponge.stiffness_pa.unwrap()[0] / (sponge.height_m + c);
+    let wash = plan.segments.iter().find(|s| s.kind == SegmentKind::Wash).unwrap();
+    let one = |&[x, y]: &[f64; 2]| {
+        let [z, _] = meridian.at((x * x + y * y).sqrt());
+        let mut doses = [0.0; 2];
+        for (k, moment) in moments.iter().enumerate() {
+            for (dose, error) in doses.iter_mut().zip([-wanted.height_error_m, wanted.height_error_m]) {
+                let d = Vector3::new(x, y, z + error) - moment.tip;
+                let along = d.dot(&moment.axis);
+                let w = c - along;
+                if w >= wanted.compression_m && d.norm_squared() - along * along <= s * s {
+                    let v = moment.speed + moment.turning.cross(&d);
+                    *dose += softness * w * (v - moment.axis * v.dot(&moment.axis)).norm() * STEP_S;
+                }
+            }
+            if doses.iter().all(|dose| *dose >= wanted.dose_pa_m) {
+                return wash.t_start_s + STEP_S * (k as f64 + 1.0);
+            }
+        }
+        f64::INFINITY
+    };
+    places.par_iter().map(one).collect()
+}

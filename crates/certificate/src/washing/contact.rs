@@ -13,7 +13,7 @@ use crate::washing::pressing::{self, DiscWashBounds, Extreme, FRICTION, Pressing
 use crate::washing::shares::{Fineness, Share, Shares, shares};
 use nalgebra::Vector3;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::contact::{ContactThresholds, Foundation};
+use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plate::Plate;
@@ -188,12 +188,7 @@ impl ContactInputs<'_> {
     /// Computes the shares, refined until they suffice or the smallest cells are reached.
     fn shares(&self) -> Shares {
         let wanted = self.wanted;
-        let asked = ContactThresholds {
-            compression_m: wanted.compression_m,
-            height_error_m: wanted.height_error_m,
-            time_s: wanted.time_s,
-            dose_pa_m: wanted.dose_pa_m,
-        };
+        let asked = wanted.thresholds();
         let fineness = Fineness {
             cell_m: SMALLEST_CELL_M,
             enough: [wanted.share, wanted.time_share, wanted.dose_share],

@@ -163,12 +163,7 @@ impl Promise {
         };
         Self {
             foundation,
-            thresholds: ContactThresholds {
-                compression_m: contact.compression_m,
-                height_error_m: contact.height_error_m,
-                time_s: contact.time_s,
-                dose_pa_m: contact.dose_pa_m,
-            },
+            thresholds: contact.thresholds(),
             shares: [
                 contact.share.max(requirements.coverage),
                 contact.time_share,

@@ -145,10 +145,8 @@ impl Judge<'_> {
             .map(|sample| self.moment(sample.t_s, &sample.state.q, &sample.state.qd, plate))
             .collect();
         let wanted = ContactThresholds {
-            compression_m: required.compression_m,
             height_error_m: 0.0,
-            time_s: required.time_s,
-            dose_pa_m: required.dose_pa_m,
+            ..required.thresholds()
         };
         let looks = ContactSampler::new(self.foundation, moments, wanted);
         let keeps = |got: &Dwell| {

@@ -257,6 +257,18 @@ export interface PlateCoverage {
   proved: number | null;
 }
 
+/** Dirt on a plate: proved, unlike what is sampled of its coverage, at the middles of the raster's cells. */
+export interface PlateDirt {
+  plate: number;
+  /** Half of the square's edge [m]: the rim's radius. */
+  half_m: number;
+  /** Dose that removes it [Pa·m]. */
+  dose_pa_m: number;
+  /** As `first` of the coverage: when the dose is proved there, in steps of `step_s`. */
+  clean: Numbers;
+  step_s: number;
+}
+
 /** What an arm did. */
 export interface Execution {
   /** `simulated`, `recorded` (a CSV), or `live`: then the arrays are empty and the samples come from the server. */
@@ -305,6 +317,8 @@ export interface View {
   clearance: Clearance | null;
   /** Of the planned motion. */
   coverage: PlateCoverage[];
+  /** Empty where no dose is proved, and in a live cell. */
+  dirt: PlateDirt[];
   execution: Execution | null;
   /** Address of a live run's events; null where there is none. */
   live: string | null;

@@ -18,6 +18,7 @@ function view(): View {
     heading: { scenario: "", seed: 0, hash: null, process: "wash", dry_run: null, treatment: "swept", robot: "", duration_s: 0 },
     certificate: null, arm: irb120(pose([0, 0, 0])), tool: TOOL, surroundings: { obstacles: [], base_circle_m: 0.28, polygon_m: null },
     plates: [plate(0.3), plate(0.6)], paths: [], segments: [], motion: null, pose_rad: [0, 0, 0, 0, 0, 0], clearance: null, coverage: [],
+    dirt: [],
     execution: null, live: null,
   };
 }

@@ -1,5 +1,6 @@
 //! Why there is nothing to show.
 
+use platewash_certificate::ProveError;
 use platewash_workcell::job::JobError;
 use platewash_workcell::trajectory::KnotError;
 
@@ -16,6 +17,9 @@ pub enum ViewError {
     /// A job with which nothing can be computed.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// A plan that cannot be judged, so that no dose is proved.
+    #[error(transparent)]
+    Dose(#[from] ProveError),
     /// A motion that goes on long after the plan.
     #[error(
         "the motion ends at {end_s} s, more than {slack_s} s after the plan, which ends at {plan_s} s: it is not of this plan"

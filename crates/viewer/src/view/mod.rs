@@ -12,6 +12,7 @@
 //! | the tip along the planned motion | `tips.rs` |
 //! | smallest distance over time | `clearance.rs` |
 //! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
+//! | dirt, until the proved dose is reached | `dirt.rs` |
 //! | executed motion: its data, its display | `execution.rs` |
 //! | a motion of an arm alone | `arm_motion.rs` |
 //!
@@ -23,6 +24,7 @@ mod body;
 mod certificate;
 mod clearance;
 pub(crate) mod coverage;
+mod dirt;
 mod error;
 mod execution;
 mod heading;
@@ -38,6 +40,7 @@ pub use body::{Body, Shape};
 pub use certificate::{Certificate, Check, Contact};
 pub use clearance::Clearance;
 pub use coverage::PlateCoverage;
+pub use dirt::PlateDirt;
 pub use error::ViewError;
 pub use execution::{ExecutedMotion, Execution, ExecutionFacts, Source};
 pub use heading::Heading;
@@ -91,6 +94,8 @@ pub struct View {
     pub clearance: Option<Clearance>,
     /// Coverage of the plates by the planned motion.
     pub coverage: Vec<PlateCoverage>,
+    /// Dirt on the plates; empty where no dose is proved.
+    pub dirt: Vec<PlateDirt>,
     /// Executed motion.
     pub execution: Option<Execution>,
     /// Address of a live run's events, beside that of the page.
@@ -164,6 +169,10 @@ impl View {
             motion: Some((&motion).into()),
             clearance: Clearance::new(plan, robot, &motion, certificate),
             coverage: coverage::plates(plan, certificate, |[from, to]| tips.during(from, to)),
+            dirt: match certificate {
+                Some(certificate) => dirt::plates(plan, robot, certificate)?,
+                None => Vec::new(),
+            },
             execution: execution.transpose()?,
             live: extras.events.map(str::to_owned),
             ..Self::of_terms(job, robot, &region, start)
@@ -216,6 +225,7 @@ impl View {
             pose_rad: (*q).into(),
             clearance: None,
             coverage: Vec::new(),
+            dirt: Vec::new(),
             execution: None,
             live: None,
         }

@@ -113,12 +113,25 @@ impl Raster {
         swept / all
     }
 
-    /// The raster in steps of time, for a motion of that duration \[s\].
-    pub fn marks(&self, duration_s: f64) -> Marks {
-        let shape = [self.cells, self.cells];
+    /// The middles of the cells inside the rim, row by row \[m\].
+    pub fn middles(&self) -> Vec<[f64; 2]> {
+        let inside = (0..self.first_s.len()).filter(|&cell| self.is_inside(cell));
+        inside
+            .map(|cell| [self.middle(cell % self.cells), self.middle(cell / self.cells)])
+            .collect()
+    }
+
+    /// Sets the first times \[s\] at the middles of the cells inside the rim.
+    pub fn arrive(&mut self, times_s: &[f64]) {
+        let inside: Vec<usize> = (0..self.first_s.len()).filter(|&cell| self.is_inside(cell)).collect();
+        for (cell, time_s) in inside.into_iter().zip(times_s) {
+            self.first_s[cell] = *time_s;
+        }
+    }
+
+    /// The first times in steps of time, and the step \[s\], for a motion of that duration \[s\].
+    pub fn first(&self, duration_s: f64) -> (Numbers, f64) {
         let step_s = (duration_s / MOST_STEPS).max(1e-3);
-        let longest_s = self.dwell_s.iter().copied().fold(0.0, f64::max);
-        let dwell_step_s = (longest_s / 255.0).max(1e-3);
         let first = self.first_s.iter().enumerate().map(|(cell, first_s)| {
             if !self.is_inside(cell) {
                 OUTSIDE
@@ -128,14 +141,22 @@ impl Raster {
                 NEVER
             }
         });
+        (Numbers::u16([self.cells, self.cells], first), step_s)
+    }
+
+    /// The raster in steps of time, for a motion of that duration \[s\].
+    pub fn marks(&self, duration_s: f64) -> Marks {
+        let (first, step_s) = self.first(duration_s);
+        let longest_s = self.dwell_s.iter().copied().fold(0.0, f64::max);
+        let dwell_step_s = (longest_s / 255.0).max(1e-3);
         let dwell = self
             .dwell_s
             .iter()
             .map(|s| (s / dwell_step_s).round().clamp(0.0, 255.0) as u8);
         Marks {
-            first: Numbers::u16(shape, first),
+            first,
             step_s,
-            dwell: Numbers::u8(shape, dwell),
+            dwell: Numbers::u8([self.cells, self.cells], dwell),
             dwell_step_s,
         }
     }

@@ -5,6 +5,7 @@
 //! Settings of the planner. They are part of the job and its hash, and are not judged.
 
 use crate::arc::Arc as ArcRoundBase;
+use crate::contact::ContactThresholds;
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
 
@@ -118,6 +119,19 @@ pub struct ContactRequirements {
     pub dose_pa_m: f64,
     /// Least share of the face with that dose.
     pub dose_share: f64,
+}
+
+impl ContactRequirements {
+    /// The amounts that are required at a place.
+    #[must_use]
+    pub const fn thresholds(&self) -> ContactThresholds {
+        ContactThresholds {
+            compression_m: self.compression_m,
+            height_error_m: self.height_error_m,
+            time_s: self.time_s,
+            dose_pa_m: self.dose_pa_m,
+        }
+    }
 }
 
 /// Planner of a job, with its settings.

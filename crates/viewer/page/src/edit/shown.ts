@@ -37,6 +37,7 @@ export class ViewMaker {
       pose_rad: cell.pose_rad,
       clearance: plan?.clearance ?? null,
       coverage: (plan?.coverage ?? []).map((one) => withProof(one, proof)),
+      dirt: NONE,
       execution: null,
       live: null,
     };

@@ -19,13 +19,14 @@ import { type Extent, extentOf } from "./views.ts";
 
 /** What can be shown or hidden. */
 export type Layer =
-  | "arm" | "bodies" | "plates" | "coverage" | "paths" | "transits" | "executed" | "tip" | "clearance" | "region" | "obstacles" | "floor";
+  | "arm" | "bodies" | "plates" | "coverage" | "dirt" | "paths" | "transits" | "executed" | "tip" | "clearance" | "region" | "obstacles" | "floor";
 
 /** Their names on the page, in its order. */
 export const LABELS: Record<Layer, string> = {
   arm: "Arm and tool",
   plates: "Plates",
   coverage: "What is swept of the plates",
+  dirt: "Dirt, until the dose is proved",
   paths: "Wash paths",
   transits: "Transits",
   executed: "Executed path",
@@ -49,6 +50,7 @@ export interface Kept {
   /** Where plates lie and what they look like; coverage apart. */
   plates: boolean;
   planned: boolean;
+  dirt: boolean;
   executed: boolean;
   /** All ways of the tip. */
   paths: boolean;
@@ -85,6 +87,7 @@ export function keptOf(before: View, after: View): Kept {
       marksHeight(before) === marksHeight(after),
     plates,
     planned: sameList(before.coverage, after.coverage),
+    dirt: sameList(before.dirt, after.dirt),
     executed: execution,
     paths: arm && tool && plates && motion && execution && sameList(before.paths, after.paths),
     extent: arm && tool && obstacles && plates && motion && same(before.pose_rad, after.pose_rad),
@@ -92,7 +95,7 @@ export function keptOf(before: View, after: View): Kept {
 }
 
 const NOTHING: Kept = {
-  arm: false, tool: false, obstacles: false, floor: false, plates: false, planned: false, executed: false, paths: false, extent: false,
+  arm: false, tool: false, obstacles: false, floor: false, plates: false, planned: false, dirt: false, executed: false, paths: false, extent: false,
 };
 
 export class Content {
@@ -143,6 +146,7 @@ export class Content {
       this.tool.setPlates(view.plates);
     }
     if (!kept.planned) this.plates.cover("planned", view.coverage.map(decodeCoverage));
+    if (!kept.plates || !kept.dirt) this.plates.lay(view.dirt);
     if (!kept.executed) this.plates.cover("executed", (view.execution?.coverage ?? []).map(decodeCoverage));
     if (!kept.paths) {
       this.#retire(this.paths?.wash, this.paths?.transits, this.paths?.executed);

@@ -37,7 +37,7 @@ export interface Shown {
 }
 
 /** Layers of the plan, but the arm. */
-const OF_PLAN: ReadonlySet<Layer> = new Set(["coverage", "paths", "transits", "executed", "clearance"]);
+const OF_PLAN: ReadonlySet<Layer> = new Set(["coverage", "dirt", "paths", "transits", "executed", "clearance"]);
 /** Below this distance the commanded tip is not shown beside the tip [m]. */
 const APART_M = 0.0005;
 /** While plates are dragged their shadows follow so much later at most [ms], and in haste. */
@@ -318,6 +318,7 @@ export class Scene {
     const on = this.#isOn(layer);
     for (const object of this.#content.objectsOf(layer)) object.visible = on;
     if (layer === "bodies") this.#content.bodies.setVisible(on);
+    if (layer === "dirt") this.#content.plates.dirt.setVisible(on);
     if (layer === "coverage") this.#content.plates.setCoverage(on);
   }
 

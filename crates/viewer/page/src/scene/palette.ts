@@ -26,6 +26,7 @@ export interface Palette {
   obstacle: string;
   porcelain: string;
   washed: string;
+  dirt: string;
   front: string;
   handle: string;
   sponge: string;
@@ -65,6 +66,7 @@ const LIGHT: Own = {
   obstacle: "#8796a5",
   porcelain: "#f4f5f4",
   washed: "#6fb7e0",
+  dirt: "#8a6134",
   front: "#d8f1ff",
   handle: "#8d97a0",
   sponge: "#f0c23c",
@@ -98,6 +100,7 @@ const DARK: Own = {
   obstacle: "#71808f",
   porcelain: "#e6e8e8",
   washed: "#5fa9d6",
+  dirt: "#7d5a31",
   handle: "#a3acb4",
   selected: "#7cc4ff",
   hovered: "#a9d3f2",

@@ -2,7 +2,8 @@
 import { type BufferGeometry, Color, DataTexture, FloatType, Group, LinearFilter, Matrix4, Mesh, type MeshStandardMaterial, type Object3D, RGBAFormat, RGFormat, SRGBColorSpace } from "three";
 import { colormap, type Coverage, dwellScale } from "../coverage.ts";
 import { matrixOf } from "../motion.ts";
-import type { Plate } from "../view.ts";
+import type { Plate, PlateDirt } from "../view.ts";
+import { Dirt, type Soil } from "./dirt.ts";
 import { fix, type Retired } from "./graph.ts";
 import type { Solid } from "./handles.ts";
 import type { Palette } from "./palette.ts";
@@ -26,6 +27,7 @@ interface Drawn {
   key: string;
   mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
   own: Sweep;
+  soil: Soil;
   moved: boolean;
 }
 
@@ -56,6 +58,7 @@ function heatTexture(): DataTexture {
 /** All plates of a document. */
 export class Plates {
   readonly root = new Group();
+  readonly dirt = new Dirt();
   readonly #studio: Studio;
   readonly #retired: Retired;
   readonly #shapes = new Map<string, BufferGeometry>();
@@ -116,6 +119,11 @@ export class Plates {
     this.#kind = null;
   }
 
+  /** Lays other dirt on the plates. */
+  lay(dirt: readonly PlateDirt[]): void {
+    this.dirt.lay(dirt, this.#drawn.map(({ soil }) => soil));
+  }
+
   #make(plate: Plate, key: string, segments: number): Drawn {
     const geometry = this.#shapes.get(key) ?? plateGeometry(plate, segments);
     this.#shapes.set(key, geometry);
@@ -124,17 +132,22 @@ export class Plates {
       sweepFrame: { value: new Float32Array([1, 1, 1]) },
       sweepNow: { value: new Float32Array([0, 0, 0, 1]) },
     };
+    const soil = this.dirt.clean();
     const look = { roughness: 0.22, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8, color: this.#porcelain };
-    const material = this.#studio.material(look, "plate", (shader) => sweepProgram(shader, own, this.#colours));
+    const material = this.#studio.material(look, "plate", (shader) => {
+      sweepProgram(shader, own, this.#colours);
+      this.dirt.program(shader, soil);
+    });
     const mesh = fix(new Mesh(geometry, material), plate.pose);
     mesh.castShadow = mesh.receiveShadow = true;
     this.root.add(mesh);
-    return { plate, key, mesh, own, moved: false };
+    return { plate, key, mesh, own, soil, moved: false };
   }
 
   setPalette(palette: Palette): void {
     this.#colours.sweptColour.value.set(palette.washed);
     this.#colours.frontColour.value.set(palette.front);
+    this.dirt.setColour(palette.dirt);
     this.#porcelain.set(palette.porcelain);
     for (const { mesh } of this.#drawn) mesh.material.color.copy(this.#porcelain);
   }

@@ -1,5 +1,6 @@
 /** Each plate's coverage: a map that builds up as time runs, and how much of the plate that is. */
 import { cssGradient, decodeCoverage, dwellScale, PlateMap, shareAt, type Coverage } from "../coverage.ts";
+import { cleanShare } from "../dirt.ts";
 import { fixedShort, percentDown, plateName, quantity } from "../format.ts";
 import type { Follows, Player } from "../player.ts";
 import type { PlateCoverage } from "../view.ts";
@@ -139,13 +140,19 @@ export class Plates {
     });
     for (const { element } of this.#cards) this.#observer.observe(element);
     const inAir = this.#player.view.heading.dry_run === null ? "" : "Nothing is washed: what the sponge goes over in the air. ";
-    const words = `${inAir}In the order of washing. ${meaning(this.#coverages.all)} Sampled on a raster to look at; what is proved is below each map.`;
+    const words = `${inAir}In the order of washing. ${meaning(this.#coverages.all)} Sampled on a raster to look at; what is proved is below each map.${this.#dirtWords()}`;
     if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
       el("p", { class: "summary" }, words),
       this.#scale,
       el("ul", { class: "cards" }, ...this.#cards.map(({ element }) => element)),
     );
+  }
+
+  /** What dirt in the scene means. */
+  #dirtWords(): string {
+    const [dirt] = this.#player.view.dirt;
+    return dirt === undefined ? "" : ` Dirt in the scene lies until a dose of ${fixedShort(dirt.dose_pa_m, 1)}\u202fPa·m is proved there: what stays dirty is not proved clean.`;
   }
 
   #card(plate: number, seen: boolean): Card {
@@ -156,6 +163,7 @@ export class Plates {
     const final = this.#coverages.shareAt(plate, this.#player.coverageKind, Number.POSITIVE_INFINITY) ?? 0;
     const { proved = null, counted = null } = this.#coverages.of(plate, "planned") ?? {};
     const last = proved === null ? `in the end ${percentDown(final)}` : `proved: ${counted?.is_promised ? "pressed" : "swept"} ≥\u202f${percentDown(proved)}`;
+    const clean = cleanShare(this.#player.view, plate, Number.POSITIVE_INFINITY);
     const go = button({ class: "card-button", label: `Go to the washing of ${name}` }, () => this.#onPlate(plate), canvas);
     const element = el(
       "li",
@@ -163,7 +171,7 @@ export class Plates {
       go,
       el("div", { class: "card-words" }, isolated(name, { class: "card-name" }), el("strong", {}, share.node)),
       el("div", { class: "bar", set: { "aria-hidden": "true" } }, bar),
-      el("p", { class: "card-proved" }, last),
+      el("p", { class: "card-proved" }, clean === null ? last : `${last}, clean ≥\u202f${percentDown(clean)}`),
     );
     return { plate, element, canvas, share, bar, maps: {}, seen };
   }

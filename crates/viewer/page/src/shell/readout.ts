@@ -1,6 +1,7 @@
 /** State of the arm at this moment in figures, over the scene; and its joint angles in words. */
 import { Matrix4 } from "three";
 import { positionShare, stepLength } from "../curves.ts";
+import { cleanShare } from "../dirt.ts";
 import { degrees, fixed, millimetres, percent, percentDown, quantity, segmentWords } from "../format.ts";
 import { AXES, Kinematics } from "../motion.ts";
 import type { Player } from "../player.ts";
@@ -38,6 +39,7 @@ export class Readout {
   readonly #speed = figure("tip speed");
   readonly #clearance = figure("clearance");
   readonly #coverage = figure("swept");
+  readonly #clean = figure("clean, proved");
   readonly #error = figure("off the plan");
   readonly #swatch = el("span", { class: "swatch" });
   #shareAt: (plate: number, t: number) => number | null;
@@ -53,7 +55,7 @@ export class Readout {
       "div",
       { class: "readout" },
       el("p", { class: "activity" }, this.#swatch, el("bdi", {}, this.#activity.node)),
-      el("dl", { class: "figures" }, this.#speed.element, this.#coverage.element, this.#error.element, this.#clearance.element),
+      el("dl", { class: "figures" }, this.#speed.element, this.#coverage.element, this.#clean.element, this.#error.element, this.#clearance.element),
     );
   }
 
@@ -109,6 +111,10 @@ export class Readout {
     const share = plate === null || segment?.kind === "transit" ? null : this.#shareAt(plate, time);
     this.#coverage.element.classList.toggle("faint", share === null);
     this.#coverage.value.set(share === null ? "–" : percentDown(share));
+    const clean = share === null ? null : cleanShare(view, plate!, time);
+    this.#clean.element.hidden = view.dirt.length === 0;
+    this.#clean.element.classList.toggle("faint", clean === null);
+    this.#clean.value.set(clean === null ? "–" : percentDown(clean));
   }
 
   #showError(): void {
