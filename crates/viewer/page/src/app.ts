@@ -9,6 +9,7 @@ import { type Handle, handleOf } from "./handle.ts";
 import { Feed } from "./live.ts";
 import { Loop } from "./loop.ts";
 import { Player } from "./player.ts";
+import { BesidePanel } from "./shell/beside.ts";
 import { announce, byId, el, keepingFocus } from "./shell/dom.ts";
 import { Banner, Header } from "./shell/header.ts";
 import { Help, listenToKeys } from "./shell/keys.ts";
@@ -19,6 +20,7 @@ import { configuration, Readout } from "./shell/readout.ts";
 import { about, Requirements } from "./shell/requirements.ts";
 import { listenToPrint, Stage } from "./shell/stage.ts";
 import { ThemeControl } from "./shell/theme.ts";
+import { Tour } from "./shell/tour.ts";
 import { Transport } from "./shell/transport.ts";
 import type { Check, LiveEnd, View } from "./view.ts";
 
@@ -46,6 +48,8 @@ export class App {
   readonly #plots: Plots;
   readonly #plates: Plates;
   readonly #panels: Panels;
+  readonly #beside: BesidePanel | null;
+  readonly #tour: Tour | null;
   readonly #about = el("div");
   /** Plots wait until documents no longer follow each other. */
   #plotsTimer = 0;
@@ -87,6 +91,11 @@ export class App {
     this.#plates = new Plates(this.#player, coverages, (plate) => this.#toPlate(plate));
     this.#editor = edit === null ? null : this.#makeEditor(edit, view, playground);
     this.#about.replaceChildren(about(view));
+    const { scene } = this.#stage;
+    this.#beside = view.beside === null || scene === null ? null : new BesidePanel(this.#player, view.beside, scene, () => this.#show());
+    if (this.#beside !== null) this.#stage.addTool(this.#beside.button, this.#beside.element);
+    this.#tour = !film || scene === null ? null : new Tour(this.#player, this.#controls, scene, (check) => this.#mark(check, false));
+    if (this.#tour !== null) this.#stage.addTool(this.#tour.button, this.#tour.label, this.#tour.element);
     this.#panels = new Panels([...(this.#editor?.panels ?? []), ...this.#makePanels(film)], this.#address.place.panel, () => this.#address.touch());
     this.#listen();
     this.#go(this.#address.place);
@@ -117,6 +126,7 @@ export class App {
       this.#readout?.replace(this.#shareIn(coverages));
       this.#transport?.replace(view, this.#player.duration);
       this.#requirements.replace(view);
+      this.#tour?.replaced();
       this.#plates.replace(coverages);
       if (this.#panels.shows("plates")) this.#plates.show();
       this.#about.replaceChildren(about(view));
@@ -188,11 +198,13 @@ export class App {
   #advance(now: number): boolean {
     this.#editor?.advance(now);
     const ran = this.#player.tick(now);
+    this.#tour?.advance(now);
     const anew = this.#anew;
     this.#anew = false;
     if (this.#player.phase !== null) this.#grow(now);
     if (!ran && !anew) return false;
     this.#stage.scene?.show(this.#player.show());
+    this.#beside?.update();
     const { playing } = this.#controls;
     this.#transport?.update(this.#player.time, this.#player.edge, now);
     this.#transport?.setPlaying(playing);
@@ -233,9 +245,10 @@ export class App {
   }
 
   /** Marks a requirement's worst place, or none. */
-  #mark(check: Check | null): void {
-    this.#stage.scene?.focus(check?.worst.place_m ?? null);
-    this.#requirements.mark(check);
+  #mark(check: Check | null, looks = true): void {
+    this.#stage.scene?.focus(check?.worst.place_m ?? null, looks);
+    // Under the scene, a row in sight would take the scene out of it.
+    this.#requirements.mark(check, looks || matchMedia("(min-width: 880px)").matches);
   }
 
   /** Goes to where a requirement is worst. */

@@ -51,7 +51,7 @@ export class Recording {
   readonly #error: Column;
   #hint = 0;
 
-  constructor(execution: Execution) {
+  constructor(execution: Pick<Execution, "t_s" | "q_rad" | "torque_n_m"> & { error_m: Execution["error_m"] | null }) {
     this.#t = column(execution.t_s);
     this.#q = column(execution.q_rad);
     this.#torque = column(execution.torque_n_m);

@@ -15,6 +15,9 @@ export interface Verdict {
 
 const WORDS: Record<Status, string> = { proved: "Proved", violated: "Violated", not_proved: "Not proved", waived: "Waived" };
 
+/** The verdict at the beginning of a headline, which the badge says. */
+export const VERDICT = /^(NOT )?PROVED[^:]*: /;
+
 /** The worst status first. */
 export const RANK: Record<Status, number> = { violated: 0, not_proved: 1, waived: 2, proved: 3 };
 

@@ -296,6 +296,20 @@ export interface Execution {
   coverage: PlateCoverage[];
 }
 
+/** What another program makes of the same arm and plates. Nothing of it is proved. */
+export interface Beside {
+  /** Of the program. */
+  name: string;
+  /** First line of its report. */
+  headline: string;
+  duration_s: number;
+  /** [n] */
+  t_s: Numbers;
+  /** [n, 6] */
+  q_rad: Numbers;
+  coverage: PlateCoverage[];
+}
+
 export interface View {
   format: "platewash-view/2";
   /** Of platewash. */
@@ -320,6 +334,7 @@ export interface View {
   /** Empty where no dose is proved, and in a live cell. */
   dirt: PlateDirt[];
   execution: Execution | null;
+  beside: Beside | null;
   /** Address of a live run's events; null where there is none. */
   live: string | null;
 }

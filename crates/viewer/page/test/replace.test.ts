@@ -19,7 +19,8 @@ function view(): View {
     certificate: null, arm: irb120(pose([0, 0, 0])), tool: TOOL, surroundings: { obstacles: [], base_circle_m: 0.28, polygon_m: null },
     plates: [plate(0.3), plate(0.6)], paths: [], segments: [], motion: null, pose_rad: [0, 0, 0, 0, 0, 0], clearance: null, coverage: [],
     dirt: [],
-    execution: null, live: null,
+    execution: null,
+    beside: null, live: null,
   };
 }
 

@@ -15,8 +15,8 @@ use platewash_workcell::tool::{Tool, Touch};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Cells of all rasters of a page together, about.
-const CELLS: usize = 160_000;
+/// Cells of all rasters of a motion together, about.
+pub(super) const CELLS: usize = 80_000;
 
 /// Cells along an edge of a raster, at least and at most.
 const EDGE: [usize; 2] = [24, 88];
@@ -51,10 +51,12 @@ impl PlateCoverage {
     }
 }
 
-/// Rasters of all plates that a plan washes, in the order of washing, from the tip during each wash (from and to \[s\]).
+/// Rasters of all plates that a plan washes, with so many cells together, in the order of washing, from the tip during each wash (from and
+/// to \[s\]).
 pub(super) fn plates(
     plan: &Plan,
     certificate: Option<&proved::Certificate>,
+    cells: usize,
     tips: impl Fn([f64; 2]) -> Vec<Tip> + Sync,
 ) -> Vec<PlateCoverage> {
     let mut order: Vec<usize> = Vec::new();
@@ -63,7 +65,7 @@ pub(super) fn plates(
             order.push(plate);
         }
     }
-    let cells = edge(order.len());
+    let cells = (cells / order.len().max(1)).isqrt().clamp(EDGE[0], EDGE[1]);
     let duration_s = plan.duration_s();
     let one = |&index: &usize| {
         let plate = plan.job.plates.get(index)?;
@@ -95,12 +97,6 @@ fn thinned(way: &[Tip]) -> Vec<Tip> {
     }
     kept.push(*last);
     kept
-}
-
-/// Number of cells along an edge of a raster, by the number of plates, each of which may have two rasters.
-fn edge(plates: usize) -> usize {
-    let cells = CELLS / (2 * plates).max(1);
-    cells.isqrt().clamp(EDGE[0], EDGE[1])
 }
 
 /// The least share of a plate that counts, as it is proved.

@@ -11,7 +11,7 @@ use platewash_workcell::plan::Plan;
 use serde::Serialize;
 
 /// Cells of all rasters together, about.
-const CELLS: usize = 16_000;
+const CELLS: usize = 10_000;
 
 /// Cells along an edge of a raster, at least and at most.
 const EDGE: [usize; 2] = [24, 64];

@@ -167,6 +167,8 @@ pub struct Execution {
 }
 
 impl Execution {
+    /// `cells`: those of all coverage rasters together, about.
+    ///
     /// # Errors
     /// [`ViewError::BeyondEnd`].
     pub(super) fn new(
@@ -174,6 +176,7 @@ impl Execution {
         plan: &Plan,
         tips: &Tips<'_>,
         certificate: Option<&proved::Certificate>,
+        cells: usize,
     ) -> Result<Self, ViewError> {
         let (samples, plan_s) = (&executed.samples, plan.duration_s());
         let end_s = samples.last().map_or(0.0, |sample| sample.t_s);
@@ -189,7 +192,7 @@ impl Execution {
         let coverage = if samples.is_empty() {
             Vec::new()
         } else {
-            coverage::plates(plan, certificate, |span| tip_between(samples, tips, span))
+            coverage::plates(plan, certificate, cells, |span| tip_between(samples, tips, span))
         };
         Ok(Self {
             told: executed.facts.clone(),

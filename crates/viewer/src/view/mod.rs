@@ -14,12 +14,14 @@
 //! | swept or pressed area over time | `coverage.rs`, `pressed.rs`, `raster.rs` |
 //! | dirt, until the proved dose is reached | `dirt.rs` |
 //! | executed motion: its data, its display | `execution.rs` |
+//! | another program's motion on the same plates | `beside.rs` |
 //! | a motion of an arm alone | `arm_motion.rs` |
 //!
 //! Tool, obstacles, plates, segments and checks are as plan files and certificates state them.
 
 mod arm;
 mod arm_motion;
+mod beside;
 mod body;
 mod certificate;
 mod clearance;
@@ -36,6 +38,7 @@ pub(crate) mod tips;
 
 pub use arm::{Arm, Joint, Link};
 pub use arm_motion::ArmMotion;
+pub use beside::Beside;
 pub use body::{Body, Shape};
 pub use certificate::{Certificate, Check, Contact};
 pub use clearance::Clearance;
@@ -98,6 +101,8 @@ pub struct View {
     pub dirt: Vec<PlateDirt>,
     /// Executed motion.
     pub execution: Option<Execution>,
+    /// Another program's motion on the same plates, where it is asked for.
+    pub beside: Option<Beside>,
     /// Address of a live run's events, beside that of the page.
     pub live: Option<String>,
 }
@@ -159,7 +164,7 @@ impl View {
         let start = motion.positions().first().ok_or(ViewError::NoMotion)?;
         let tips = Tips::new(plan, robot, &motion);
         let execution = extras.executed;
-        let execution = execution.map(|executed| Execution::new(executed, plan, &tips, certificate));
+        let execution = execution.map(|executed| Execution::new(executed, plan, &tips, certificate, coverage::CELLS));
         let region = extras.region.cloned().unwrap_or_default();
         Ok(Self {
             heading: Heading::of_plan(plan),
@@ -168,7 +173,7 @@ impl View {
             segments: plan.segments.clone(),
             motion: Some((&motion).into()),
             clearance: Clearance::new(plan, robot, &motion, certificate),
-            coverage: coverage::plates(plan, certificate, |[from, to]| tips.during(from, to)),
+            coverage: coverage::plates(plan, certificate, coverage::CELLS, |[from, to]| tips.during(from, to)),
             dirt: match certificate {
                 Some(certificate) => dirt::plates(plan, robot, certificate)?,
                 None => Vec::new(),
@@ -227,6 +232,7 @@ impl View {
             coverage: Vec::new(),
             dirt: Vec::new(),
             execution: None,
+            beside: None,
             live: None,
         }
     }

@@ -39,6 +39,7 @@ export class ViewMaker {
       coverage: (plan?.coverage ?? []).map((one) => withProof(one, proof)),
       dirt: NONE,
       execution: null,
+      beside: null,
       live: null,
     };
     this.#made = { cell, plan, proof, view };

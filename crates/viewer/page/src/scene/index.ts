@@ -3,7 +3,8 @@ import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three"
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { ClearanceNow } from "../curves.ts";
 import type { Theme } from "../palette.ts";
-import type { View } from "../view.ts";
+import type { Beside, View } from "../view.ts";
+import { BesideCell } from "./beside.ts";
 import { Content, LABELS, type Layer, LAYERS } from "./content.ts";
 import { type EditActions, Editing } from "./editing.ts";
 import { Retired } from "./graph.ts";
@@ -13,7 +14,8 @@ import type { CoverageKind } from "./plates.ts";
 import { ClearanceLine } from "./proof.ts";
 import { Mark } from "./signs.ts";
 import { Stage, Studio } from "./stage.ts";
-import { type Preset, type Room, Views } from "./views.ts";
+import { SweptVolume } from "./swept.ts";
+import { type Extent, type Preset, type Room, Views } from "./views.ts";
 
 export type { Layer } from "./content.ts";
 export { SceneError } from "./stage.ts";
@@ -65,6 +67,8 @@ export class Scene {
   #shown: Shown | null = null;
   #nearest: ClearanceNow | null = null;
   #editing: Editing | null = null;
+  #beside: BesideCell | null = null;
+  #swept: SweptVolume | null = null;
   /** Whether there is something new to draw, and whether it changes the shadows. */
   #dirty = true;
   #moved = true;
@@ -101,9 +105,14 @@ export class Scene {
     this.#stage.prepare(this.#camera);
   }
 
+  /** What the picture has to hold. */
+  get #extent(): Extent {
+    return this.#beside?.extent ?? this.#content.extent;
+  }
+
   /** Lights all that there is, and lets the camera go as far as that needs. */
   #reach(): void {
-    const { sphere } = this.#content.extent;
+    const { sphere } = this.#extent;
     this.#controls.maxDistance = 60 * Math.max(1, sphere.radius);
     this.#stage.light(sphere);
   }
@@ -125,6 +134,37 @@ export class Scene {
     this.#editing?.replaced();
     this.#dirty = this.#moved = true;
     this.#haste.hurry();
+  }
+
+  /** Shows another program's cell beside that of the plan, or no longer. */
+  showBeside(beside: Beside | null): void {
+    if (this.#beside !== null) this.#retired.add(this.#beside.root);
+    const { view, extent } = this.#content;
+    this.#beside = beside === null ? null : new BesideCell(view, beside, extent, this.#studio, this.#retired);
+    if (this.#beside !== null) this.#stage.graph.add(this.#beside.root);
+    this.#beside?.setPalette(PALETTES[this.#theme]);
+    this.#reach();
+    this.#views.setExtent(this.#extent, this.#quick.matches);
+    this.#dirty = this.#moved = true;
+  }
+
+  /** Moves that cell to a time [s]. */
+  besideAt(t: number): void {
+    this.#beside?.show(t);
+  }
+
+  /** Shows the volume that is swept through rows of joints [rad], or none. */
+  showSwept(rows: Float64Array | null): void {
+    if (this.#swept !== null) this.#retired.add(this.#swept.root);
+    this.#swept = rows === null ? null : new SweptVolume(this.#content.view, rows);
+    this.#swept?.setPalette(PALETTES[this.#theme]);
+    if (this.#swept !== null) this.#stage.graph.add(this.#swept.root);
+    this.#dirty = true;
+  }
+
+  /** Draws it until a share of the motion. */
+  sweptUntil(share: number): void {
+    this.#swept?.until(share);
   }
 
   /** Lets hands move plates, and tells `actions` of it. */
@@ -286,6 +326,8 @@ export class Scene {
     this.#theme = theme;
     for (const part of [this.#stage, this.#studio, this.#content, this.#clearance, this.#mark]) part.setPalette(PALETTES[theme]);
     this.#editing?.setPalette(PALETTES[theme]);
+    this.#beside?.setPalette(PALETTES[theme]);
+    this.#swept?.setPalette(PALETTES[theme]);
     this.#dirty = true;
   }
 
@@ -332,11 +374,11 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** Marks a place and looks at it; null takes the mark away. */
-  focus(place_m: readonly [number, number, number] | null): void {
+  /** Marks a place and, where asked, looks at it; null takes the mark away. */
+  focus(place_m: readonly [number, number, number] | null, looks = true): void {
     const drawn = place_m !== null && place_m.every(Number.isFinite);
     this.#mark.show(drawn ? [...place_m] : null);
-    if (drawn) this.#views.look(new Vector3(...place_m), this.#quick.matches);
+    if (drawn && looks) this.#views.look(new Vector3(...place_m), this.#quick.matches);
     this.#dirty = true;
   }
 

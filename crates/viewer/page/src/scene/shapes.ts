@@ -110,8 +110,8 @@ function mesh(triangles: Float64Array): BufferGeometry {
   return corners.length / 9 <= CREASED ? toCreasedNormals(geometry, Math.PI / 6) : geometry;
 }
 
-/** Whether edges are as the shape has them or rounded to look well. */
-export type Edges = "exact" | "rounded";
+/** Whether edges are as the shape has them, or rounded to look well; or the shape with few triangles, to be drawn many times. */
+export type Edges = "exact" | "rounded" | "coarse";
 
 /** The triangles of a shape, in its own frame [m], with an index. */
 export function geometryOf(shape: Shape, edges: Edges): BufferGeometry {
@@ -128,7 +128,7 @@ function trianglesOf(shape: Shape, edges: Edges): BufferGeometry {
   if ("mesh" in shape) return mesh(floats(shape.mesh.triangles));
   const round = edges === "rounded";
   // Where edges are drawn as lines, sides of few segments would have such.
-  const segments = (radius: number): number => (round ? segmentsRound(radius, ROUND) : ROUND);
+  const segments = (radius: number): number => (round ? segmentsRound(radius, ROUND) : edges === "coarse" ? FEWEST : ROUND);
   if ("box" in shape) {
     const [x, y, z] = shape.box.half_m.map(length) as [number, number, number];
     const edge = edgeOf(x, y, z);

@@ -2,7 +2,7 @@
 import { counted, fixed, quantity } from "../format.ts";
 import type { LivePhase } from "../live.ts";
 import type { Player } from "../player.ts";
-import { assumptions, statusWord, type Verdict, verdict, washed } from "../verdict.ts";
+import { assumptions, statusWord, type Verdict, verdict, washed, VERDICT } from "../verdict.ts";
 import type { View } from "../view.ts";
 import { announce, button, byId, type Child, el, icon, isolated, TextCell, toneIcon } from "./dom.ts";
 
@@ -135,8 +135,6 @@ export class Header {
   }
 }
 
-/** The verdict at the beginning of a headline, which the badge says. */
-const VERDICT = /^(NOT )?PROVED[^:]*: /;
 
 const WORDS: Record<LivePhase, string> = {
   connecting: "connecting …",

@@ -131,9 +131,9 @@ export class Requirements {
   }
 
   /** Marks the requirement whose worst place is shown. */
-  mark(check: Check | null): void {
+  mark(check: Check | null, scrolls = true): void {
     for (const [of, row] of this.#rows) row.classList.toggle("marked", of === check);
-    if (check !== null) this.#rows.get(check)?.scrollIntoView({ block: "nearest" });
+    if (check !== null && scrolls) this.#rows.get(check)?.scrollIntoView({ block: "nearest" });
   }
 
   #without(view: View): void {

@@ -108,6 +108,12 @@ export class Stage {
     return bottom - top > LEAST_ROOM ? { top, bottom } : { top: 0, bottom: 1 };
   }
 
+  /** Adds a tool, and what it shows over the scene. */
+  addTool(tool: HTMLElement, ...shown: HTMLElement[]): void {
+    this.#heat.before(tool);
+    this.#menu.after(...shown);
+  }
+
   camera(preset: string): void {
     const known = PRESETS.find(({ id }) => id === preset);
     if (known === undefined || this.scene === null) return;
