@@ -199,11 +199,6 @@ export class Player {
     return false;
   }
 
-  /** The planned joints [rad] at `t`, into `q`. */
-  plannedAt(t: number, q: Float64Array): void {
-    if (this.motion !== null) q.set(this.motion.at(t, this.#plan).q);
-  }
-
   #tickLive(now: number): boolean {
     const before = this.time;
     const end = this.recording?.end ?? 0;

@@ -258,15 +258,11 @@ export interface PlateCoverage {
 }
 
 /** Dirt on a plate: proved, unlike what is sampled of its coverage, at the middles of the raster's cells. */
-export interface PlateDirt {
-  plate: number;
-  /** Half of the square's edge [m]: the rim's radius. */
-  half_m: number;
+export interface PlateDirt extends Pick<PlateCoverage, "plate" | "half_m" | "step_s"> {
   /** Dose that removes it [Pa·m]. */
   dose_pa_m: number;
-  /** As `first` of the coverage: when the dose is proved there, in steps of `step_s`. */
+  /** As `first` of the coverage: when the dose is proved there. */
   clean: Numbers;
-  step_s: number;
 }
 
 /** What an arm did. */
@@ -296,18 +292,12 @@ export interface Execution {
   coverage: PlateCoverage[];
 }
 
-/** What another program makes of the same arm and plates. Nothing of it is proved. */
-export interface Beside {
-  /** Of the program. */
+/** What another program, with a name, makes of the same arm and plates. Nothing of it is proved. */
+export interface Beside extends Pick<Execution, "t_s" | "q_rad" | "coverage"> {
   name: string;
   /** First line of its report. */
   headline: string;
   duration_s: number;
-  /** [n] */
-  t_s: Numbers;
-  /** [n, 6] */
-  q_rad: Numbers;
-  coverage: PlateCoverage[];
 }
 
 export interface View {

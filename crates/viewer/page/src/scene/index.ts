@@ -1,25 +1,33 @@
 /** The workcell in three dimensions: all that is drawn of a document at a moment. */
-import { Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
+import { type Group, Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { ClearanceNow } from "../curves.ts";
 import type { Theme } from "../palette.ts";
-import type { Beside, View } from "../view.ts";
-import { BesideCell } from "./beside.ts";
+import type { View } from "../view.ts";
 import { Content, LABELS, type Layer, LAYERS } from "./content.ts";
 import { type EditActions, Editing } from "./editing.ts";
 import { Retired } from "./graph.ts";
 import { Haste } from "./haste.ts";
-import { PALETTES } from "./palette.ts";
+import { type Palette, PALETTES } from "./palette.ts";
 import type { CoverageKind } from "./plates.ts";
 import { ClearanceLine } from "./proof.ts";
 import { Mark } from "./signs.ts";
 import { Stage, Studio } from "./stage.ts";
-import { SweptVolume } from "./swept.ts";
 import { type Extent, type Preset, type Room, Views } from "./views.ts";
 
 export type { Layer } from "./content.ts";
+export { BesideCell } from "./beside.ts";
 export { SceneError } from "./stage.ts";
+export { SweptVolume } from "./swept.ts";
 export { PRESETS, type Preset, type Room } from "./views.ts";
+
+/** What can be in the picture beside the document's own content. */
+export interface Part {
+  root: Group;
+  /** What the picture has to hold then. */
+  extent?: Extent;
+  setPalette(palette: Palette): void;
+}
 
 /** A moment. */
 export interface Shown {
@@ -67,8 +75,7 @@ export class Scene {
   #shown: Shown | null = null;
   #nearest: ClearanceNow | null = null;
   #editing: Editing | null = null;
-  #beside: BesideCell | null = null;
-  #swept: SweptVolume | null = null;
+  readonly #parts = new Set<Part>();
   /** Whether there is something new to draw, and whether it changes the shadows. */
   #dirty = true;
   #moved = true;
@@ -107,7 +114,7 @@ export class Scene {
 
   /** What the picture has to hold. */
   get #extent(): Extent {
-    return this.#beside?.extent ?? this.#content.extent;
+    return [...this.#parts].find(({ extent }) => extent !== undefined)?.extent ?? this.#content.extent;
   }
 
   /** Lights all that there is, and lets the camera go as far as that needs. */
@@ -136,35 +143,19 @@ export class Scene {
     this.#haste.hurry();
   }
 
-  /** Shows another program's cell beside that of the plan, or no longer. */
-  showBeside(beside: Beside | null): void {
-    if (this.#beside !== null) this.#retired.add(this.#beside.root);
-    const { view, extent } = this.#content;
-    this.#beside = beside === null ? null : new BesideCell(view, beside, extent, this.#studio, this.#retired);
-    if (this.#beside !== null) this.#stage.graph.add(this.#beside.root);
-    this.#beside?.setPalette(PALETTES[this.#theme]);
+  /** Takes a part out of the picture and puts another one in. */
+  swap<P extends Part>(before: P | null, make: ((content: Content, studio: Studio, retired: Retired) => P) | null): P | null {
+    if (before !== null && this.#parts.delete(before)) this.#retired.add(before.root);
+    const part = make?.(this.#content, this.#studio, this.#retired) ?? null;
+    if (part !== null) {
+      part.setPalette(PALETTES[this.#theme]);
+      this.#parts.add(part);
+      this.#stage.graph.add(part.root);
+    }
     this.#reach();
     this.#views.setExtent(this.#extent, this.#quick.matches);
     this.#dirty = this.#moved = true;
-  }
-
-  /** Moves that cell to a time [s]. */
-  besideAt(t: number): void {
-    this.#beside?.show(t);
-  }
-
-  /** Shows the volume that is swept through rows of joints [rad], or none. */
-  showSwept(rows: Float64Array | null): void {
-    if (this.#swept !== null) this.#retired.add(this.#swept.root);
-    this.#swept = rows === null ? null : new SweptVolume(this.#content.view, rows);
-    this.#swept?.setPalette(PALETTES[this.#theme]);
-    if (this.#swept !== null) this.#stage.graph.add(this.#swept.root);
-    this.#dirty = true;
-  }
-
-  /** Draws it until a share of the motion. */
-  sweptUntil(share: number): void {
-    this.#swept?.until(share);
+    return part;
   }
 
   /** Lets hands move plates, and tells `actions` of it. */
@@ -326,8 +317,7 @@ export class Scene {
     this.#theme = theme;
     for (const part of [this.#stage, this.#studio, this.#content, this.#clearance, this.#mark]) part.setPalette(PALETTES[theme]);
     this.#editing?.setPalette(PALETTES[theme]);
-    this.#beside?.setPalette(PALETTES[theme]);
-    this.#swept?.setPalette(PALETTES[theme]);
+    for (const part of this.#parts) part.setPalette(PALETTES[theme]);
     this.#dirty = true;
   }
 

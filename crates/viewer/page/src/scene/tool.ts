@@ -33,32 +33,36 @@ vSponge = vec3(position.xy, position.z * pressSize.x);
 if (objectNormal.z > 0.9 && position.z > 0.99) objectNormal = mix(vec3(0.0, 0.0, 1.0), pressPlane.xyz, pressSize.z);
 `;
 
-const FRAGMENT_PARS = /* glsl */ `
-#include <common>
-varying vec3 vSponge;
-
-float spongeHash(vec3 p) {
+/** Smooth noise in space, from 0 to 1. */
+export const NOISE = /* glsl */ `
+float noiseHash(vec3 p) {
   p = fract(p * 0.3183099 + vec3(0.71, 0.113, 0.419));
   p *= 17.0;
   return fract(p.x * p.y * p.z * (p.x + p.y + p.z));
 }
 
-float spongeNoise(vec3 p) {
+float noise(vec3 p) {
   vec3 i = floor(p);
   vec3 f = fract(p);
   f = f * f * (3.0 - 2.0 * f);
-  vec4 low = vec4(spongeHash(i), spongeHash(i + vec3(1, 0, 0)), spongeHash(i + vec3(0, 1, 0)), spongeHash(i + vec3(1, 1, 0)));
-  vec4 high = vec4(spongeHash(i + vec3(0, 0, 1)), spongeHash(i + vec3(1, 0, 1)), spongeHash(i + vec3(0, 1, 1)), spongeHash(i + vec3(1, 1, 1)));
+  vec4 low = vec4(noiseHash(i), noiseHash(i + vec3(1, 0, 0)), noiseHash(i + vec3(0, 1, 0)), noiseHash(i + vec3(1, 1, 0)));
+  vec4 high = vec4(noiseHash(i + vec3(0, 0, 1)), noiseHash(i + vec3(1, 0, 1)), noiseHash(i + vec3(0, 1, 1)), noiseHash(i + vec3(1, 1, 1)));
   vec4 layer = mix(low, high, f.z);
   vec2 row = mix(layer.xz, layer.yw, f.x);
   return mix(row.x, row.y, f.y);
 }
 `;
 
+const FRAGMENT_PARS = /* glsl */ `
+#include <common>
+varying vec3 vSponge;
+
+${NOISE}`;
+
 const COLOUR = /* glsl */ `
 #include <color_fragment>
 float fine = clamp(0.0012 / max(length(fwidth(vSponge)), 1e-5), 0.0, 1.0);
-float pores = smoothstep(0.6, 0.85, spongeNoise(vSponge * 520.0)) + 0.6 * smoothstep(0.55, 0.85, spongeNoise(vSponge * 1100.0));
+float pores = smoothstep(0.6, 0.85, noise(vSponge * 520.0)) + 0.6 * smoothstep(0.55, 0.85, noise(vSponge * 1100.0));
 diffuseColor.rgb *= 1.0 - 0.22 * fine * min(pores, 1.0);
 `;
 

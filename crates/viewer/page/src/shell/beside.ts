@@ -1,70 +1,61 @@
-/** The plan and another program on one clock: a button that shows both cells, and how much of the plates each has washed by now. */
-import { percentDown, quantity } from "../format.ts";
-import { meaning } from "./plates.ts";
+/** The plan and another program on one clock: a button that shows both cells, and how much of the plates each has done by now. */
 import { type Coverage, decodeCoverage, shareAt } from "../coverage.ts";
+import { percentDown, quantity } from "../format.ts";
 import type { Player } from "../player.ts";
-import type { Scene } from "../scene/index.ts";
-import type { Beside } from "../view.ts";
+import { BesideCell, type Scene } from "../scene/index.ts";
+import type { Beside, PlateCoverage } from "../view.ts";
 import { button, el, TextCell } from "./dom.ts";
 
-interface Row {
-  element: HTMLElement;
-  coverage: Coverage[];
-  bar: HTMLElement;
-  share: TextCell;
-}
+const MEANING = "Share of all plates: pressed by the plan; under a sponge of 25 mm by the program, in contact or not.";
 
-function rowOf(name: string, coverage: Coverage[], title: string, tone = ""): Row {
-  const [bar, share] = [el("span", { class: "bar-fill" }), new TextCell()];
-  const element = el("div", { class: `beside-row ${tone}`, title }, el("span", {}, name), el("div", { class: "bar" }, bar), el("strong", {}, share.node));
-  return { element, coverage, bar, share };
-}
-
-/** Share of all plates, by their areas. */
+/** Share of all plates at `t` [s], by their areas. */
 function shareOfAll(coverage: readonly Coverage[], t: number): number {
-  const area = ({ half_m }: Coverage): number => half_m * half_m;
-  const all = coverage.reduce((sum, one) => sum + area(one), 0);
-  return all > 0 ? coverage.reduce((sum, one) => sum + area(one) * shareAt(one, t), 0) / all : 0;
+  const sum = (of: (one: Coverage) => number): number => coverage.reduce((all, one) => all + one.half_m ** 2 * of(one), 0);
+  return coverage.length === 0 ? 0 : sum((one) => shareAt(one, t)) / sum(() => 1);
+}
+
+/** A row with a bar, and what sets it to a time [s]. */
+function row(name: string, tone: string, documents: readonly PlateCoverage[]): { element: HTMLElement; set(t: number): void } {
+  const [bar, share, coverage] = [el("span", { class: "bar-fill" }), new TextCell(), documents.map(decodeCoverage)];
+  const set = (t: number): void => {
+    const done = shareOfAll(coverage, t);
+    bar.style.transform = `scaleX(${done.toFixed(4)})`;
+    share.set(percentDown(done));
+  };
+  return { element: el("div", { class: `beside-row ${tone}` }, el("span", {}, name), el("div", { class: "bar" }, bar), el("strong", {}, share.node)), set };
 }
 
 export class BesidePanel {
   readonly button: HTMLButtonElement;
-  readonly element = el("div", { class: "beside" });
-  readonly #rows: Row[];
-  readonly #note: TextCell = new TextCell();
-  readonly #beside: Beside;
+  readonly element: HTMLElement;
+  readonly #show: (t: number) => void;
   readonly #player: Player;
-  readonly #scene: Scene;
+  #cell: BesideCell | null = null;
 
   constructor(player: Player, beside: Beside, scene: Scene, changed: () => void) {
     this.#player = player;
-    this.#beside = beside;
-    this.#scene = scene;
-    const [own, other] = [player.view.coverage, beside.coverage].map((list) => list.map(decodeCoverage));
-    const title = "No sponge is in the program: it counts what a sponge of 25 mm would be over, in contact or not.";
-    this.#rows = [rowOf("This plan", own!, meaning(own!)), rowOf("Paper’s program", other!, title, "unproved")];
-    this.element.append(...this.#rows.map(({ element }) => element), el("p", {}, this.#note.node));
+    const { view } = player;
+    const rows = [row("This plan", "", view.coverage), row("Paper’s program", "unproved", beside.coverage)];
+    const note = new TextCell();
+    this.element = el("div", { class: "beside" }, ...rows.map(({ element }) => element), el("p", {}, note.node));
     this.element.hidden = true;
+    this.#show = (t) => {
+      for (const { set } of rows) set(t);
+      note.set(t < beside.duration_s ? MEANING : `It ended at ${quantity(beside.duration_s, 2, "s")}. ${beside.headline}`);
+    };
     this.button = button({ class: "button text-button", title: "The paper’s program beside this plan, on one clock", set: { "aria-pressed": "false" } }, () => {
-      const on = this.element.hidden;
+      const on = this.#cell === null;
+      this.#cell = scene.swap(this.#cell, on ? ({ extent }, studio, retired) => new BesideCell(view, beside, extent, studio, retired) : null);
       this.element.hidden = !on;
       this.button.setAttribute("aria-pressed", String(on));
-      scene.showBeside(on ? beside : null);
       changed();
     }, "Beside the paper");
   }
 
   /** Shows the moment. */
   update(): void {
-    if (this.element.hidden) return;
-    const { time } = this.#player;
-    this.#scene.besideAt(time);
-    for (const { coverage, bar, share } of this.#rows) {
-      const done = shareOfAll(coverage, time);
-      bar.style.transform = `scaleX(${done.toFixed(4)})`;
-      share.set(percentDown(done));
-    }
-    const { headline, duration_s } = this.#beside;
-    this.#note.set(time < duration_s ? "Share of all plates: pressed by the plan; under a sponge of 25 mm by the program." : `It ended at ${quantity(duration_s, 2, "s")}. ${headline}`);
+    if (this.#cell === null) return;
+    this.#cell.show(this.#player.time);
+    this.#show(this.#player.time);
   }
 }

@@ -9,17 +9,8 @@ const [WIDTH, HEIGHT, MARGIN] = [1200, 675, 36];
 /** Requirements with a number that a card names. */
 const NAMED = 7;
 
-/** The lines of a card. */
-export interface CardWords {
-  badge: string;
-  headline: string;
-  measures: string[];
-  rests: string;
-  origin: string;
-}
-
 /** What a card says of a proved plan, never more than its certificate. */
-export function cardWords(view: View): CardWords {
+export function cardWords(view: View) {
   const certificate = view.certificate!;
   const { word, sentence } = verdict(view);
   const measured = grouped(certificate.checks).flatMap(({ checks }) => checks.filter(({ measure }) => measure !== undefined).slice(0, 3));
@@ -34,7 +25,7 @@ export function cardWords(view: View): CardWords {
   };
 }
 
-export function cardText({ badge, headline, measures, rests, origin }: CardWords): string {
+export function cardText({ badge, headline, measures, rests, origin }: ReturnType<typeof cardWords>): string {
   return [`${badge.toUpperCase()}: ${headline}`, ...measures.map((line) => `- ${line}`), rests, origin, "Check it: platewash verify plan.json"].join("\n");
 }
 
@@ -57,27 +48,26 @@ function draw(canvas: HTMLCanvasElement, view: View, scene: HTMLImageElement): v
   const context = canvas.getContext("2d");
   if (context === null) return;
   const style = getComputedStyle(document.documentElement);
-  const colour = (name: string): string => style.getPropertyValue(name).trim();
   const { badge, headline, measures, rests, origin } = cardWords(view);
   const { tone } = verdict(view);
-  context.fillStyle = colour("--surface");
+  const pen = (size: number, weight: number, colour: string): void => {
+    context.font = `${weight} ${size}px system-ui, sans-serif`;
+    context.fillStyle = style.getPropertyValue(colour).trim();
+  };
+  pen(34, 750, "--surface");
   context.fillRect(0, 0, WIDTH, HEIGHT);
   const half = WIDTH / 2;
   const scale = Math.max(half / scene.width, HEIGHT / scene.height);
   const [width, height] = [half / scale, HEIGHT / scale];
   context.drawImage(scene, (scene.width - width) / 2, (scene.height - height) / 2, width, height, 0, 0, half, HEIGHT);
   const [x, room] = [half + MARGIN, half - 2 * MARGIN];
-  const font = (size: number, weight = 400): string => `${weight} ${size}px system-ui, sans-serif`;
-  context.fillStyle = colour(tone === "none" ? "--muted" : `--status-${tone}`);
-  context.font = font(34, 750);
+  pen(34, 750, tone === "none" ? "--muted" : `--status-${tone}`);
   let y = write(context, badge.toUpperCase(), x, 74, room, 40);
-  context.fillStyle = colour("--ink");
-  context.font = font(23, 600);
+  pen(23, 600, "--ink");
   y = write(context, headline, x, y, room, 31) + 14;
-  context.font = font(20);
+  pen(20, 400, "--ink");
   for (const line of measures) y = write(context, line, x, y, room, 31);
-  context.fillStyle = colour("--muted");
-  context.font = font(16);
+  pen(16, 400, "--muted");
   y = write(context, rests, x, y + 10, room, 21);
   write(context, origin, x, Math.max(y + 6, HEIGHT - 58), room, 20);
 }

@@ -140,19 +140,15 @@ export class Plates {
     });
     for (const { element } of this.#cards) this.#observer.observe(element);
     const inAir = this.#player.view.heading.dry_run === null ? "" : "Nothing is washed: what the sponge goes over in the air. ";
-    const words = `${inAir}In the order of washing. ${meaning(this.#coverages.all)} Sampled on a raster to look at; what is proved is below each map.${this.#dirtWords()}`;
+    const [dirt] = this.#player.view.dirt;
+    const dirtWords = dirt === undefined ? "" : ` Dirt in the scene lies until a dose of ${fixedShort(dirt.dose_pa_m, 1)}\u202fPa·m is proved there: what stays dirty is not proved clean.`;
+    const words = `${inAir}In the order of washing. ${meaning(this.#coverages.all)} Sampled on a raster to look at; what is proved is below each map.${dirtWords}`;
     if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
       el("p", { class: "summary" }, words),
       this.#scale,
       el("ul", { class: "cards" }, ...this.#cards.map(({ element }) => element)),
     );
-  }
-
-  /** What dirt in the scene means. */
-  #dirtWords(): string {
-    const [dirt] = this.#player.view.dirt;
-    return dirt === undefined ? "" : ` Dirt in the scene lies until a dose of ${fixedShort(dirt.dose_pa_m, 1)}\u202fPa·m is proved there: what stays dirty is not proved clean.`;
   }
 
   #card(plate: number, seen: boolean): Card {

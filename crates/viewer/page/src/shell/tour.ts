@@ -1,13 +1,13 @@
 /** “See the proof”: the film runs through, arm and tool leave the volume that they sweep, each requirement is ticked where it is worst, and a card ends it. */
 import type { Controls } from "../controls.ts";
 import { measureWords } from "../limits.ts";
-import { AXES } from "../motion.ts";
+import { newState } from "../motion.ts";
 import type { Player } from "../player.ts";
-import type { Scene } from "../scene/index.ts";
+import { type Scene, SweptVolume } from "../scene/index.ts";
 import { statusWord } from "../verdict.ts";
 import type { Check, View } from "../view.ts";
 import { ProofCard } from "./card.ts";
-import { announce, button, el, isolated, TextCell, toneIcon } from "./dom.ts";
+import { button, el, isolated, TextCell, toneIcon } from "./dom.ts";
 
 /** Moments of the volume. */
 const MOMENTS = 48;
@@ -23,8 +23,7 @@ export function canTour(view: View): boolean {
 
 /** The requirements that are worst at a time, in order of it. */
 export function stopsOf(checks: readonly Check[]): Check[] {
-  const timed = checks.filter(({ worst }) => worst.time_s !== undefined);
-  return timed.sort((a, b) => a.worst.time_s! - b.worst.time_s!);
+  return checks.filter(({ worst }) => worst.time_s !== undefined).sort((a, b) => a.worst.time_s! - b.worst.time_s!);
 }
 
 export class Tour {
@@ -40,11 +39,12 @@ export class Tour {
   readonly #card = new ProofCard(() => this.stop());
   #stops: Check[] = [];
   #next = 0;
-  #running = false;
-  /** Of the film before. */
+  /** While the tour runs. */
+  #volume: SweptVolume | null = null;
+  /** Speed of the film before. */
   #speed = 1;
-  /** Until when the film stands still [ms]; null while it runs. */
-  #until: number | null = null;
+  /** Until when the film stands still [ms]. */
+  #until = 0;
   #at: Check | null = null;
 
   constructor(player: Player, controls: Controls, scene: Scene, mark: (check: Check | null) => void) {
@@ -54,9 +54,9 @@ export class Tour {
     this.#mark = mark;
     const words = `The volume is drawn from ${MOMENTS} moments. The proof holds at every moment.`;
     this.element.append(el("strong", {}, this.#count.node), el("p", {}, words), button({ class: "button text-button" }, () => this.stop(), "Stop (Esc)"));
-    this.element.hidden = this.label.hidden = true;
-    document.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && this.#running) this.stop();
+    this.#hide();
+    document.addEventListener("keydown", ({ key }) => {
+      if (key === "Escape") this.stop();
     });
     this.replaced();
   }
@@ -67,32 +67,31 @@ export class Tour {
     this.button.hidden = !canTour(this.#player.view);
   }
 
+  #hide(): void {
+    this.element.hidden = this.label.hidden = true;
+  }
+
   #start(): void {
-    const { view, duration } = this.#player;
-    if (!canTour(view)) return;
+    const { view, motion, duration, clock } = this.#player;
     this.stop();
-    const rows = new Float64Array(MOMENTS * AXES);
-    for (let k = 0; k < MOMENTS; k++) this.#player.plannedAt((duration * k) / (MOMENTS - 1), rows.subarray(k * AXES, (k + 1) * AXES));
-    this.#scene.showSwept(rows);
-    this.#stops = stopsOf(view.certificate!.checks);
-    this.#next = 0;
-    this.#running = true;
+    const at = (k: number): Float64Array => motion!.at((duration * k) / (MOMENTS - 1), newState()).q;
+    const rows = Float64Array.from(Array.from({ length: MOMENTS }, (_, k) => [...at(k)]).flat());
+    this.#volume = this.#scene.swap(null, () => new SweptVolume(view, rows));
+    this.#stops = stopsOf(view.certificate?.checks ?? []);
+    this.#next = this.#until = 0;
     this.element.hidden = false;
+    this.#speed = clock.speed;
     this.#controls.follow("planned");
-    this.#speed = this.#player.clock.speed;
     this.#controls.setSpeed(Math.max(1, duration / FILM_S));
     this.#controls.seek(0);
     this.#controls.play();
-    announce("The proof begins");
   }
 
   stop(): void {
     this.#card.close();
-    if (!this.#running) return;
-    this.#running = false;
-    this.element.hidden = this.label.hidden = true;
-    this.#until = this.#at = null;
-    this.#scene.showSwept(null);
+    if (this.#volume === null) return;
+    this.#volume = this.#scene.swap(this.#volume, null);
+    this.#hide();
     this.#controls.pause();
     this.#controls.setSpeed(this.#speed);
     this.#mark(null);
@@ -100,30 +99,28 @@ export class Tour {
 
   /** Goes on to `now` [ms]. */
   advance(now: number): void {
-    if (!this.#running) return;
+    if (this.#volume === null) return;
     const { time, duration, view } = this.#player;
-    this.#scene.sweptUntil(duration > 0 ? time / duration : 1);
-    this.#place();
-    if (this.#until !== null) {
-      if (now < this.#until) return;
-      this.#until = null;
-      if (this.#next < this.#stops.length || time < duration) this.#controls.play();
-    }
-    const stop = this.#stops[this.#next];
+    this.#volume.until(time / duration);
     this.#count.set(`${this.#next} of ${this.#stops.length} requirements ticked where they are worst`);
-    if (stop !== undefined && time >= stop.worst.time_s! - 1e-9) {
-      this.#next++;
-      this.#show(stop, now);
-    } else if (stop === undefined && time >= duration) {
-      this.label.hidden = this.element.hidden = true;
+    const [x, y] = this.#scene.project(this.#at?.worst.place_m ?? this.#scene.tip()) ?? [0, 0];
+    this.label.style.translate = `${x.toFixed(0)}px ${y.toFixed(0)}px`;
+    if (now < this.#until) return;
+    if (this.#until > 0 && time < duration) this.#controls.play();
+    this.#until = 0;
+    const stop = this.#stops[this.#next];
+    if (stop !== undefined && time >= stop.worst.time_s! - 1e-9) this.#show(stop, now);
+    else if (stop === undefined && time >= duration) {
+      this.#until = Number.POSITIVE_INFINITY;
+      this.#hide();
       this.#mark(null);
       this.#card.show(view, this.#scene.picture(1.5));
-      this.#until = Number.POSITIVE_INFINITY;
     }
   }
 
   /** Stops at the worst place of a requirement. */
   #show(check: Check, now: number): void {
+    this.#next++;
     this.#controls.pause();
     this.#controls.seek(check.worst.time_s!);
     this.#mark(check);
@@ -133,13 +130,5 @@ export class Tour {
     this.label.replaceChildren(toneIcon(check.status), el("span", {}, isolated(check.words), " "), el("strong", {}, measure));
     this.label.hidden = false;
     this.#until = now + STOP_MS;
-    this.#place();
-  }
-
-  /** Keeps the label at its place. */
-  #place(): void {
-    const place = this.#at?.worst.place_m ?? this.#scene.tip();
-    const [x, y] = this.#scene.project(place) ?? [0, 0];
-    this.label.style.translate = `${x.toFixed(0)}px ${y.toFixed(0)}px`;
   }
 }
