@@ -17,8 +17,9 @@ function view(checks: Check[], passes: boolean): View {
 }
 
 test("a tour stops where requirements are worst, in order of time", () => {
-  const stops = stopsOf([check("late", "proved", 7), check("never", "proved"), check("early", "violated", 0)]);
-  assert.deepEqual(stops.map(({ words }) => words), ["early", "late"]);
+  const placed = { ...check("placed", "proved"), worst: { place_m: [0, 0, 0] as [number, number, number] } };
+  const stops = stopsOf([placed, check("late", "proved", 7), check("never", "proved"), check("early", "violated", 0)], 9);
+  assert.deepEqual(stops.map(({ check: { words }, t }) => [words, t]), [["early", 0], ["late", 7], ["placed", 9]]);
 });
 
 test("there is a tour of what is proved and moves only", () => {

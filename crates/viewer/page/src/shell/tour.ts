@@ -21,9 +21,10 @@ export function canTour(view: View): boolean {
   return view.certificate !== null && view.motion !== null;
 }
 
-/** The requirements that are worst at a time, in order of it. */
-export function stopsOf(checks: readonly Check[]): Check[] {
-  return checks.filter(({ worst }) => worst.time_s !== undefined).sort((a, b) => a.worst.time_s! - b.worst.time_s!);
+/** The requirements that are worst at a time [s], in order of it; those that are worst at a place alone in the end. */
+export function stopsOf(checks: readonly Check[], end: number): { check: Check; t: number }[] {
+  const placed = checks.filter(({ worst }) => worst.time_s !== undefined || worst.place_m !== undefined);
+  return placed.map((check) => ({ check, t: check.worst.time_s ?? end })).sort((a, b) => a.t - b.t);
 }
 
 export class Tour {
@@ -37,7 +38,7 @@ export class Tour {
   readonly #scene: Scene;
   readonly #mark: (check: Check | null) => void;
   readonly #card = new ProofCard(() => this.stop());
-  #stops: Check[] = [];
+  #stops: ReturnType<typeof stopsOf> = [];
   #next = 0;
   /** While the tour runs. */
   #volume: SweptVolume | null = null;
@@ -77,7 +78,7 @@ export class Tour {
     const at = (k: number): Float64Array => motion!.at((duration * k) / (MOMENTS - 1), newState()).q;
     const rows = Float64Array.from(Array.from({ length: MOMENTS }, (_, k) => [...at(k)]).flat());
     this.#volume = this.#scene.swap(null, () => new SweptVolume(view, rows));
-    this.#stops = stopsOf(view.certificate?.checks ?? []);
+    this.#stops = stopsOf(view.certificate?.checks ?? [], duration);
     this.#next = this.#until = 0;
     this.element.hidden = false;
     this.#speed = clock.speed;
@@ -103,13 +104,12 @@ export class Tour {
     const { time, duration, view } = this.#player;
     this.#volume.until(time / duration);
     this.#count.set(`${this.#next} of ${this.#stops.length} requirements ticked where they are worst`);
-    const [x, y] = this.#scene.project(this.#at?.worst.place_m ?? this.#scene.tip()) ?? [0, 0];
-    this.label.style.translate = `${x.toFixed(0)}px ${y.toFixed(0)}px`;
+    this.#place();
     if (now < this.#until) return;
     if (this.#until > 0 && time < duration) this.#controls.play();
     this.#until = 0;
     const stop = this.#stops[this.#next];
-    if (stop !== undefined && time >= stop.worst.time_s! - 1e-9) this.#show(stop, now);
+    if (stop !== undefined && time >= stop.t - 1e-9) this.#show(stop.check, stop.t, now);
     else if (stop === undefined && time >= duration) {
       this.#until = Number.POSITIVE_INFINITY;
       this.#hide();
@@ -119,10 +119,10 @@ export class Tour {
   }
 
   /** Stops at the worst place of a requirement. */
-  #show(check: Check, now: number): void {
+  #show(check: Check, t: number, now: number): void {
     this.#next++;
     this.#controls.pause();
-    this.#controls.seek(check.worst.time_s!);
+    this.#controls.seek(t);
     this.#mark(check);
     this.#at = check;
     const measure = check.measure === undefined ? statusWord(check.status) : measureWords(check.measure);
@@ -130,5 +130,13 @@ export class Tour {
     this.label.replaceChildren(toneIcon(check.status), el("span", {}, isolated(check.words), " "), el("strong", {}, measure));
     this.label.hidden = false;
     this.#until = now + STOP_MS;
+    this.#place();
+  }
+
+  /** Keeps the label beside its place. */
+  #place(): void {
+    const [x, y] = this.#scene.project(this.#at?.worst.place_m ?? this.#scene.tip()) ?? [0, 0];
+    this.label.style.translate = `${x.toFixed(0)}px ${y.toFixed(0)}px`;
+    this.label.classList.toggle("to-left", x > innerWidth / 2);
   }
 }
