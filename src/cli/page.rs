@@ -65,7 +65,7 @@ fn paper_beside(plan: &Plan, arm: &RobotModel) -> Option<Beside> {
     let report = run.report().ok()?;
     let is_swept = report.verdict == Verdict::Swept;
     let executed = ExecutedMotion::followed(&run.executed, job.simulation.law, &report.headline, is_swept);
-    Beside::new("paper's program", &run.plan().ok()?, arm, &executed).ok()
+    Beside::new(&run.plan().ok()?, arm, &executed).ok()
 }
 
 /// The page of a plan, to be written beside its report. Without a bundle there is none, and a line on standard error says why.

@@ -292,9 +292,8 @@ export interface Execution {
   coverage: PlateCoverage[];
 }
 
-/** What another program, with a name, makes of the same arm and plates. Nothing of it is proved. */
+/** What the paper's program makes of the same arm and plates. Nothing of it is proved. */
 export interface Beside extends Pick<Execution, "t_s" | "q_rad" | "coverage"> {
-  name: string;
   /** First line of its report. */
   headline: string;
   duration_s: number;

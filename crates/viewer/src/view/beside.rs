@@ -15,8 +15,6 @@ const CELLS: usize = 9_000;
 /// Executed motion of another program, with the arm of the plan and no tool.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Beside {
-    /// Name of the program.
-    pub name: &'static str,
     /// First line of the report on it.
     pub headline: String,
     /// Duration \[s\].
@@ -34,16 +32,10 @@ impl Beside {
     ///
     /// # Errors
     /// [`ViewError`] for a plan that is no motion, or another plan's motion.
-    pub fn new(
-        name: &'static str,
-        plan: &Plan,
-        robot: &RobotModel,
-        executed: &ExecutedMotion,
-    ) -> Result<Self, ViewError> {
+    pub fn new(plan: &Plan, robot: &RobotModel, executed: &ExecutedMotion) -> Result<Self, ViewError> {
         let motion = plan.knots.motion()?;
         let shown = Execution::new(executed, plan, &Tips::new(plan, robot, &motion), None, CELLS)?;
         Ok(Self {
-            name,
             headline: shown.told.headline.unwrap_or_default(),
             duration_s: plan.duration_s(),
             t_s: shown.t_s,
