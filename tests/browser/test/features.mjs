@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { shipped } from "../lib/command.mjs";
+import { changed, picture, projected } from "../lib/picture.mjs";
 import { address, open, seek, text } from "../lib/watched.mjs";
 
 const SMALL = { size: { width: 480, height: 360 } };
@@ -26,7 +27,12 @@ test("the clean share grows to what is proved, and dirt can be hidden", async (t
   const middle = await clean((wash.t_start_s + wash.t_end_s) / 2);
   const end = await clean(wash.t_end_s - 1e-3);
   assert.ok(middle > 0.1 && middle < end && end <= at_least && end > at_least - 0.03, `${middle}, ${end} of ${at_least}`);
+  await seek(page, 0);
+  const dirty = await picture(page);
+  const centres = await page.evaluate(() => window.platewash.view.plates.map(({ pose }) => pose.position_m));
   await page.evaluate(() => window.platewash.setLayer("dirt", false));
+  const bare = await picture(page);
+  for (const share of await changed(page, dirty, bare, await projected(page, centres), 30)) assert.ok(share > 0.3, `${share} of a plate was dirty`);
   quiet();
 });
 

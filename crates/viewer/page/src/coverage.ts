@@ -60,6 +60,15 @@ export const NEVER = 65535;
 /** A cell with its middle beyond the rim. */
 export const OUTSIDE = 65534;
 
+/** A time after all others [s]. */
+const LATER_S = 1e9;
+
+/** When a cell counts that has this mark [s]: after all others for never, below 0 beyond the rim. */
+export function timeOf(mark: number, step_s: number): number {
+  if (mark === OUTSIDE) return -1;
+  return mark === NEVER ? LATER_S : mark * step_s;
+}
+
 /** A raster as it is in the document, with its cells in the order in which they get swept. */
 export interface Coverage extends Pick<PlateCoverage, "plate" | "half_m" | "counted" | "step_s" | "dwell_step_s" | "proved"> {
   rows: number;

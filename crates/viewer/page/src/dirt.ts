@@ -1,16 +1,13 @@
 /** Dirt on the plates: when the certificate proves the dose at each place of a raster. */
-import { OUTSIDE } from "./coverage.ts";
+import { timeOf } from "./coverage.ts";
 import { decode, NumbersError } from "./numbers.ts";
 import type { PlateDirt, View } from "./view.ts";
-
-/** A time after all others [s]. */
-const LATER_S = 1e9;
 
 /** When each cell is clean [s]; below 0 where its middle is beyond the rim. `NumbersError` where the raster is none. */
 export function cleanTimes({ clean, step_s }: PlateDirt): Float32Array {
   const steps = decode(clean);
   if (!(steps instanceof Uint16Array)) throw new NumbersError("dirt: clean must be u16");
-  return Float32Array.from(steps, (step) => (step === OUTSIDE ? -1 : step > OUTSIDE ? LATER_S : step * step_s));
+  return Float32Array.from(steps, (step) => timeOf(step, step_s));
 }
 
 const SORTED = new WeakMap<PlateDirt, Float32Array>();

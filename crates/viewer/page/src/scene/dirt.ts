@@ -72,6 +72,7 @@ export class Dirt {
   }
 
   setVisible(on: boolean): void {
+    if (on === this.#on) return;
     this.#on = on;
     this.lay(this.#of, this.#soils);
   }

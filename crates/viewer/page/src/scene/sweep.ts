@@ -1,9 +1,6 @@
 /** Coverage on a face: a texture says when and for how long each place is swept, and the program compares that with the time. */
 import { Color, DataTexture, FloatType, NearestFilter, RGFormat, type WebGLProgramParametersWithUniforms } from "three";
-import { OUTSIDE, type Coverage } from "../coverage.ts";
-
-/** A time after all others [s]. */
-const LATER_S = 1e9;
+import { type Coverage, timeOf } from "../coverage.ts";
 
 const VERTEX_PARS = /* glsl */ `
 #include <common>
@@ -103,7 +100,7 @@ export function sweepTexture(coverage: Coverage): DataTexture {
   const { first, dwell, step_s, dwell_step_s, rows, columns } = coverage;
   const data = new Float32Array(2 * first.length);
   first.forEach((step, cell) => {
-    data[2 * cell] = step === OUTSIDE ? -1 : step > OUTSIDE ? LATER_S : step * step_s;
+    data[2 * cell] = timeOf(step, step_s);
     data[2 * cell + 1] = dwell[cell]! * dwell_step_s;
   });
   const texture = new DataTexture(data, columns, rows, RGFormat, FloatType);
