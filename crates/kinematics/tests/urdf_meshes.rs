@@ -495,3 +495,37 @@ proptest! {
         let _ = read(name, &bytes, "");
     }
 }
+
+/// A scan may have more triangles than a body whose surface is cut, and any coordinates.
+#[test]
+fn scans_have_up_to_two_million_triangles() {
+    let folder = TempDir::new().unwrap();
+    let corners = [0.0, 0.0, 0.0, 150.0, 0.0, 0.0, 0.0, 150.0, 0.0_f32];
+    let triangle: Vec<u8> = [0.0_f32; 3]
+        .iter()
+        .chain(&corners)
+        .flat_map(|c| c.to_le_bytes())
+        .chain([0; 2])
+        .collect();
+    let source = MeshSource::new(&[], Some(folder.path()));
+    let write = |count: u32| {
+        let mut bytes = vec![0; 80];
+        bytes.extend(count.to_le_bytes());
+        bytes.extend(triangle.repeat(count as usize));
+        std::fs::write(folder.path().join("scan.stl"), bytes).unwrap();
+    };
+    write(1_500_000);
+    let found = source.scan("scan.stl").unwrap();
+    assert_eq!((found.len(), found[0][1].x), (1_500_000, 150.0));
+    let why = source.solid("scan.stl", [1.0; 3]).unwrap_err().to_string();
+    assert!(why.contains("scan.stl"), "{why}");
+    write(2_000_001);
+    let why = source.scan("scan.stl").unwrap_err().to_string();
+    assert!(
+        why.contains("too many triangles; from 1 to 2000000 can be measured"),
+        "{why}"
+    );
+    write(0);
+    let why = source.scan("scan.stl").unwrap_err().to_string();
+    assert!(why.contains("it has no triangles"), "{why}");
+}

@@ -4,6 +4,7 @@
 mod align;
 mod coverage;
 mod layout;
+mod measured;
 mod parts;
 mod plan;
 mod plate;

@@ -24,6 +24,10 @@ const MAX_HULL: usize = 2_000_000;
 /// Greatest number of triangles of a mesh whose surface counts.
 const MAX_SOLID: usize = 200_000;
 
+/// Greatest length of the mesh file of a measured body \[bytes\], and greatest number of its triangles: scans are fine.
+const MAX_SCAN_BYTES: u64 = 256 << 20;
+const MAX_SCAN: usize = 2_000_000;
+
 /// Greatest length of a package's manifest, `package.xml` \[bytes\].
 const MAX_MANIFEST: u64 = 1 << 20;
 
@@ -172,32 +176,32 @@ impl MeshSource {
     /// # Errors
     /// [`MeshError`]: the file is not found, not STL, OBJ or Collada, damaged, has no triangles or too many, or coordinates that are not lengths.
     pub fn solid(&self, name: &str, scale: [f64; 3]) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
-        let file = self.open(name, scale)?;
-        let corners = match file.format()? {
-            Format::Stl => triangles::stl(&file.bytes),
-            Format::Obj => triangles::obj(&file.bytes, MAX_SOLID),
-            Format::Collada => collada::corners(&file.bytes, MAX_SOLID),
-        };
-        let corners = corners.map_err(|detail| file.wrong(detail))?;
-        let count = corners.len() / 3;
-        if count == 0 || count > MAX_SOLID {
-            let found = if count == 0 { "no" } else { "too many" };
-            return Err(file.wrong(format!("it has {found} triangles; from 1 to {MAX_SOLID} can be judged")));
-        }
-        let corners = file.scaled(corners)?;
+        let file = self.open(name, scale, MAX_BYTES)?;
+        let corners = file.scaled(file.corners(MAX_SOLID, "judged")?)?;
+        Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
+    }
+
+    /// Returns the triangles of a measured body, three corners each, in the order of the file: up to two million. They are in the unit of the
+    /// file; those of Collada, which states it, in metres.
+    ///
+    /// # Errors
+    /// [`MeshError`]: the file is not found, not STL, OBJ or Collada, damaged, or has no triangles or too many. Coordinates are not judged.
+    pub fn scan(&self, name: &str) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
+        let file = self.open(name, [1.0; 3], MAX_SCAN_BYTES)?;
+        let corners = file.corners(MAX_SCAN, "measured")?;
         Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
     }
 
     /// Reads a mesh file of a link, with its scale.
     fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<LinkMesh, UrdfError> {
         let of = |error: MeshError| error.of(link);
-        let file = self.open(name, scale).map_err(of)?;
+        let file = self.open(name, scale, MAX_BYTES).map_err(of)?;
         let link = link.to_owned();
         Ok(LinkMesh { link, file })
     }
 
-    /// Reads a mesh file, with its scale.
-    fn open(&self, name: &str, scale: [f64; 3]) -> Result<MeshFile, MeshError> {
+    /// Reads a mesh file of at most so many bytes, with its scale.
+    fn open(&self, name: &str, scale: [f64; 3], most: u64) -> Result<MeshFile, MeshError> {
         let path = self.find(name)?;
         let mut file = MeshFile {
             path,
@@ -211,7 +215,7 @@ impl MeshSource {
         file.format()?;
         file.bytes = self
             .files
-            .read_bytes(&file.path, MAX_BYTES)
+            .read_bytes(&file.path, most)
             .map_err(|e| file.wrong(e.to_string()))?;
         Ok(file)
     }
@@ -402,6 +406,22 @@ impl MeshFile {
                 "format '{other}' is not handled; convert it to STL, OBJ or Collada (.dae)"
             ))),
         }
+    }
+
+    /// Returns the corners of the triangles, as many as can be `used`: from 1 to `most` triangles.
+    fn corners(&self, most: usize, used: &str) -> Result<Vec<Point3<f64>>, MeshError> {
+        let corners = match self.format()? {
+            Format::Stl => triangles::stl(&self.bytes),
+            Format::Obj => triangles::obj(&self.bytes, most),
+            Format::Collada => collada::corners(&self.bytes, most),
+        };
+        let corners = corners.map_err(|detail| self.wrong(detail))?;
+        let count = corners.len() / 3;
+        if count == 0 || count > most {
+            let found = if count == 0 { "no" } else { "too many" };
+            return Err(self.wrong(format!("it has {found} triangles; from 1 to {most} can be {used}")));
+        }
+        Ok(corners)
     }
 
     fn scale(&self, points: &mut [Point3<f64>]) {

@@ -1,0 +1,130 @@
+//! Errors of a measured plate, and places on it.
+
+use crate::measured::{LEAST_PLATE_M, MOST_DEVIATION_M, MOST_PLATE_M};
+use crate::words::millimetres;
+
+/// Place on a measured plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Distance from the axis \[m\].
+    pub radius_m: f64,
+    /// Azimuth about the axis, from x of the plate frame \[°\].
+    pub azimuth_deg: f64,
+    /// Coordinates in the file, in its unit.
+    pub in_file: [f64; 3],
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [x, y, z] = self.in_file;
+        write!(
+            f,
+            "radius {}, azimuth {:.0}° (in the file {x:.6}, {y:.6}, {z:.6})",
+            millimetres(self.radius_m),
+            self.azimuth_deg
+        )
+    }
+}
+
+/// Reason that a mesh or points give no plate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeasuredError {
+    /// There are no triangles with an area.
+    #[error("the mesh has no triangle with an area; expected the surface of a plate, or of its face")]
+    Empty,
+    /// There are too few points.
+    #[error("{found} points; expected {least} or more, spread over the face and along its rim")]
+    Few {
+        /// Number of points.
+        found: usize,
+        /// Least number.
+        least: usize,
+    },
+    /// A coordinate is not a number, or too large.
+    #[error("{what} {index}, counted from 0, has the coordinates {found:?}; expected numbers from -1e9 to 1e9")]
+    Coordinate {
+        /// "triangle" or "point".
+        what: &'static str,
+        /// Index of the triangle or the point.
+        index: usize,
+        /// Coordinates found.
+        found: [f64; 3],
+    },
+    /// The unit is not stated, and the size does not tell it.
+    #[error(
+        "the file does not state its unit, and the plate measures {diameter:.4} across, a diameter from 145 mm to 365 mm in none of m, mm, \
+         cm and inch: state the unit"
+    )]
+    Unit {
+        /// Diameter in the unit of the file.
+        diameter: f64,
+    },
+    /// The size is not that of a plate.
+    #[error(
+        "the plate measures {} across in the stated unit; expected {} to {}: state the unit of the file",
+        millimetres(*.diameter_m),
+        millimetres(LEAST_PLATE_M),
+        millimetres(MOST_PLATE_M)
+    )]
+    Size {
+        /// Diameter \[m\].
+        diameter_m: f64,
+    },
+    /// The rim is no circle.
+    #[error(
+        "it is not a surface of revolution: its rim is between {} and {} from the axis; expected one radius within {}: only round plates \
+         can be washed",
+        millimetres(.rim_m[0]),
+        millimetres(.rim_m[1]),
+        millimetres(MOST_DEVIATION_M)
+    )]
+    NotRound {
+        /// Least and greatest radius of the rim \[m\].
+        rim_m: [f64; 2],
+    },
+    /// A part of the face is missing.
+    #[error(
+        "a part of the face is missing: nothing between radius {} and {} at azimuth {:.0}°, about {place}; expected a whole face: close \
+         the hole or measure there",
+        millimetres(.between_m[0]),
+        millimetres(.between_m[1]),
+        .place.azimuth_deg
+    )]
+    Missing {
+        /// Least and greatest radius without a face at that azimuth \[m\].
+        between_m: [f64; 2],
+        /// Middle of that part.
+        place: Place,
+    },
+    /// The face rises too steeply.
+    #[error(
+        "the face rises by {slope_deg:.0}° at radius {}; expected 60° or less: walls of cups and bowls are steeper, and cannot be washed",
+        millimetres(*.radius_m)
+    )]
+    Steep {
+        /// Radius \[m\].
+        radius_m: f64,
+        /// Mean slope there \[°\].
+        slope_deg: f64,
+    },
+    /// The plate differs too much from its profile.
+    #[error(
+        "the plate is {} off its profile at {place}; expected {} or less: it is chipped, dented, bent or not round, or the file holds more \
+         than a plate",
+        millimetres(*.deviation_m),
+        millimetres(MOST_DEVIATION_M)
+    )]
+    Rough {
+        /// Greatest deviation \[m\].
+        deviation_m: f64,
+        /// Place of it.
+        place: Place,
+    },
+    /// The points fix no axis.
+    #[error("the points fix no axis: {why}")]
+    NoAxis {
+        /// Reason, and advice.
+        why: String,
+    },
+}

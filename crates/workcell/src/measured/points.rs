@@ -1,0 +1,182 @@
+//! Plate whose face was touched in points.
+
+use crate::measured::algebra::Moments;
+use crate::measured::axis::{Cloud, Fitted, Frame};
+use crate::measured::body::{Extremes, Ruler};
+use crate::measured::face::{Relief, check_slope, outermost};
+use crate::measured::knots::{Profile, rings};
+use crate::measured::{
+    FIRST_KNOTS, FLAT, File, MeasuredError, MeasuredPlate, Unit, is_coordinate, out_of_round_m, smooth_enough, sparing,
+};
+use crate::trig::atan2;
+use crate::words::millimetres;
+use nalgebra::{Point3, Vector3};
+use std::f64::consts::TAU;
+
+/// Least number of probed points.
+pub const LEAST_POINTS: usize = 12;
+
+/// Slope, root mean square, below which a face does not fix its centre.
+const FLAT_SLOPE: f64 = 0.02;
+
+/// Greatest standard deviation of the centre of probed points, and greatest difference of their rim's radius if it fixes the centre \[m\].
+const UNSURE_M: f64 = 1e-3;
+
+/// Number of sectors in which the outermost probed point is sought.
+const POINT_SECTORS: usize = 12;
+
+/// Greatest number of searches for knots and axis, and movement of the frame below which they are found \[m\].
+const MOST_SEARCHES: usize = 6;
+const STILL_M: f64 = 2e-6;
+
+/// Greatest gap between the radii of probed points, as a share of the rim's, and between their azimuths \[rad\].
+const RADIUS_GAP: f64 = 0.4;
+const AZIMUTH_GAP: f64 = 1.75;
+
+/// Returns the plate whose face was touched in points. Its rim is at the outermost one: touch the rim all round.
+///
+/// # Errors
+/// [`MeasuredError`]: too few points, or points that fix no axis or no profile, or deviate by more than [`MOST_DEVIATION_M`].
+pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<MeasuredPlate, MeasuredError> {
+    if points.len() < LEAST_POINTS {
+        let (found, least) = (points.len(), LEAST_POINTS);
+        return Err(MeasuredError::Few { found, least });
+    }
+    if let Some(index) = points.iter().position(|p| p.iter().any(|c| !is_coordinate(*c))) {
+        let (what, found) = ("point", points[index].coords.into());
+        return Err(MeasuredError::Coordinate { what, index, found });
+    }
+    let moments = Moments::of(|| points.iter().map(|point| (point.coords, 1.0)));
+    let [_, (beside, _), (along, _)] = moments.spread;
+    if beside <= 0.01 * along {
+        let why = "they lie in one line; touch the whole face, and the rim all round".to_owned();
+        return Err(MeasuredError::NoAxis { why });
+    }
+    let axis = moments.spread[0].1;
+    let beside = |point: &Point3<f64>| (point.coords - moments.middle).cross(&axis).norm();
+    let reach = points.iter().map(beside).fold(0.0, f64::max);
+    let file = File {
+        middle: moments.middle,
+        unit: Unit::of(unit, 2.0 * reach)?,
+        unit_is_guessed: unit.is_none(),
+    };
+    let length_m = file.unit.length_m();
+    let mut sorted: Vec<_> = points
+        .iter()
+        .map(|point| (point.coords - moments.middle) * length_m)
+        .collect();
+    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    let mut frame = side_of_points(&sorted, &axis, reach * length_m);
+    // A ring of the profile weighs as much as any other.
+    let weight = |point: &Vector3<f64>| frame.local(point).xy().norm().max(0.05 * reach * length_m);
+    let cloud: Cloud = sorted.iter().map(|point| (*point, weight(point))).collect();
+    let count = (points.len() / 5).clamp(2, FIRST_KNOTS);
+    let mut profile = Profile::level(reach * length_m, count);
+    let refit =
+        |points: &[([f64; 2], f64)], profile: &Profile| profile.fitted(&rings(points, profile.rim_m()), false, 4);
+    let mut fitted = Fitted {
+        cloud: &cloud,
+        rim: &[],
+    };
+    let mut unsure_m = fitted.refine(&mut frame, &mut profile, 100, refit);
+    let is_unsure = |sigma_m: f64| sigma_m.is_nan() || sigma_m > UNSURE_M;
+    let rim;
+    if profile.steepness() < FLAT_SLOPE || is_unsure(unsure_m) {
+        // The rim alone fixes the centre of a flat face.
+        frame = side_of_points(&sorted, &axis, reach * length_m);
+        rim = outermost(sorted.iter().copied(), &frame, POINT_SECTORS);
+        fitted.rim = &rim;
+        profile = Profile::level(reach * length_m, count);
+        unsure_m = fitted.refine(&mut frame, &mut profile, 100, refit);
+        let rim_m = fitted.rim_m(&frame);
+        let off = |point: &Vector3<f64>| (frame.local(point).xy().norm() - rim_m).abs();
+        if rim.iter().filter(|point| off(point) <= UNSURE_M).count() < POINT_SECTORS / 2 {
+            unsure_m = f64::INFINITY;
+        }
+    }
+    if is_unsure(unsure_m) {
+        let why = "a flat face and a part of a sphere have the same shape about other axes, too; touch the rim all round, and points between \
+                   it and the middle"
+            .to_owned();
+        return Err(MeasuredError::NoAxis { why });
+    }
+    let rim_of = |frame: &Frame| {
+        sorted
+            .iter()
+            .map(|point| frame.local(point).xy().norm())
+            .fold(0.0, f64::max)
+    };
+    // Knots and axis depend on each other.
+    for _ in 0..MOST_SEARCHES {
+        let (before, rim_m) = (frame, rim_of(&frame));
+        profile = sparing(&fitted, &mut frame, &profile, rim_m);
+        let tilt = (frame.axis() - before.axis()).norm();
+        if tilt * rim_m + (frame.origin - before.origin).norm() < STILL_M {
+            break;
+        }
+    }
+    let rim_m = profile.rim_m();
+    let local: Vec<_> = sorted.iter().map(|point| frame.local(point)).collect();
+    check_gaps(&local, rim_m)?;
+    check_slope(&rings(&fitted.kept(&frame, &profile), rim_m), rim_m)?;
+    let surface = profile.surface().ok_or(MeasuredError::Empty)?;
+    let frame = frame.raised(profile.level_m());
+    let ruler = Ruler::new(surface);
+    let mut extremes = Extremes::new();
+    let seen = |point: &Vector3<f64>| frame.local(point);
+    sorted
+        .iter()
+        .map(seen)
+        .for_each(|local| extremes.see(ruler.above_m(&local), 0.0, &local));
+    let frame = frame.raised(extremes.middle_m());
+    let mut plate = file.plate(&frame, surface, &extremes, Relief::of(&surface, None, None));
+    plate.out_of_round_m = out_of_round_m(sorted.iter().map(|point| frame.local(point)), &surface);
+    smooth_enough(plate)
+}
+
+/// Returns the frame whose z is an axis or against it, so that points rise outwards; level ones look along the file's z.
+fn side_of_points(points: &[Vector3<f64>], axis: &Vector3<f64>, reach_m: f64) -> Frame {
+    let frame = Frame::new(axis, Vector3::zeros());
+    let all: Vec<_> = points
+        .iter()
+        .map(|point| frame.local(point))
+        .map(|p| [p.xy().norm_squared(), p.z])
+        .collect();
+    let count = all.len() as f64;
+    let middle = all.iter().map(|[square, _]| square).sum::<f64>() / count;
+    let [product, spread] = all.iter().fold([0.0; 2], |[product, spread], [square, z]| {
+        [
+            product + (square - middle) * z,
+            spread + (square - middle) * (square - middle),
+        ]
+    });
+    let rise_m = product / spread.max(f64::MIN_POSITIVE) * reach_m * reach_m;
+    let is_turned = if rise_m.abs() < FLAT * reach_m {
+        axis.z < 0.0
+    } else {
+        rise_m < 0.0
+    };
+    Frame::new(&if is_turned { -axis } else { *axis }, Vector3::zeros())
+}
+
+/// Refuses points that leave too much of the face untouched.
+fn check_gaps(local: &[Vector3<f64>], rim_m: f64) -> Result<(), MeasuredError> {
+    let mut radii: Vec<f64> = local.iter().map(|p| p.xy().norm()).chain([0.0]).collect();
+    radii.sort_by(f64::total_cmp);
+    if let Some(gap) = radii.windows(2).find(|gap| gap[1] - gap[0] > RADIUS_GAP * rim_m) {
+        let [from, to] = [0, 1].map(|k| millimetres(gap[k]));
+        let why = format!("none lies between radius {from} and {to}; touch the face there, too");
+        return Err(MeasuredError::NoAxis { why });
+    }
+    let outer = local.iter().filter(|p| p.xy().norm() > 0.5 * rim_m);
+    let mut azimuths: Vec<f64> = outer.map(|p| atan2(p.y, p.x)).collect();
+    azimuths.sort_by(f64::total_cmp);
+    azimuths.extend(azimuths.first().map(|first| first + TAU));
+    if let Some(gap) = azimuths.windows(2).find(|gap| gap[1] - gap[0] > AZIMUTH_GAP) {
+        let [from, to] = [0, 1].map(|k| gap[k].to_degrees());
+        let why =
+            format!("none lies between azimuth {from:.0}° and {to:.0}° in the outer half; touch the face there, too");
+        return Err(MeasuredError::NoAxis { why });
+    }
+    Ok(())
+}
