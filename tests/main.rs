@@ -15,6 +15,7 @@ mod faces;
 mod knots;
 mod looser_limits;
 mod mutation;
+mod plate_files;
 mod programs;
 mod proved_only;
 mod random_jobs;

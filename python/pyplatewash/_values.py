@@ -93,6 +93,14 @@ class Plate:
     foot: Foot | None = None
     #: How it is turned, as a unit quaternion (w, x, y, z): level, face up, as it is.
     quaternion_wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    #: Its own height error, up or down [m]; none for that of the job.
+    height_error_m: float | None = None
+    #: Greatest distance of the real plate from its face and its body [m], where it was measured.
+    deviation_m: float | None = None
+    #: Index of its measured shape in the job, where it has one.
+    measured: int | None = None
+    #: Index of its soil in the job, where it has one.
+    soil: int | None = None
 
     if TYPE_CHECKING:
 
@@ -107,6 +115,10 @@ class Plate:
             profile: str | npt.ArrayLike | None = None,
             foot: Foot | None = None,
             quaternion_wxyz: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0),
+            height_error_m: float | None = None,
+            deviation_m: float | None = None,
+            measured: int | None = None,
+            soil: int | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -197,6 +209,8 @@ class Rings:
     lead_rad: float
     #: Over which angle the first blend goes [rad].
     blend_rad: float
+    #: How often the path goes round each ring.
+    laps: int = 1
 
     def __post_init__(self) -> None:
         _core._check("rings", self)

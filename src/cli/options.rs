@@ -171,7 +171,8 @@ impl Options {
             scenario.tool.mounted_on = Some(link.clone());
         }
         scenario.validate().map_err(|error| self.of_file(error))?;
-        Ok(scenario)
+        let read = scenario.plates_read().map_err(|error| self.of_file(error))?;
+        Ok(read.into_owned())
     }
 
     /// The section with the arm of the options in place of its own.

@@ -8,7 +8,7 @@ use anyhow::{Error, Result};
 use clap::Args;
 use platewash::scenario::{Note, SHIPPED, source};
 use platewash::simulator::simulate::PayloadCheck;
-use platewash::workcell::layout::{Finding, LayoutError, LayoutSource};
+use platewash::workcell::layout::{Finding, LayoutSource};
 use platewash::workcell::words::{count_with_noun, plate_number};
 use platewash::{Failure, Layout, Scenario};
 use serde::Serialize;
@@ -111,14 +111,14 @@ fn valid(options: &Options, scenario: &Scenario) -> Result<ValidAnswer> {
 impl Sampling {
     /// Result of placing the plates as `run` does. A search without success is a result, as another seed may succeed; a proof that no
     /// layout exists is an error.
-    fn of(scenario: &Scenario, placed: &Result<Layout, LayoutError>) -> Result<Self, Failure> {
+    fn of(scenario: &Scenario, placed: &Result<Layout, Failure>) -> Result<Self, Failure> {
         let outcome = match placed {
             Ok(layout) => format!(
                 "a layout of {} was found",
                 count_with_noun(layout.plates.len(), "plate")
             ),
-            Err(error) if error.is_proven() => return Err(error.clone().into()),
-            Err(error) => Failure::from(error.clone()).to_string(),
+            Err(Failure::Layout(error)) if error.is_proven() => return Err(error.clone().into()),
+            Err(error) => error.to_string(),
         };
         Ok(Self {
             seed: scenario.seed,
@@ -144,7 +144,7 @@ impl ValidAnswer {
 pub fn layout(options: &Options) -> Result<ExitCode> {
     let scenario = options.scenario()?;
     let robot = options.arm(&scenario)?;
-    let placed = scenario.layout(&robot).map_err(Failure::from);
+    let placed = scenario.layout(&robot);
     let layout = placed.or_else(|failure| report_invalid(options, &scenario, failure.into()))?;
     let mut files = Files::new(options.out.clone(), &["layout.json"]);
     files.add("layout.json", super::output::json(&layout)?);

@@ -51,13 +51,9 @@ pub fn dose_times(
     let seen = &*plan.seen_from_base();
     let job = &seen.job;
     let subject = Subject::new(job, arm, wash_paths::by_plate(seen));
-    let (Some(wanted), Some(foundation)) = (&job.requirements.contact, Foundation::of(&job.workcell.tool.sponge))
-    else {
+    let Some(foundation) = Foundation::of(&job.workcell.tool.sponge) else {
         return Ok(Vec::new());
     };
-    if wanted.dose_pa_m <= 0.0 {
-        return Ok(Vec::new());
-    }
     let pieces = read(&seen.knots)?;
     let Ok(schedule) = Schedule::new(seen, &pieces) else {
         return Ok(Vec::new());
@@ -65,11 +61,12 @@ pub fn dose_times(
     let cancel = CancelToken::new();
     let arm = Arm::new(arm, &job.workcell.tool, &cancel);
     let along = arm.along(&pieces);
-    let thresholds = wanted.thresholds();
     // Where no share is proved, the bound on which the sum rests may not hold.
     let proved = certificate.contact.iter().filter(|contact| contact.dose.at_least > 0.0);
     let of_plate = |index: usize| {
         let plate = subject.plates().get(index)?;
+        let wanted = job.contact_of(plate).filter(|wanted| wanted.dose_pa_m > 0.0)?;
+        let thresholds = wanted.thresholds();
         let is_wash = |kind| kind == SegmentKind::Wash;
         let span = schedule
             .spans

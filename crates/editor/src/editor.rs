@@ -163,11 +163,12 @@ impl Editor {
         let scenario = scenario.filter(|scenario| may_name_its_files(subject, scenario).is_ok());
         let scenario = match scenario {
             Some(scenario) => scenario,
-            None => Scenario {
-                name: subject.name.clone(),
-                files: subject.files.clone(),
-                ..Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?
-            },
+            None => {
+                let mut opened = Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?;
+                opened.name.clone_from(&subject.name);
+                opened.files = subject.files.clone();
+                opened
+            }
         };
         let arm = subject.arms.of(&scenario)?.arm;
         let mut view = View::of_configuration(&arm, None, &scenario.homes()[0].unwrap_or_else(JointVector::zeros));

@@ -15,6 +15,11 @@ fn plates(scenario: &Scenario) -> PlateMoves {
     if scenario.plate.is_empty() {
         return PlateMoves::Positions;
     }
+    if scenario.plate_files.have_places() {
+        return PlateMoves::Nothing {
+            words: "These plates are those of layout.plate_file: change their places in that file.",
+        };
+    }
     let at_m: Option<Vec<_>> = scenario.plate.iter().map(|row| row.at_m).collect();
     match (scenario.plate_sections(), at_m) {
         (Some(sections), Some(at_m)) => PlateMoves::Sections { sections, at_m },

@@ -188,7 +188,10 @@ pub fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refus
     may_name_its_files(subject, &scenario)?;
     match too_much(&scenario) {
         Some(words) => Err(about(words)),
-        None => Ok(scenario),
+        None => match scenario.plates_read() {
+            Ok(read) => Ok(read.into_owned()),
+            Err(error) => Err(of_scenario(&error)),
+        },
     }
 }
 

@@ -11,7 +11,7 @@ use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, U
 use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
 use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
-use platewash_workcell::job::Requirements;
+use platewash_workcell::job::{Requirements, Soil};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::{count_with_noun, plate_name, quoted};
@@ -123,7 +123,7 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
         let com = place(Vector3::from(mass.com_m));
         format!("load: {} kg, centre of mass at {com} mm of the flange", mass.mass_kg)
     }));
-    lines.extend(plates(&job.plates));
+    lines.extend(plates(&job.plates, &job.soils));
     let names: Vec<_> = world.obstacles.iter().map(|obstacle| quoted(&obstacle.name)).collect();
     let others = if names.is_empty() { "nothing" } else { &names.join(", ") };
     lines.push(format!(
@@ -133,12 +133,16 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
 }
 
 /// Place and radius of each plate, and its tilt and profile where it has any; of the first [`MOST_PLATES`].
-fn plates(plates: &[Plate]) -> Vec<String> {
+fn plates(plates: &[Plate], soils: &[Soil]) -> Vec<String> {
     let shown = plates.iter().enumerate().take(MOST_PLATES);
     let mut lines: Vec<String> = shown
         .map(|(k, plate)| {
             let (pole, rim) = (place(plate.world(&Vector3::zeros())), mm(plate.rim_m()));
-            let besides = [plate.surface.profile_words(), plate.tilt_words()];
+            let besides = [
+                plate.surface.profile_words(),
+                plate.tilt_words(),
+                plate.terms_words(soils),
+            ];
             let besides: String = besides
                 .into_iter()
                 .flatten()

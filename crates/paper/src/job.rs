@@ -131,6 +131,8 @@ impl PaperJob {
             seed: self.seed,
             simulation: self.simulation.clone(),
             dry_run: None,
+            soils: Vec::new(),
+            measured: Vec::new(),
         })
     }
 

@@ -5,6 +5,7 @@ use platewash_kinematics::RobotModel;
 use platewash_workcell::layout::{
     Layout, LayoutError, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, base_footprint, sample,
 };
+use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random;
 use platewash_workcell::surface::Surface;
 
@@ -56,6 +57,7 @@ impl PaperPart {
             height_m: 0.03,
             thickness_m: 0.02,
             foot: None,
+            terms: PlateTerms::default(),
         }
     }
 

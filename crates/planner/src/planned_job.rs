@@ -91,6 +91,7 @@ impl VisitSummary {
     #[must_use]
     pub fn pattern(&self) -> String {
         match &self.curve.rings {
+            Some(rings) if rings.laps > 1 => format!("{} rings, each {} times", rings.count, rings.laps),
             Some(rings) => format!("{} rings", rings.count),
             None if self.curve.closing_ring => format!("spiral of {:.2} turns and a ring", self.curve.turns),
             None => format!("spiral of {:.2} turns", self.curve.turns),
@@ -135,7 +136,7 @@ impl Pace {
         (curve, motion): (&WashCurve, &Trajectory),
         limits: &MotionLimits,
     ) -> Self {
-        let (length_m, speed_m_s) = (length_m(curve, &plate.surface), terms.wash_speed_m_s());
+        let (length_m, speed_m_s) = (length_m(curve, &plate.surface), terms.wash_speed_of(plate));
         Self {
             least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * speed_m_s),
             path_s: length_m / speed_m_s,

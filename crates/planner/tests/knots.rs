@@ -7,6 +7,7 @@ use platewash_workcell::fixtures::{kitchen, kitchen_plates, kitchen_terms, workc
 use platewash_workcell::job::{JobTerms, Planner, WashJob};
 use platewash_workcell::layout::{self, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing};
 use platewash_workcell::plan::Knots;
+use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::{StraightTool, Tool};
@@ -74,6 +75,7 @@ fn motion(robot: &Arc<RobotModel>, scenario: &str, seed: u64) -> String {
             height_m: 0.03,
             thickness_m: 0.02,
             foot: None,
+            terms: PlateTerms::default(),
         },
         base: Some(layout::base_footprint(robot)),
     };

@@ -9,6 +9,7 @@ use numpy::PyArrayDyn;
 use platewash::paper::PaperSpiral;
 use platewash::paper::cubic::{self, Interpolation};
 use platewash::workcell::arc::{self, Arc};
+use platewash::workcell::job::MOST_PASSES;
 use platewash::workcell::surface::Surface;
 use platewash::workcell::wash_path::{MOST_RINGS, MOST_TRIM_RAD, Rings, WashCurve};
 use pyo3::prelude::*;
@@ -29,7 +30,7 @@ fn points(name: &str, count: &Bound<'_, PyAny>) -> PyResult<usize> {
     argument::count(name, count, [2, MOST_POINTS])
 }
 
-fn within(name: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
+pub fn within(name: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
     let found = argument::number(name, value)?;
     if (least..=most).contains(&found) {
         return Ok(found);
@@ -120,6 +121,9 @@ pub fn rings_of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Rings> {
         inner_m: number("inner_m", [0.0, LARGEST_M])?,
         lead_rad: number("lead_rad", [0.0, TAU])?,
         blend_rad: number("blend_rad", [1e-3, TAU])?,
+        laps: argument::field(whole, value, ("rings", "laps"), |name, laps| {
+            argument::count(name, laps, [1, u64::from(MOST_PASSES)])
+        })? as u32,
     })
 }
 

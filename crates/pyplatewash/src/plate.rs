@@ -10,7 +10,8 @@ use crate::argument::{self, TOOL};
 use crate::errors::{self, Input};
 use crate::{arrays, curves, page, robot};
 use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use platewash::workcell::plate::Foot;
+use platewash::workcell::layout::MAX_PLATES;
+use platewash::workcell::plate::{Foot, PlateTerms};
 use platewash::workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
 use platewash::workcell::tool::StraightTool;
 use platewash::{Plate, Pose, RobotModel, Tool};
@@ -50,6 +51,7 @@ pub struct PlateFields {
     profile: Option<Knots>,
     foot: Option<[f64; 2]>,
     quaternion_wxyz: [f64; 4],
+    terms: PlateTerms,
 }
 
 impl PlateFields {
@@ -59,6 +61,18 @@ impl PlateFields {
     /// `InputTypeError` for what is no `Plate`, or a field of a wrong type.
     pub fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let number = |field| argument::field((name, "a Plate"), value, ("plate", field), argument::number);
+        let length = |field| {
+            argument::field((name, "a Plate"), value, ("plate", field), |name, length| {
+                let read = |length| curves::within(name, length, [0.0, 1.0]);
+                (!length.is_none()).then(|| read(length)).transpose()
+            })
+        };
+        let index = |field| {
+            argument::field((name, "a Plate"), value, ("plate", field), |name, index| {
+                let read = |index| argument::count(name, index, [0, MAX_PLATES as u64]);
+                (!index.is_none()).then(|| read(index)).transpose()
+            })
+        };
         Ok(Self {
             x_m: number("x_m")?,
             y_m: number("y_m")?,
@@ -75,6 +89,12 @@ impl PlateFields {
                 ("plate", "quaternion_wxyz"),
                 arrays::fixed::<4>,
             )?,
+            terms: PlateTerms {
+                height_error_m: length("height_error_m")?,
+                deviation_m: length("deviation_m")?,
+                measured: index("measured")?,
+                soil: index("soil")?,
+            },
         })
     }
 
@@ -116,6 +136,7 @@ impl PlateFields {
             thickness_m: self.thickness_m,
             foot,
             pose: Pose::from_parts(at, UnitQuaternion::new_unchecked(quaternion)),
+            terms: self.terms,
         })
     }
 
@@ -225,6 +246,11 @@ pub fn plates<'py>(py: Python<'py>, all: &[Plate]) -> PyResult<Bound<'py, PyList
         fields.set_item("foot", plate.foot.map(|foot| foot_object(py, &foot)).transpose()?)?;
         let q = plate.pose.rotation.quaternion();
         fields.set_item("quaternion_wxyz", (q.w, q.i, q.j, q.k))?;
+        let terms = &plate.terms;
+        fields.set_item("height_error_m", terms.height_error_m)?;
+        fields.set_item("deviation_m", terms.deviation_m)?;
+        fields.set_item("measured", terms.measured)?;
+        fields.set_item("soil", terms.soil)?;
         list.append(class.call((), Some(&fields))?)?;
     }
     Ok(list)

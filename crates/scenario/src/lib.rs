@@ -43,6 +43,7 @@ pub use crate::obstacle_file::{MeshPlaces, ObstacleText};
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
 pub use crate::resolve::arm::{ArmError, load_arm, load_arm_with_fixed};
 pub use crate::resolve::certified::MAX_CONTACT_CHECKS;
+pub use crate::resolve::plate_files::PlateFiles;
 pub use crate::resolve::solids::Solids;
 pub use crate::scenario::{Scenario, check_seed};
 pub use crate::sections::body_shape::{BodyShape, StatedShape};

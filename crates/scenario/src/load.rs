@@ -85,6 +85,9 @@ impl Scenario {
         for mesh in bodies.filter_map(|body| body.mesh.as_mut()) {
             *mesh = in_folder(mesh, folder);
         }
+        for path in self.plate_paths_mut() {
+            *path = folder.join(&*path);
+        }
     }
 
     fn check_conflicts(&self) -> Result<(), Problem> {

@@ -3,6 +3,7 @@
 //! Also here: seeds that a plan file can state.
 
 use crate::error::Problem;
+use crate::resolve::plate_files::PlateFiles;
 use crate::resolve::solids::Solids;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, Program, TransitionSection};
@@ -66,6 +67,9 @@ pub struct Scenario {
     /// Cache of meshes that were cut before, for scenarios that name the same; it is no part of the file.
     #[serde(skip)]
     pub solids: Solids,
+    /// Plates and soils out of the files that it names, once they were read.
+    #[serde(skip)]
+    pub plate_files: PlateFiles,
     /// No part of it either: where the files that it names come from.
     #[serde(skip)]
     pub files: Files,
@@ -81,7 +85,7 @@ impl Scenario {
         [start, self.robot.home_deg.or(start)].map(|deg| deg.map(radians))
     }
 
-    /// Every file and folder that the scenario names: descriptions of the arm, folders of packages, meshes.
+    /// Every file and folder that the scenario names: descriptions of the arm, folders of packages, meshes, plates and soils.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let robot = &self.robot;
         let of_arm = [&robot.urdf, &robot.srdf]
@@ -91,7 +95,9 @@ impl Scenario {
         let of_tool = self.tool_body.iter().map(|section| &section.body);
         let bodies = of_tool.chain(self.obstacle.iter().map(|section| &section.body));
         let meshes = bodies.filter_map(|body| body.mesh.as_ref());
-        of_arm.chain(meshes).map(PathBuf::as_path)
+        let read = self.plate_files.paths();
+        let of_plates = self.plate_paths().into_iter().chain(read);
+        of_arm.chain(meshes).chain(of_plates).map(PathBuf::as_path)
     }
 }
 
@@ -117,6 +123,7 @@ impl Default for Scenario {
             control: ControlSection::default(),
             plant: PlantSection::default(),
             solids: Solids::default(),
+            plate_files: PlateFiles::default(),
             files: Files::default(),
         }
     }

@@ -52,6 +52,15 @@ pub enum Note {
         /// The links.
         links: Vec<String>,
     },
+    /// A plate that was measured.
+    MeasuredPlate {
+        /// Name of the file.
+        file: String,
+        /// Unit of the file, and whether it was guessed.
+        unit: String,
+        /// Greatest deviation of the measured plate from the fitted one \[m\].
+        deviation_m: f64,
+    },
     /// A body of the tool or an obstacle whose convex parts hold more than its mesh.
     LargerThanMesh {
         /// Name of the body.
@@ -70,7 +79,12 @@ impl Scenario {
         let notes = homes.into_iter().filter_map(|(key, home)| Note::of_home(key, home?));
         let [start, _] = self.homes();
         let open = start.is_none().then_some(Note::HomeLeftOpen);
-        notes.chain(open).collect()
+        let measured = self.measured().iter().map(|shape| Note::MeasuredPlate {
+            file: shape.file.clone(),
+            unit: shape.unit.clone(),
+            deviation_m: shape.deviation_m,
+        });
+        notes.chain(open).chain(measured).collect()
     }
 }
 
@@ -132,6 +146,16 @@ impl fmt::Display for Note {
                 f,
                 "robot {robot}: visuals stand for the collision shapes of {}",
                 links.join(", ")
+            ),
+            Self::MeasuredPlate {
+                file,
+                unit,
+                deviation_m,
+            } => write!(
+                f,
+                "{} is in {unit}; its plate deviates from the fitted profile by up to {} mm, which adds to its height error",
+                quoted(file),
+                decimals_up(1e3 * deviation_m, 2)
             ),
             Self::LargerThanMesh { body, by_m } => write!(
                 f,

@@ -4,6 +4,7 @@
 mod draft;
 mod draft_properties;
 mod obstacles;
+mod plate_files;
 mod plates;
 mod tool_meshes;
 

@@ -104,6 +104,8 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
             payload_kg: None,
         },
         dry_run: None,
+        soils: Vec::new(),
+        measured: Vec::new(),
     }
 }
 

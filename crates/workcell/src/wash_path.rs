@@ -14,7 +14,7 @@
 //! Of n rings the k-th, from 0, has ℓ = ℓ₀ + k (R − ℓ₀)/(n − 1). The arm follows it until λₖ before the full turn, and then moves over the
 //! angle wₖ to the next one by the septic smoothstep `S(x) = x⁴ (35 − 84 x + 70 x² − 20 x³)`, so that ℓ(θ) is C³. Blends farther out have
 //! about the same length in metres with a smaller angle: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one: a full turn, or
-//! less by [`WashCurve::trim_rad`].
+//! less by [`WashCurve::trim_rad`]. With several laps the arm goes round each ring as often before it leaves it.
 
 use crate::plate::Plate;
 use crate::surface::Surface;
@@ -131,7 +131,14 @@ impl WashCurve {
     /// Last θ \[rad\].
     #[must_use]
     pub fn end(&self) -> f64 {
-        self.spiral_end() + if self.closing_ring { TAU - self.trim_rad } else { 0.0 }
+        let ring_rad = TAU * f64::from(self.laps()) - self.trim_rad;
+        self.spiral_end() + if self.closing_ring { ring_rad } else { 0.0 }
+    }
+
+    /// Number of times that the path goes round each ring; 1 for a spiral.
+    #[must_use]
+    pub fn laps(&self) -> u32 {
+        self.rings.map_or(1, |rings| rings.laps)
     }
 
     /// θ at which the closing ring begins \[rad\]: the end of the spiral, or of the last blend.
@@ -350,6 +357,18 @@ pub struct Rings {
     pub lead_rad: f64,
     /// Angle w₀ of the first blend \[rad\].
     pub blend_rad: f64,
+    /// Number of times that the path goes round each ring.
+    #[serde(default = "once", skip_serializing_if = "is_once")]
+    pub laps: u32,
+}
+
+fn once() -> u32 {
+    1
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
+fn is_once(laps: &u32) -> bool {
+    *laps == 1
 }
 
 /// Ring with its blend, or the closing ring.
@@ -435,7 +454,10 @@ impl Rings {
     fn lengths(&self, k: usize) -> [f64; 2] {
         let n = (k + 1) as f64;
         let share = 1.0 / (n * n * n).sqrt().sqrt().sqrt();
-        [(TAU - self.lead_rad * share).max(0.0), self.blend_rad * share]
+        [
+            (TAU * f64::from(self.laps) - self.lead_rad * share).max(0.0),
+            self.blend_rad * share,
+        ]
     }
 
     /// Returns the ring or blend at a θ; `None` on the closing ring.

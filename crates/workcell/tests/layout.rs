@@ -3,13 +3,19 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use platewash_workcell::layout::*;
-use platewash_workcell::plate::Plate;
+use platewash_workcell::plate::{Plate, PlateTerms};
 
 const GEOMETRY: PlateGeometry = PlateGeometry {
     surface: Surface::Disc { radius_m: 0.145 },
     height_m: 0.03,
     thickness_m: 0.02,
     foot: None,
+    terms: PlateTerms {
+        height_error_m: None,
+        deviation_m: None,
+        measured: None,
+        soil: None,
+    },
 };
 const SPACING: Spacing = Spacing {
     min_distance_m: 0.28,

@@ -2,6 +2,7 @@ use crate::parts::{Solid, height_over_face, rng};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
+use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::plate::*;
 use platewash_workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
@@ -20,6 +21,7 @@ fn plate(surface: Surface, thickness_m: f64, foot: Option<Foot>) -> Plate {
             nalgebra::Translation3::new(0.3, -0.2, 0.05),
             UnitQuaternion::from_euler_angles(0.0, 0.0, 0.7),
         ),
+        terms: PlateTerms::default(),
     }
 }
 

@@ -30,14 +30,16 @@ fn rings() -> impl Strategy<Value = WashCurve> {
         0.3..2.5f64,
         -4.0..4.0f64,
         trims(),
+        1..4u32,
     )
         .prop_map(
-            |(count, inner_m, pitch_m, lead_rad, blend_rad, start_angle_rad, trim_rad)| {
+            |(count, inner_m, pitch_m, lead_rad, blend_rad, start_angle_rad, trim_rad, laps)| {
                 let rings = Rings {
                     count,
                     inner_m,
                     lead_rad,
                     blend_rad,
+                    laps,
                 };
                 WashCurve {
                     radius_m: inner_m + pitch_m * (count - 1) as f64,
@@ -93,7 +95,7 @@ proptest! {
         prop_assert_eq!(at(0), rings.inner_m);
         prop_assert!((at(steps) - curve.radius_m).abs() < 1e-15);
         prop_assert!((0..steps).all(|k| at(k) <= at(k + 1) + 1e-15));
-        prop_assert!((curve.end() - curve.spiral_end() - TAU + curve.trim_rad).abs() < 1e-12);
+        prop_assert!((curve.end() - curve.spiral_end() - TAU * f64::from(curve.laps()) + curve.trim_rad).abs() < 1e-12);
     }
 
     /// Between two θ no derivative is above what is stated, and points of a surface lie on it.

@@ -9,6 +9,7 @@ use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span, is_at_plate};
 use crate::subject::Subject;
+use crate::washing::contact::tighter;
 use crate::washing::face::{Face, Pass, sine_of_tilt};
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{asin, sin};
@@ -31,8 +32,8 @@ const HEIGHT_RESOLUTION_M: f64 = 5e-6;
 pub(crate) struct Tips {
     /// Speed and acceleration while the tip does not wash.
     pub moving: [BoundTracker; 2],
-    /// Speed and acceleration while it washes.
-    pub washing: [BoundTracker; 2],
+    /// Speed and acceleration while it washes, by the limit of the speed \[m/s\].
+    washing: Vec<(f64, [BoundTracker; 2])>,
     /// Sine of the tilt for every span at a plate, by the span's index.
     pub tilt: Vec<(usize, BoundTracker)>,
     /// Sine of the angle from the plate's axis for every span at a plate whose face is no disc, by the span's index. On a disc it is that
@@ -60,7 +61,7 @@ impl Tips {
         };
         let mut tips = Self {
             moving: pair(limits.tip_speed_m_s, limits.tip_acceleration_m_s2),
-            washing: pair(limits.wash_speed_m_s, limits.wash_acceleration_m_s2),
+            washing: Vec::new(),
             tilt: Vec::new(),
             upright: Vec::new(),
             height: Vec::new(),
@@ -72,7 +73,29 @@ impl Tips {
         let of = |span: &Span| &pieces[span.pieces.clone()];
         let (washing, moving): (Vec<_>, Vec<_>) = schedule.spans.iter().partition(|s| s.kind == SegmentKind::Wash);
         track_rates(arm, &mut tips.moving, &moving.into_iter().map(of).collect::<Vec<_>>());
-        track_rates(arm, &mut tips.washing, &washing.into_iter().map(of).collect::<Vec<_>>());
+        // The washes of plates with the same limit of speed are tracked together.
+        let limit = |span: &Span| {
+            subject
+                .plates()
+                .get(span.plate)
+                .map(|plate| subject.job.wash_speed_of(plate))
+        };
+        let mut of_limit: Vec<(f64, Vec<&[TipPiece<'_>]>)> = Vec::new();
+        if washing.is_empty() {
+            of_limit.push((limits.wash_speed_m_s, Vec::new()));
+        }
+        for span in washing {
+            let own = limit(span).unwrap_or(limits.wash_speed_m_s);
+            match of_limit.iter_mut().find(|(other, _)| *other == own) {
+                Some((_, pieces)) => pieces.push(of(span)),
+                None => of_limit.push((own, vec![of(span)])),
+            }
+        }
+        for (limit, pieces) in of_limit {
+            let mut rates = pair(limit, limits.wash_acceleration_m_s2);
+            track_rates(arm, &mut rates, &pieces);
+            tips.washing.push((limit, rates));
+        }
         let sine = sin(limits.tilt_rad + TILT_ROUNDING_RAD);
         for (i, span) in schedule.spans.iter().enumerate().filter(|(_, s)| is_at_plate(s.kind)) {
             let Some(plate) = subject.plates().get(span.plate) else {
@@ -172,15 +195,20 @@ impl Tips {
             all.extend(rest.map(Check::not_judged));
             return all;
         };
-        let [speed, acceleration] = &self.washing;
         let (tilt, height) = (greatest(&self.tilt), greatest(&self.height));
         let angle = tilt.through(angle);
         let place = |tracker: &BoundTracker| in_segment(tracker, pieces, schedule);
-        let (v, a) = (limits.wash_speed_m_s, limits.wash_acceleration_m_s2);
+        let rates = self.washing.iter().map(|(v, [speed, acceleration])| {
+            let a = limits.wash_acceleration_m_s2;
+            [
+                check(Requirement::WashSpeed, speed, *v, m_s, at(speed)),
+                check(Requirement::WashAcceleration, acceleration, a, m_s2, at(acceleration)),
+            ]
+        });
+        let rates = rates.reduce(|[v, a], [w, b]| [tighter(v, w), tighter(a, b)]);
+        all.extend(rates.unwrap_or([Requirement::WashSpeed, Requirement::WashAcceleration].map(Check::not_judged)));
         let most_tilt_rad = limits.tilt_rad + TILT_ROUNDING_RAD;
         all.extend([
-            check(Requirement::WashSpeed, speed, v, m_s, at(speed)),
-            check(Requirement::WashAcceleration, acceleration, a, m_s2, at(acceleration)),
             check(Requirement::Tilt, &angle, most_tilt_rad, Unit::Radian, place(&tilt)),
             check(
                 Requirement::ContactHeight,

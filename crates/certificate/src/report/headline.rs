@@ -117,7 +117,7 @@ fn at_least(measure: &Measure) -> Option<String> {
 }
 
 fn laxer_text(certificate: &Certificate) -> String {
-    let laxer = laxer_requirements(&certificate.rests_on.requirements);
+    let laxer = laxer_requirements(&certificate.rests_on.laxest());
     if laxer.is_empty() {
         laxer.concat()
     } else {

@@ -8,7 +8,7 @@ use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::trig::atan2;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::{JobTerms, Limits, Overlap, Requirements};
+use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, Requirements, Soil};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name, plate_number, printable, quoted};
@@ -64,6 +64,9 @@ pub struct VerdictBasis {
     /// Pairs that only the job excludes. They were judged, and are waived where they do not keep clear.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub waived_pairs: Vec<Exclusion>,
+    /// Kinds of soil on the plates.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub soils: Vec<Soil>,
     /// Parent plan of a dry run, as stated by the job; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
@@ -80,6 +83,7 @@ impl VerdictBasis {
                 ..job.workcell.clone()
             },
             plates: job.plates.clone(),
+            soils: job.soils.clone(),
             requirements: job.requirements,
             limits: job.limits,
             home_rad: job.home_rad,
@@ -91,6 +95,26 @@ impl VerdictBasis {
                 .chain(hulls(arm))
                 .collect(),
             dry_run: job.dry_run.clone(),
+        }
+    }
+}
+
+impl VerdictBasis {
+    /// Requirements of the washing, each as lax as it is for any plate.
+    pub(crate) fn laxest(&self) -> Requirements {
+        let lax = |contact: ContactRequirements| {
+            let of_plates = self.plates.iter().map(|plate| contact.of_plate(plate, &self.soils));
+            let laxer = |a: ContactRequirements, b: ContactRequirements| ContactRequirements {
+                height_error_m: a.height_error_m.min(b.height_error_m),
+                dose_pa_m: a.dose_pa_m.min(b.dose_pa_m),
+                force_n: [a.force_n[0].min(b.force_n[0]), a.force_n[1].max(b.force_n[1])],
+                ..a
+            };
+            of_plates.reduce(laxer).unwrap_or(contact)
+        };
+        Requirements {
+            contact: self.requirements.contact.map(lax),
+            ..self.requirements
         }
     }
 }
@@ -161,7 +185,7 @@ impl VerdictBasis {
             ("tool", tool(&self.workcell.tool)),
             ("tool mount", tool_mount(&self.workcell.tool)),
             ("sponge", sponge(&self.workcell.tool.sponge)),
-            ("plates", plates(&self.plates)),
+            ("plates", plates(&self.plates, &self.soils)),
             ("obstacles", obstacles(&self.workcell.obstacles)),
             ("home", homes(&self.home_rad)),
             ("limits", limits(&self.limits)),

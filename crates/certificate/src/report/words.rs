@@ -4,6 +4,7 @@
 
 use crate::report::check::{Measure, Sense, Unit};
 use platewash_kinematics::words::{decimals_down, decimals_up, percent, rounded};
+use platewash_workcell::job::Soil;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::plate_number;
 
@@ -92,10 +93,10 @@ fn toward_limit(bound: f64, limit: f64, sense: Sense, decimals: usize) -> String
 const PLACES: usize = 12;
 
 /// Formats sizes and heights of all plates, and the positions of the first ones.
-pub(crate) fn plates(plates: &[Plate]) -> String {
+pub(crate) fn plates(plates: &[Plate], soils: &[Soil]) -> String {
     let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
     for (i, plate) in plates.iter().enumerate() {
-        let size = size(plate);
+        let size = size(plate, soils);
         match alike.iter_mut().find(|(other, _)| *other == size) {
             Some((_, those)) => those.push(i),
             None => alike.push((size, vec![i])),
@@ -125,7 +126,7 @@ fn places(plates: &[Plate], those: &[usize]) -> String {
 }
 
 /// Formats shape, height and tilt of a plate, without the tilt of a level one. For a profile the height is that of the pole.
-fn size(plate: &Plate) -> String {
+fn size(plate: &Plate, soils: &[Soil]) -> String {
     let (rim, thick, height) = (mm(plate.rim_m()), mm(plate.thickness_m), mm(plate.centre().z));
     let size = match plate.surface.profile_words() {
         None => format!("of radius {rim} mm, {thick} mm thick, faces {height} mm above 0"),
@@ -142,4 +143,7 @@ fn size(plate: &Plate) -> String {
         + &plate
             .tilt_words()
             .map_or_else(String::new, |tilted| format!(", {tilted}"))
+        + &plate
+            .terms_words(soils)
+            .map_or_else(String::new, |own| format!(" ({own})"))
 }

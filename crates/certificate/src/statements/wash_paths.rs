@@ -7,6 +7,7 @@
 
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
+use platewash_workcell::job::MOST_PASSES;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::{
     LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TRIM_RAD, MOST_TURNS, WashPath,
@@ -51,8 +52,10 @@ fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
     if let Some(rings) = &curve.rings {
         let count = rings.count as f64;
         // No ring is longer than the outermost.
-        let length_m = TAU * curve.radius_m * (count + 1.0);
+        let laps = f64::from(rings.laps);
+        let length_m = TAU * curve.radius_m * (laps * count + 1.0);
         numbers.extend([
+            number("curve.rings.laps", laps, [1.0, f64::from(MOST_PASSES)]),
             number("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
             number("curve.rings.inner_m", rings.inner_m, [0.0, curve.radius_m]),
             number("curve.rings.lead_rad", rings.lead_rad, [0.0, TAU]),
@@ -90,6 +93,20 @@ pub(crate) fn check(plan: &Plan) -> Check {
             let [least, most] = number.range;
             let what = format!("wash_paths[{i}]: {}", number.name);
             wrong.push(Discrepancy::new(what, number.found, format!("from {least} to {most}")));
+        }
+        let passes = plan
+            .job
+            .plates
+            .get(path.plate)
+            .map_or(1, |plate| plan.job.passes_of(plate));
+        let laps = path.curve.laps();
+        if laps < passes {
+            let what = format!("wash_paths[{i}]: curve.rings.laps");
+            wrong.push(Discrepancy::new(
+                what,
+                laps,
+                format!("at least {passes}, as the soil asks"),
+            ));
         }
     }
     Check::stated(Requirement::WashPaths, wrong)

@@ -25,6 +25,7 @@ pub fn rings() -> WashCurve {
         inner_m: 0.0243,
         lead_rad: 2.02,
         blend_rad: 1.77,
+        laps: 1,
     };
     WashCurve {
         turns: rings.turns(),

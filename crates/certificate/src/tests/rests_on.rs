@@ -20,6 +20,7 @@ fn told(name: &str, change: impl Fn(&mut VerdictBasis)) -> String {
         limits: job.limits,
         home_rad: job.home_rad,
         waived_pairs: Vec::new(),
+        soils: Vec::new(),
         dry_run: None,
         assumptions: vec!["nothing".to_owned()],
     };

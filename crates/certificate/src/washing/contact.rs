@@ -230,20 +230,44 @@ pub(crate) fn checks(
             |worst| of_share(requirement, worst.plate, of(worst)),
         )
     };
-    let [least_n, most_n] = wanted.force_n;
     let strain = (Requirement::Strain, wanted.strain, Sense::AtMost, Unit::Share);
-    let force = |limit, sense| (Requirement::ContactForce, limit, sense, Unit::Newton);
-    let extreme = |asked, of: fn(&PlateContact) -> &ProvedExtreme| of_extreme(asked, pieces, schedule, all, of);
-    let (low, high) = (
-        extreme(force(least_n, Sense::AtLeast), |c| &c.least_force_n),
-        extreme(force(most_n, Sense::AtMost), |c| &c.greatest_force_n),
-    );
+    // Plates with the same window of forces are judged together.
+    let window = |plate: usize| {
+        let own = subject
+            .plates()
+            .get(plate)
+            .and_then(|plate| subject.job.contact_of(plate));
+        own.map_or(wanted.force_n, |own| own.force_n)
+    };
+    let mut windows: Vec<[f64; 2]> = Vec::new();
+    for contact in all {
+        let own = window(contact.plate);
+        if !windows.contains(&own) {
+            windows.push(own);
+        }
+    }
+    let force = |[least_n, most_n]: [f64; 2]| {
+        let alike: Vec<_> = all
+            .iter()
+            .filter(|c| window(c.plate) == [least_n, most_n])
+            .copied()
+            .collect();
+        let side = |limit, sense, of: fn(&PlateContact) -> &ProvedExtreme| {
+            let asked = (Requirement::ContactForce, limit, sense, Unit::Newton);
+            of_extreme(asked, pieces, schedule, &alike, of)
+        };
+        tighter(
+            side(least_n, Sense::AtLeast, |c| &c.least_force_n),
+            side(most_n, Sense::AtMost, |c| &c.greatest_force_n),
+        )
+    };
+    let forces = windows.into_iter().map(force).reduce(tighter);
     vec![
         share(Requirement::Pressed, |c| &c.pressed),
         share(Requirement::ContactTime, |c| &c.time),
         share(Requirement::ContactDose, |c| &c.dose),
-        extreme(strain, |c| &c.strain),
-        tighter(low, high),
+        of_extreme(strain, pieces, schedule, all, |c| &c.strain),
+        forces.unwrap_or_else(|| Check::not_judged(Requirement::ContactForce)),
     ]
 }
 

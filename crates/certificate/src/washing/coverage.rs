@@ -209,7 +209,7 @@ impl Washing<'_> {
     /// Bounds the contact, where the job has contact requirements.
     fn contact(&self, line: &Polyline) -> Result<Option<PlateContact>, ProveError> {
         let job = self.subject.job;
-        let (Some(wanted), Some(foundation)) = (&job.requirements.contact, Foundation::of(&job.workcell.tool.sponge))
+        let (Some(wanted), Some(foundation)) = (job.contact_of(self.plate), Foundation::of(&job.workcell.tool.sponge))
         else {
             return Ok(None);
         };
@@ -221,7 +221,7 @@ impl Washing<'_> {
             plate: self.plate,
             index: self.index,
             foundation: &foundation,
-            wanted,
+            wanted: &wanted,
             instants: &instants,
             around: &around,
             known: DiscWashBounds {

@@ -51,7 +51,8 @@ struct TouchSpeedLimit<'a> {
     kinds: &'a [SegmentKind],
     /// Greatest touching speed \[m/s\].
     limit: f64,
-    far: FarFace,
+    /// True for the free sponge; false for the compressed one.
+    is_free: bool,
 }
 
 /// Checks the touching speed on every plate that the sponge comes down on or leaves.
@@ -67,27 +68,19 @@ pub(crate) fn check(
     };
     let wanted = &subject.job.requirements;
     let judged = |limit: &TouchSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
-    let as_washed = FarFace {
-        beyond_m: 0.0,
-        error_m: 0.0,
-    };
     let limit = subject.limits.wash_speed_m_s;
     if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
         return judged(&TouchSpeedLimit {
             kinds: &[SegmentKind::Approach, SegmentKind::Retreat],
             limit,
-            far: as_washed,
+            is_free: false,
         });
     }
-    let free = FarFace {
-        beyond_m: subject.job.workcell.tool.sponge.compression_m,
-        error_m: wanted.contact.map_or(0.0, |contact| contact.height_error_m),
-    };
     let of = |kind, stated: Option<f64>| {
         judged(&TouchSpeedLimit {
             kinds: &[kind],
             limit: stated.map_or(limit, |stated| stated.min(limit)),
-            far: stated.map_or(as_washed, |_| free),
+            is_free: stated.is_some(),
         })
     };
     tighter(
@@ -112,7 +105,19 @@ fn judge(
     let rim = |index: usize, span: &Span| {
         let plate = subject.plates().get(span.plate)?;
         let sponge = &subject.job.workcell.tool.sponge;
-        Some(Rim::new(plate, sponge, touch.far, tips.least_upright_cosine_of(index)))
+        let far = if touch.is_free {
+            let contact = subject.job.contact_of(plate);
+            FarFace {
+                beyond_m: sponge.compression_m,
+                error_m: contact.map_or(plate.deviation_m(), |contact| contact.height_error_m),
+            }
+        } else {
+            FarFace {
+                beyond_m: 0.0,
+                error_m: plate.deviation_m(),
+            }
+        };
+        Some(Rim::new(plate, sponge, far, tips.least_upright_cosine_of(index)))
     };
     tracker.allow_for(spans().map(|(_, span)| span.pieces.len()).sum());
     // Nothing that touches is fast: so it is until something is seen, and for good where nothing touches.

@@ -209,7 +209,7 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
     let sponge = &subject.job.workcell.tool.sponge;
     let sponge_m = norm(sponge.radius_m, sponge.height_m);
     let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.limits.clearance_m;
-    own.aside_m(other) - other.rim_m() <= reach_m
+    own.aside_m(other) - other.outer_m() <= reach_m
 }
 
 /// Plates that are swept besides the plate being washed.

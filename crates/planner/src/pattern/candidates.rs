@@ -51,9 +51,12 @@ pub(crate) fn candidates(
     surface: &Surface,
     sponge_m: f64,
     density: Density,
+    laps: u32,
 ) -> Vec<WashCurve> {
-    let pattern = settings
-        .pattern
+    // A spiral passes every place once.
+    let pattern = (laps > 1)
+        .then_some(PatternName::Rings)
+        .or(settings.pattern)
         .or(states_spiral(settings).then_some(PatternName::Spiral));
     let arc_m = surface.arc_m();
     let mut all = Vec::new();
@@ -61,7 +64,7 @@ pub(crate) fn candidates(
         return all;
     }
     if pattern != Some(PatternName::Spiral) {
-        all.extend(rings(settings, arc_m, sponge_m, density));
+        all.extend(rings(settings, arc_m, sponge_m, density, laps));
     }
     if pattern != Some(PatternName::Rings) {
         all.extend(spirals(settings, arc_m, sponge_m, density));
@@ -116,7 +119,7 @@ fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Densi
 
 /// Rings that lie evenly, or nearly so: about half a pitch from the pole to the first, and half a pitch or less from the last to the
 /// rim. As many as are stated, however far apart; at least one curve.
-fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density) -> Vec<WashCurve> {
+fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density, laps: u32) -> Vec<WashCurve> {
     let mut all = Vec::new();
     let [least, most] = match settings.turns {
         Some(turns) => [(turns.round() as usize).saturating_add(1).clamp(2, MOST_RINGS); 2],
@@ -138,20 +141,21 @@ fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density
         for radius_m in outers.into_iter().map(|radius_m| radius_m.max(LEAST_RADIUS_M)) {
             let even_m = radius_m / (2 * count - 1) as f64;
             for inner_m in INNER.map(|share| share * even_m) {
-                all.extend(BLENDS.map(|blend| ringed(count, [inner_m, radius_m], blend)));
+                all.extend(BLENDS.map(|blend| ringed((count, laps), [inner_m, radius_m], blend)));
             }
         }
     }
     all
 }
 
-/// Rings with ℓ of the innermost and of the outermost.
-fn ringed(count: usize, [inner_m, radius_m]: [f64; 2], [lead_rad, blend_rad]: [f64; 2]) -> WashCurve {
+/// Rings, each gone round a number of times, with ℓ of the innermost and of the outermost.
+fn ringed((count, laps): (usize, u32), [inner_m, radius_m]: [f64; 2], [lead_rad, blend_rad]: [f64; 2]) -> WashCurve {
     let rings = Rings {
         count,
         inner_m,
         lead_rad,
         blend_rad,
+        laps,
     };
     WashCurve {
         radius_m,

@@ -22,6 +22,7 @@ use crate::timing::TipLimits;
 use crate::trig::atan2;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
+use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::sync::OnceLock;
@@ -106,24 +107,25 @@ pub struct Patterns {
 }
 
 impl Patterns {
-    /// Returns the patterns that a job offers on a surface where the arm accelerates the tip by up to `arm_m_s2` \[m/s²\].
+    /// Returns the patterns that a job offers on a plate where the arm accelerates the tip by up to `arm_m_s2` \[m/s²\].
     #[must_use]
     pub fn new(
         terms: &JobTerms,
         settings: &PlannerSettings,
-        surface: &Surface,
+        plate: &Plate,
         arm_m_s2: f64,
         cancel: &CancelToken,
     ) -> Self {
-        let promise = Promise::of(terms, surface);
+        let (surface, promise) = (&plate.surface, Promise::of(terms, plate));
         let limits = TipLimits {
-            speed_m_s: terms.wash_speed_m_s(),
+            speed_m_s: terms.wash_speed_of(plate),
             acceleration_m_s2: terms.wash_acceleration_m_s2().min(arm_m_s2),
         };
-        let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density);
+        let laps = terms.passes_of(plate);
+        let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density, laps);
         let usual = curves(Density::Usual).into_iter();
         let candidates = usual.map(|curve| Candidate::new(curve, surface, &limits)).collect();
-        let cones = cones(terms, settings, surface);
+        let cones = cones(terms, settings, plate);
         Self {
             surface: *surface,
             promise,
@@ -358,15 +360,15 @@ impl Patterns {
 }
 
 /// The cones to plan with, the best first: on a flat face as wide as leaves the whole sponge in contact, where a promise asks for it.
-fn cones(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Vec<f64> {
+fn cones(terms: &JobTerms, settings: &PlannerSettings, plate: &Plate) -> Vec<f64> {
     let most = terms.tilt_max_rad();
     if let Some(tilt) = settings.tilt_rad {
         return vec![tilt.min(most)];
     }
-    let (sponge, Some(contact)) = (&terms.workcell.tool.sponge, &terms.requirements.contact) else {
+    let (sponge, Some(contact)) = (&terms.workcell.tool.sponge, terms.contact_of(plate)) else {
         return vec![most];
     };
-    if !surface.is_flat() {
+    if !plate.surface.is_flat() {
         return vec![most];
     }
     let spare_m = sponge.compression_m - contact.height_error_m - contact.compression_m - HEIGHT_RESERVE_M;

@@ -144,10 +144,11 @@ impl Promise {
     /// Promise of a job on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and
     /// touches others.
     #[must_use]
-    pub fn of(terms: &JobTerms, surface: &Surface) -> Self {
+    pub fn of(terms: &JobTerms, plate: &Plate) -> Self {
+        let surface = &plate.surface;
         let (requirements, sponge) = (&terms.requirements, &terms.workcell.tool.sponge);
         let foundation = foundation(sponge);
-        let Some(contact) = &requirements.contact else {
+        let Some(contact) = terms.contact_of(plate) else {
             return Self {
                 foundation,
                 thresholds: ContactThresholds {

@@ -10,8 +10,15 @@ fn disc() -> Surface {
     Surface::Disc { radius_m: 0.145 }
 }
 
+fn plate(surface: &Surface) -> Plate {
+    Plate {
+        surface: *surface,
+        ..Plate::level_disc([0.3, 0.0, 0.03], surface.rim_m(), 0.02)
+    }
+}
+
 fn offered(terms: &JobTerms, settings: &PlannerSettings, surface: &Surface) -> Vec<Pattern> {
-    let patterns = Patterns::new(terms, settings, surface, f64::INFINITY, &CancelToken::new());
+    let patterns = Patterns::new(terms, settings, &plate(surface), f64::INFINITY, &CancelToken::new());
     let widest = patterns.widest();
     let all: Vec<Pattern> = patterns.first().chain(patterns.wider_patterns()).collect();
     assert!(all.iter().all(|pattern| pattern.cone_rad <= widest.cone_rad));
@@ -82,7 +89,7 @@ fn keeps_the_stated_number_of_rings() {
             terms.workcell.tool.sponge.radius_m = sponge_m;
             // Without a promise about contact the test sees the curves alone.
             terms.requirements.contact = None;
-            let promise = Promise::of(&terms, &surface);
+            let promise = Promise::of(&terms, &plate(&surface));
             for turns in [None, Some(1.0), Some(2.0), Some(7.0), Some(99.0)] {
                 for path_radius_m in [None, Some(1e-4), Some(0.05)] {
                     let settings = PlannerSettings {
@@ -91,7 +98,7 @@ fn keeps_the_stated_number_of_rings() {
                         path_radius_m,
                         ..open()
                     };
-                    let all = candidates(&settings, &surface, promise.foundation.radius_m, Density::Usual);
+                    let all = candidates(&settings, &surface, promise.foundation.radius_m, Density::Usual, 1);
                     let what = format!("{surface:?}, {sponge_m} m, {turns:?}, {path_radius_m:?}");
                     assert!(!all.is_empty(), "{what}");
                     for curve in all {
@@ -181,7 +188,7 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                     .filter(|(t, _)| during(t))
                     .map(|(_, q)| *q)
                     .collect();
-                let promise = Promise::of(job.terms(), &plate.surface);
+                let promise = Promise::of(job.terms(), plate);
                 promise
                     .sampled(&scene, plate, &along, 0.25)
                     .shortfall(&Margin::ARM)

@@ -119,7 +119,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
             &pipeline.plates[visit.path.plate],
             job.terms(),
             (&visit.path.curve, &visit.wash.motion),
-            &pipeline.washing,
+            &pipeline.washing_of(visit.path.plate),
         ),
     });
     let transits = transits.iter().map(|transit| {

@@ -202,6 +202,15 @@ impl<'a> Pipeline<'a> {
         self.terms.requirements.clearance_m
     }
 
+    /// Limits of the wash of a plate.
+    pub fn washing_of(&self, plate: usize) -> MotionLimits {
+        let mut limits = self.washing;
+        if let (Some(tip), Some(plate)) = (&mut limits.tip, self.plates.get(plate)) {
+            tip.speed_m_s = self.terms.wash_speed_of(plate);
+        }
+        limits
+    }
+
     /// Position of the tip at an end \[m\], in the frame of the base.
     pub fn home_tip(&self, scene: &Scene<'_>, home: &JointVector) -> Vector3<f64> {
         self.robot.fk(home).rigid(&scene.tip).translation
@@ -212,7 +221,7 @@ impl<'a> Pipeline<'a> {
         let scene = self.scene()?;
         let mut all: Vec<Arc<Patterns>> = Vec::with_capacity(self.plates.len());
         for (k, plate) in self.plates.iter().enumerate() {
-            let is_like = |other: &&Plate| other.surface == plate.surface;
+            let is_like = |other: &&Plate| other.surface == plate.surface && other.terms == plate.terms;
             all.push(match self.plates[..k].iter().position(|other| is_like(&other)) {
                 Some(like) => all[like].clone(),
                 None => {
@@ -221,8 +230,8 @@ impl<'a> Pipeline<'a> {
                         .filter_map(|plate| self.tip_acceleration(&scene, plate))
                         .reduce(f64::max);
                     let most_m_s2 = most.unwrap_or(f64::INFINITY);
-                    let (surface, cancel) = (&plate.surface, self.watch.cancel);
-                    Arc::new(Patterns::new(self.terms, self.settings, surface, most_m_s2, cancel))
+                    let cancel = self.watch.cancel;
+                    Arc::new(Patterns::new(self.terms, self.settings, plate, most_m_s2, cancel))
                 }
             });
         }

@@ -50,7 +50,7 @@ pub(crate) struct Turn {
 impl Turn {
     /// Times the wash along its configurations.
     pub fn timed(&self, pipeline: &Pipeline<'_>, scene: &Scene<'_>) -> Result<TimedPath, PlanError> {
-        let mut limits = pipeline.washing;
+        let mut limits = pipeline.washing_of(self.path.plate);
         if let Some(tip) = &mut limits.tip {
             tip.speed_m_s *= self.pattern.speed_share;
         }
@@ -222,9 +222,9 @@ impl Pipeline<'_> {
     /// with the tip's pose by its height \[m\].
     fn first_contact_height_m(&self, plate: usize, lift_m: f64, over: impl Fn(&f64) -> Pose) -> f64 {
         let sponge = &self.terms.workcell.tool.sponge;
-        let contact = &self.terms.requirements.contact;
-        let higher_m = contact.map_or(0.0, |contact| contact.height_error_m);
         let (columns, plate) = (Columns::new(&foundation(sponge)), &self.plates[plate]);
+        let contact = self.terms.contact_of(plate);
+        let higher_m = contact.map_or(plate.deviation_m(), |contact| contact.height_error_m);
         let deepest_m = |height: f64| {
             let pose = SpongePose::on(plate, &RigidTransform::from(&over(&height)));
             columns.load(&plate.surface, &pose, higher_m).deepest_m

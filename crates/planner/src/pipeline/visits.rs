@@ -245,8 +245,8 @@ impl Pipeline<'_> {
     fn sampled(&self, scene: &Scene<'_>, turn: &Turn) -> Option<SampledWash> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
-        let promise = Promise::of(self.terms, &plate.surface);
-        let speed_m_s = turn.pattern.speed_share * self.terms.wash_speed_m_s();
+        let promise = Promise::of(self.terms, plate);
+        let speed_m_s = turn.pattern.speed_share * self.terms.wash_speed_of(plate);
         Some(promise.sampled(scene, plate, &turn.washing.q, speed_m_s))
     }
 

@@ -3,7 +3,7 @@
 //! | concept | module |
 //! | --- | --- |
 //! | the arm; the tool on it | `arm`; `tool_on_arm` |
-//! | places of the plates | `placement` |
+//! | places of the plates; plates and soils out of files | `placement`; `plate_files` |
 //! | bodies around the arm; meshes as convex bodies | `surroundings`; `solids` |
 //! | requirements of contact, landing and lifting | `contact` |
 //! | keys with a narrower range in a certified job than in the paper's program; bounds on the amount of work | `certified` |
@@ -12,6 +12,7 @@ pub(crate) mod arm;
 pub(crate) mod certified;
 pub(crate) mod contact;
 pub(crate) mod placement;
+pub(crate) mod plate_files;
 pub(crate) mod solids;
 pub(crate) mod surroundings;
 pub(crate) mod tool_on_arm;
@@ -39,6 +40,7 @@ use platewash_workcell::layout::{Finding, Layout};
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::workcell::{ReducedClearance, Workcell};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 impl Scenario {
@@ -55,6 +57,7 @@ impl Scenario {
     pub fn read_files(&self) {
         // Errors are dropped on purpose.
         let _ = self.arm();
+        let _ = self.plates_read();
         let of_tool = self.tool_body.iter().map(|section| &section.body);
         for body in of_tool.chain(self.obstacle.iter().map(|section| &section.body)) {
             if let Some(mesh) = &body.mesh {
@@ -73,9 +76,10 @@ impl Scenario {
     /// # Errors
     /// [`Failure`].
     pub fn job(&self) -> Result<WashJob, Failure> {
-        let arm = self.arm()?;
-        let layout = self.place(&arm, &Watch::silent(&CancelToken::new()))?;
-        self.job_on(&arm, &layout)
+        let read = self.plates_read()?;
+        let arm = read.arm()?;
+        let layout = read.place(&arm, &Watch::silent(&CancelToken::new()))?;
+        read.job_on(&arm, &layout)
     }
 
     /// The washing that the scenario asks for with an arm loaded and plates placed before.
@@ -128,6 +132,9 @@ impl Scenario {
     /// # Errors
     /// As carrying it out, for the same fault.
     pub fn check(&self) -> Result<(Arc<RobotModel>, Vec<Finding>), Failure> {
+        if let Cow::Owned(read) = self.plates_read()? {
+            return read.check();
+        }
         self.validate()?;
         let arm = self.arm()?;
         let given = self.lists_plates();
@@ -170,6 +177,9 @@ impl Scenario {
     /// # Errors
     /// [`Failure`]: a tip that washes off the plates, or an arm with a shape that is none.
     pub fn terms(&self, arm: &RobotModel, layout: &Layout) -> Result<JobTerms, Failure> {
+        if let Cow::Owned(read) = self.plates_read()? {
+            return read.terms(arm, layout);
+        }
         if self.wash.height_m != 0.0 {
             let height_m = self.wash.height_m;
             return Err(Failure::NoContact { height_m });
@@ -201,6 +211,8 @@ impl Scenario {
             seed: self.seed,
             simulation: self.simulation(),
             dry_run: None,
+            soils: self.soils().to_vec(),
+            measured: self.measured().to_vec(),
         };
         if start.is_none() {
             // A body in an impossible place leaves no home either, and is the better reason.

@@ -14,10 +14,11 @@ use platewash_workcell::layout::{
     self, BaseFootprint, Finding, Layout, LayoutError, MAX_PLATES, Placement, PlateGeometry, Region, Sampler, Spacing,
     TaskRegion,
 };
-use platewash_workcell::plate::{Foot, Plate};
+use platewash_workcell::plate::{Foot, Plate, PlateTerms};
 use platewash_workcell::random;
 use platewash_workcell::surface::{Knot, MeridianError, Surface};
 use rand_pcg::Pcg64;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 impl LayoutSection {
@@ -48,6 +49,7 @@ impl LayoutSection {
             foot: self
                 .plate_foot_m
                 .map(|[radius_m, height_m]| Foot { radius_m, height_m }),
+            terms: PlateTerms::default(),
         }
     }
 
@@ -100,10 +102,13 @@ impl Scenario {
     /// Places the plates round an arm: as given, or drawn from the seed's own stream, whether they can be washed or not.
     ///
     /// # Errors
-    /// [`LayoutError`].
-    pub fn layout(&self, arm: &RobotModel) -> Result<Layout, LayoutError> {
+    /// [`Failure`]: no room, or a file of plates that cannot be used.
+    pub fn layout(&self, arm: &RobotModel) -> Result<Layout, Failure> {
+        if let Cow::Owned(read) = self.plates_read()? {
+            return read.layout(arm);
+        }
         let base = layout::mounted_footprint(arm, &self.robot.mount());
-        self.draw(base.as_ref(), &mut random::stream(self.seed, "layout"))
+        Ok(self.draw(base.as_ref(), &mut random::stream(self.seed, "layout"))?)
     }
 
     /// A layout, in the world. It is drawn about the foot of the arm's mount, along the world's axes: there the rules of spacing hold.
@@ -125,7 +130,7 @@ impl Scenario {
                 washable_only,
             },
         };
-        let mut layout = placement.place(&self.layout.spacing(), &self.layout.geometry(), base, rng)?;
+        let mut layout = placement.place(&self.layout.spacing(), &self.geometry_of(None), base, rng)?;
         if !self.plate.is_empty() {
             layout = layout.of_kinds(&kinds, base);
         }
@@ -167,8 +172,11 @@ impl Scenario {
     /// # Errors
     /// [`Failure`]: no room, too much work, or none of the drawn layouts can be washed.
     pub fn place(&self, arm: &Arc<RobotModel>, watch: &Watch<'_>) -> Result<Layout, Failure> {
+        if let Cow::Owned(read) = self.plates_read()? {
+            return read.place(arm, watch);
+        }
         if self.lists_plates() || !self.layout.placement().needs_planner() {
-            return Ok(self.layout(arm)?);
+            return self.layout(arm);
         }
         self.check_work()?;
         let base = layout::mounted_footprint(arm, &self.robot.mount());
@@ -202,7 +210,9 @@ impl Scenario {
     #[must_use]
     pub fn lists_plates(&self) -> bool {
         let given = |plate: &PlateSection| plate.at_m.is_some();
-        self.layout.positions_m.is_some() || (!self.plate.is_empty() && self.plate.iter().all(given))
+        self.layout.positions_m.is_some()
+            || self.layout.plate_file.is_some()
+            || (!self.plate.is_empty() && self.plate.iter().all(given))
     }
 
     /// Plates that are asked for.
@@ -213,8 +223,8 @@ impl Scenario {
 
     /// The plates that `[[plate]]` gives one by one, if it does.
     pub(crate) fn listed_plates(&self) -> Option<Vec<Plate>> {
-        let rows = self.plate.iter();
-        let plates: Option<Vec<_>> = rows.map(|row| row.faces_of(&row.of(&self.layout).geometry())).collect();
+        let rows = self.plate.iter().enumerate();
+        let plates: Option<Vec<_>> = rows.map(|(k, row)| row.faces_of(&self.geometry_of(Some(k)))).collect();
         Some(plates?.concat()).filter(|plates| !plates.is_empty())
     }
 
@@ -232,11 +242,21 @@ impl Scenario {
         let layout = &self.layout;
         let listed = layout.positions_m.as_ref().map_or(layout.count, Vec::len);
         if self.plate.is_empty() {
-            return vec![(listed, layout.geometry())];
+            return vec![(listed, self.geometry_of(None))];
         }
         let faces = |row: &PlateSection| if row.has_both() { 2 } else { 1 };
-        let kind = |row: &PlateSection| (row.count.unwrap_or(faces(row)), row.of(layout).geometry());
-        self.plate.iter().map(kind).collect()
+        let kind = |(k, row): (usize, &PlateSection)| (row.count.unwrap_or(faces(row)), self.geometry_of(Some(k)));
+        self.plate.iter().enumerate().map(kind).collect()
+    }
+
+    /// Geometry of the plates of a `[[plate]]` section by its index, or of `[layout]`.
+    fn geometry_of(&self, section: Option<usize>) -> PlateGeometry {
+        let row = section.and_then(|k| self.plate.get(k));
+        let own = row.map_or_else(|| self.layout.clone(), |row| row.of(&self.layout));
+        PlateGeometry {
+            terms: self.plate_terms(section, &own),
+            ..own.geometry()
+        }
     }
 
     /// The `[layout]` that each shape of plates is stated by, and the words for its keys.
@@ -254,6 +274,7 @@ impl Scenario {
         for (layout, keys) in self.shapes() {
             layout.check_shape().map_err(|problem| keys.of_problem(problem))?;
         }
+        self.check_plate_files()?;
         if self.plate.is_empty() {
             return Ok(());
         }
@@ -262,6 +283,9 @@ impl Scenario {
                 "plate, layout.positions_m",
                 "give [[plate]] sections or positions_m, not both",
             );
+        }
+        if self.layout.plate_file.is_some() {
+            return Ok(());
         }
         if self.job.program == Program::Paper {
             let detail =

@@ -3,12 +3,15 @@
 //! The `[[plate]]` sections: plates one by one, each with its own shape and place, or kinds of plates to be sampled.
 
 use crate::error::{Problem, conflict};
+use crate::load::serialize_lossy;
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::layout::{PlateGeometry, Region};
+use platewash_workcell::measured::Unit;
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// Radius of a flat plate where none is stated \[m\].
 pub const PLATE_RADIUS_M: f64 = 0.145;
@@ -36,6 +39,30 @@ pub struct LayoutSection {
     #[key(unit = "m, deg", domain = Knots(10.0, 60.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_knots: Option<Vec<[f64; 2]>>,
+    /// STL or OBJ file of a plate's mesh, in place of a profile: its axis is found, and a profile, thickness and foot are fitted to it. Its
+    /// greatest deviation from them adds to the height error, so that the proof holds for the mesh. Relative to the scenario's folder.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
+    pub plate_mesh: Option<PathBuf>,
+    /// CSV file of points that a probe touched on a plate's face, with columns x, y, z, in place of a mesh: the profile is fitted to them.
+    /// Between the points the face is not measured.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
+    pub plate_points: Option<PathBuf>,
+    /// Unit of the mesh or the points. Without it, the one in which the plate is from 0.145 to 0.365 m wide; a report names it.
+    #[key(domain = Word(&["m", "cm", "mm", "inch"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate_unit: Option<Unit>,
+    /// Kind of soil on the plates: a name in wash.soil_file.
+    #[key(domain = Text)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate_soil: Option<String>,
+    /// CSV file of plates, one a row: name, place (x_m, y_m, z_m; or touched_x_mm, touched_y_mm, touched_z_mm as the pendant shows the tip in the
+    /// middle of the plate), and if wanted tilt_deg with tilt_azimuth_deg, kind, height_error_mm, soil. A kind is a built-in profile or the
+    /// `kind` of a [[plate]] section.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
+    pub plate_file: Option<PathBuf>,
     /// Radius and height of the ring that a plate stands on, below its body; its radius is at most that of the rim.
     #[key(unit = "m", domain = PairAbove(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -147,6 +174,33 @@ impl LayoutSection {
 
     /// Refuses two shapes at once, knots that are no meridian, and a foot that is wider than its plate.
     pub(crate) fn check_shape(&self) -> Result<(), Problem> {
+        let files = [
+            ("layout.plate_mesh", &self.plate_mesh),
+            ("layout.plate_points", &self.plate_points),
+        ];
+        let mut files = files.into_iter().filter(|(_, file)| file.is_some());
+        if let Some((key, _)) = files.next() {
+            let others = [
+                files.next().map(|(key, _)| key),
+                self.plate_knots.as_ref().map(|_| "layout.plate_knots"),
+                self.plate_profile.map(|_| "layout.plate_profile"),
+                self.plate_radius_m.map(|_| "layout.plate_radius_m"),
+            ];
+            return match others.into_iter().flatten().next() {
+                Some(other) => conflict(
+                    format!("{key}, {other}"),
+                    "the file states the shape of the plate: leave the other out",
+                ),
+                // The shape is checked once it is read.
+                None => Ok(()),
+            };
+        }
+        if self.plate_unit.is_some() {
+            return conflict(
+                "layout.plate_unit",
+                "is the unit of a mesh or of points, and there are none",
+            );
+        }
         if let (Some(profile), Some(_)) = (self.plate_profile, &self.plate_knots) {
             return conflict(
                 "layout.plate_profile, layout.plate_knots",
@@ -214,6 +268,30 @@ pub struct PlateSection {
     #[key(unit = "m, deg", domain = Knots(10.0, 60.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub knots: Option<Vec<[f64; 2]>>,
+    /// STL or OBJ file of its mesh, as `layout.plate_mesh`.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
+    pub mesh: Option<PathBuf>,
+    /// CSV file of points that a probe touched on its face, as `layout.plate_points`.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
+    pub points: Option<PathBuf>,
+    /// Unit of the mesh or the points, as `layout.plate_unit`.
+    #[key(domain = Word(&["m", "cm", "mm", "inch"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
+    /// Name of this kind, where the plates are those of layout.plate_file: the section states a kind and no plate.
+    #[key(domain = Text)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kind: Option<String>,
+    /// Kind of soil on it: a name in wash.soil_file. Without it, layout.plate_soil.
+    #[key(domain = Text)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soil: Option<String>,
+    /// Height error of this plate, up or down. Without it, wash.contact_height_error_m.
+    #[key(unit = "m", domain = Number(0.0, 1.0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_error_m: Option<f64>,
     /// Radius and height of the ring that it stands on; without it, that of `[layout]`, if any.
     #[key(unit = "m", domain = PairAbove(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -243,11 +321,16 @@ impl PlateSection {
     /// The section of a layout in which every plate is one of these.
     pub(crate) fn of(&self, layout: &LayoutSection) -> LayoutSection {
         let mut own = layout.clone();
-        if self.radius_m.is_some() || self.profile.is_some() || self.knots.is_some() {
+        let files = self.mesh.is_some() || self.points.is_some();
+        if files || self.radius_m.is_some() || self.profile.is_some() || self.knots.is_some() {
             own.plate_radius_m = self.radius_m;
             own.plate_profile = self.profile;
             own.plate_knots.clone_from(&self.knots);
+            own.plate_mesh.clone_from(&self.mesh);
+            own.plate_points.clone_from(&self.points);
+            own.plate_unit = self.unit;
         }
+        own.plate_soil = self.soil.clone().or(own.plate_soil);
         own.plate_foot_m = self.foot_m.or(own.plate_foot_m);
         own.plate_thickness_m = self.thickness_m.unwrap_or(own.plate_thickness_m);
         own
@@ -260,6 +343,7 @@ impl PlateSection {
             thickness_m: geometry.thickness_m,
             foot: geometry.foot,
             pose: pose(self.at_m?, self.rpy_deg.unwrap_or_default()),
+            terms: geometry.terms,
         };
         Some(match plate.faces().filter(|_| self.has_both()) {
             Some(both) => both.to_vec(),

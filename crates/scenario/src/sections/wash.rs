@@ -1,8 +1,10 @@
 //! The `[wash]` section: the wash path and its requirements.
 
+use crate::load::serialize_lossy;
 use platewash_keys::Section;
 use platewash_workcell::job::PatternName;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// Turns of the paper's spiral where none are stated.
 pub const PAPER_TURNS: f64 = 3.0;
@@ -109,4 +111,9 @@ pub struct WashSection {
     /// Share of a face's area that gets contact_dose_pa_m. Without it, 0.99 where contact is true.
     #[key(domain = Number(0.0, 1.0))]
     pub contact_dose_share: Option<f64>,
+    /// TOML file of kinds of soil: [[soil]] sections with name, source, and as wanted dose_pa_m, passes, speed_m_s, force_n. Plates name
+    /// theirs by layout.plate_soil, or each by its own.
+    #[key(domain = Path)]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
+    pub soil_file: Option<PathBuf>,
 }

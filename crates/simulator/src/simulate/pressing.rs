@@ -7,7 +7,7 @@ use crate::plant::{FoamLoad, SpongeOnPlates};
 use crate::simulate::execution::Sample;
 use platewash_kinematics::{Frame, JointVector};
 use platewash_workcell::contact::{ContactSampler, ContactThresholds, Dwell, Foundation, Moment, SpongePose};
-use platewash_workcell::job::ContactRequirements;
+use platewash_workcell::job::{ContactRequirements, JobTerms};
 use platewash_workcell::plate::Plate;
 use serde::Serialize;
 
@@ -95,7 +95,7 @@ pub(crate) struct Judge<'a> {
     pub tip: &'a Frame,
     /// The sponge, of the stiffness simulated.
     pub foundation: Foundation,
-    pub required: Option<&'a ContactRequirements>,
+    pub job: &'a JobTerms,
     pub period_s: f64,
 }
 
@@ -111,7 +111,7 @@ impl Judge<'_> {
             strain: deepest_m / self.foundation.free_height_m,
             lost: self.lost(samples, &load),
             planned: HEIGHT_ERRORS_M.map(|higher_m| self.at_height(samples, index, higher_m)),
-            contact: self.required.map(|required| self.contact(samples, plate, required)),
+            contact: (self.job.contact_of(plate)).map(|required| self.contact(samples, plate, &required)),
         })
     }
 

@@ -169,7 +169,7 @@ impl Foam {
             sponge: &self.sponge,
             tip,
             foundation: self.foundation,
-            required: plan.job.requirements.contact.as_ref(),
+            job: &plan.job,
             period_s,
         }
     }

@@ -196,6 +196,19 @@ export interface Plate {
   thickness_m: number;
   /** What it stands on: a cylinder below the body under the pole. */
   foot?: { radius_m: number; height_m: number };
+  /** Its own height error, soil and deviation in words, where it has any. */
+  own?: string;
+  /** What was measured of it. */
+  relief?: Relief;
+}
+
+/** Heights of a plate on a polar grid, ring by ring, in steps of 10 µm over the pole; the azimuths begin at x. */
+export interface Relief {
+  radii_m: number[];
+  azimuths: number;
+  upper: number[];
+  /** Empty where the underside was not measured. */
+  lower: number[];
 }
 
 /** What the tip follows on a plate. */
@@ -261,6 +274,8 @@ export interface PlateCoverage {
 export interface PlateDirt extends Pick<PlateCoverage, "plate" | "half_m" | "step_s"> {
   /** Dose that removes it [Pa·m]. */
   dose_pa_m: number;
+  /** Name of the soil, where one is stated. */
+  soil?: string;
   /** As `first` of the coverage: when the dose is proved there. */
   clean: Numbers;
 }

@@ -206,7 +206,9 @@ impl View {
                 obstacles: workcell.obstacles.clone(),
                 region: region.clone(),
             },
-            plates: plates.map(|(index, plate)| Plate::new(index, plate)).collect(),
+            plates: plates
+                .map(|(index, plate)| Plate::of_job(index, plate, terms))
+                .collect(),
             ..Self::of_configuration(robot, Some(&workcell.tool), q)
         }
     }

@@ -3,6 +3,8 @@
 use super::numbers::Numbers;
 use super::tips::{Tips, washes};
 use nalgebra::Vector3;
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::measured::Relief;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate;
 use platewash_workcell::wash_path::{self, WashCurve};
@@ -28,6 +30,12 @@ pub struct Plate {
     pub name: String,
     /// The face from the pole to the rim: distance from the axis, and height \[m\].
     pub meridian_m: Vec<[f64; 2]>,
+    /// Its terms in words, where they differ from those of the job.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub own: Option<String>,
+    /// Heights of the measured plate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relief: Option<Relief>,
     /// The rest of it.
     #[serde(flatten)]
     pub plate: plate::Plate,
@@ -48,8 +56,21 @@ impl Plate {
     pub fn new(index: usize, plate: &plate::Plate) -> Self {
         Self {
             name: plate_name(index),
+            own: plate.terms_words(&[]),
+            relief: None,
             meridian_m: plate.surface.outline_m(TURN_RAD),
             plate: *plate,
+        }
+    }
+
+    /// Same for a plate of a job, with its soil and its measured shape.
+    #[must_use]
+    pub fn of_job(index: usize, plate: &plate::Plate, job: &JobTerms) -> Self {
+        let measured = plate.terms.measured.and_then(|shape| job.measured.get(shape));
+        Self {
+            own: plate.terms_words(&job.soils),
+            relief: measured.map(|shape| shape.relief.clone()),
+            ..Self::new(index, plate)
         }
     }
 }

@@ -31,7 +31,7 @@ impl PressedRule {
         if !job.workcell.tool.is_present() {
             return None;
         }
-        let promised = job.requirements.contact.as_ref().map(|contact| Self {
+        let promised = job.contact_of(plate).map(|contact| Self {
             compression_m: contact.compression_m,
             height_error_m: contact.height_error_m,
             is_promised: true,

@@ -6,17 +6,23 @@
 //! | a job with its arm | `wash_job` |
 //! | everything about a job but the arm; the job in the frame of the base | `terms` |
 //! | requirements and limits | `requirements` |
+//! | shapes of plates that were measured | `measured_shape` |
+//! | kinds of soil, and the requirements of each plate | `soil` |
 //! | errors | `error` |
 
 mod error;
+mod measured_shape;
 mod requirements;
+mod soil;
 mod terms;
 mod wash_job;
 
 pub use crate::job::error::{End, JobError};
+pub use crate::job::measured_shape::MeasuredShape;
 pub use crate::job::requirements::{
     ContactRequirements, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M, PatternName, Planner,
     PlannerSettings, ReachBorders, Requirements, Treatment,
 };
+pub use crate::job::soil::{MOST_PASSES, Soil};
 pub use crate::job::terms::{JobTerms, MAX_SEED, PlateOverlap, check_workcell};
 pub use crate::job::wash_job::WashJob;

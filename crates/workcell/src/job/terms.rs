@@ -7,7 +7,9 @@
 use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_overlaps};
 use crate::dry_run::DryRun;
 use crate::job::error::JobError;
+use crate::job::measured_shape::MeasuredShape;
 use crate::job::requirements::{Limits, Planner, PlannerSettings, Requirements, Treatment};
+use crate::job::soil::Soil;
 use crate::layout::{MAX_PLATES, base_footprint};
 use crate::plate::{GREATEST_M, Plate};
 use crate::pose;
@@ -54,6 +56,12 @@ pub struct JobTerms {
     /// Parent plan and height of a dry run; left out of files if the job is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
+    /// Kinds of soil on the plates.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub soils: Vec<Soil>,
+    /// Measured shapes of plates, for pictures and reports: hashed, not judged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub measured: Vec<MeasuredShape>,
 }
 
 impl JobTerms {
@@ -143,6 +151,7 @@ impl JobTerms {
             }
         }
         self.check_dry_run()?;
+        self.check_soils()?;
         let count = self.plates.len();
         if !(1..=MAX_PLATES).contains(&count) {
             return Err(JobError::PlateCount { found: count });
@@ -259,7 +268,7 @@ pub fn check_workcell(workcell: &Workcell, plates: usize) -> Result<(), JobError
     Ok(())
 }
 
-fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), JobError> {
+pub(crate) fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), JobError> {
     if (least..=most).contains(&found) {
         return Ok(());
     }
@@ -267,7 +276,7 @@ fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(),
     Err(JobError::Number { name, expected, found })
 }
 
-fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
+pub(crate) fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
     if found > 0.0 && found.is_finite() {
         return Ok(());
     }

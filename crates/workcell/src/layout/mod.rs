@@ -28,7 +28,7 @@ pub use crate::layout::sampling::{Attempt, Placement, Sampler};
 
 use crate::layout::error::{finite, not_negative, positive, range};
 use crate::layout::sampling::Work;
-use crate::plate::{Foot, Plate};
+use crate::plate::{Foot, Plate, PlateTerms};
 use crate::surface::Surface;
 use platewash_kinematics::Pose;
 use rand::Rng;
@@ -275,6 +275,8 @@ pub struct PlateGeometry {
     pub thickness_m: f64,
     /// Ring that a plate stands on, if it has one.
     pub foot: Option<Foot>,
+    /// Terms of plates of this kind, where they differ from those of the job.
+    pub terms: PlateTerms,
 }
 
 /// Rule for the distances between plates. It applies to centres and does not keep plates from overlapping.
@@ -318,6 +320,7 @@ impl PlateGeometry {
             thickness_m: self.thickness_m,
             foot: self.foot,
             pose: Pose::translation(x, y, self.height_m),
+            terms: self.terms,
         };
         centres.iter().map(at).collect()
     }

@@ -5,21 +5,26 @@ use crate::measured::{LEAST_PLATE_M, MOST_PLATE_M};
 use crate::number_table::{NumberTable, TableError, TableShape};
 use crate::words::without_mark;
 use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
 
 /// Least and greatest diameter of a plate whose unit is guessed \[m\]. Their ratio is below 2.54, that of inch and cm, so that no two units
 /// fit.
 const GUESSED_M: [f64; 2] = [0.145, 0.365];
 
 /// Unit of the lengths in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unit {
     /// Metres.
+    #[serde(rename = "m")]
     Metre,
     /// Centimetres.
+    #[serde(rename = "cm")]
     Centimetre,
     /// Millimetres.
+    #[serde(rename = "mm")]
     Millimetre,
     /// Inches.
+    #[serde(rename = "inch")]
     Inch,
 }
 

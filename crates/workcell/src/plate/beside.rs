@@ -28,7 +28,7 @@ impl Plate {
     /// Distance between the rims of two plates, seen along this plate's axis \[m\]; negative where one lies over the other.
     #[must_use]
     pub fn gap_beside_m(&self, other: &Self) -> f64 {
-        self.aside_m(other) - self.rim_m() - other.rim_m()
+        self.aside_m(other) - self.outer_m() - other.outer_m()
     }
 
     /// True if the plate's axis is the z axis of its frame, so that it lies level.
@@ -93,7 +93,7 @@ impl Plate {
         let cosine = self.axis().dot(direction);
         let [low, high] = self.extent_m();
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        self.centre().dot(direction) + (low * cosine).max(high * cosine) + self.rim_m() * sine
+        self.centre().dot(direction) + (low * cosine).max(high * cosine) + self.outer_m() * sine
     }
 
     /// Height of the pole of another plate over this one's pole, along this one's axis \[m\].

@@ -4,8 +4,10 @@
 
 mod beside;
 mod solid;
+mod terms;
 
 pub use crate::plate::solid::PlateParts;
+pub use crate::plate::terms::PlateTerms;
 
 use crate::pose;
 use crate::surface::Surface;
@@ -35,6 +37,9 @@ pub struct Plate {
     /// Pose in the world frame, `T_world_plate`: origin at the pole of the face, z along its axis, out of the plate.
     #[serde(with = "pose")]
     pub pose: Pose,
+    /// Terms of this plate, where they differ from those of its job.
+    #[serde(default, skip_serializing_if = "PlateTerms::are_those_of_the_job")]
+    pub terms: PlateTerms,
 }
 
 /// Ring below a plate that it stands on, as the cylinder that encloses it.
@@ -66,6 +71,7 @@ impl Plate {
             thickness_m,
             foot: None,
             pose: Pose::translation(x, y, z),
+            terms: PlateTerms::default(),
         }
     }
 
@@ -142,7 +148,23 @@ impl Plate {
     pub fn extent_m(&self) -> [f64; 2] {
         let [least, most] = self.surface.height_bounds_m();
         let below = self.foot.map_or(0.0, |foot| foot.height_m);
-        [(-self.thickness_m - below).min(least - self.thickness_m), most]
+        let grown_m = self.deviation_m();
+        [
+            (-self.thickness_m - below).min(least - self.thickness_m) - grown_m,
+            most + grown_m,
+        ]
+    }
+
+    /// Greatest distance of the real plate from its face and its body \[m\].
+    #[must_use]
+    pub fn deviation_m(&self) -> f64 {
+        self.terms.deviation_m.unwrap_or(0.0)
+    }
+
+    /// Radius of the body \[m\]: that of the rim, or more if the real plate deviates.
+    #[must_use]
+    pub fn outer_m(&self) -> f64 {
+        self.rim_m() + self.deviation_m()
     }
 
     /// Checks that the plate has a valid size and pose.
@@ -155,6 +177,7 @@ impl Plate {
             && self.foot.is_none_or(|foot| foot.is_sound(self.rim_m()))
             && places.iter().all(|place| place.abs() <= GREATEST_M)
             && pose::is_sound(&self.pose)
+            && self.terms.is_sound()
     }
 }
 

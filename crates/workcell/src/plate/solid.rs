@@ -50,7 +50,7 @@ impl Plate {
 
     /// Same as [`Plate::enclosure`], plate frame.
     fn enclosure_here(&self) -> (Shape, Pose) {
-        upright_cylinder(self.rim_m(), self.extent_m())
+        upright_cylinder(self.outer_m(), self.extent_m())
     }
 
     /// Returns convex shapes with their poses, world frame, that together enclose the body ([`PlateParts`]).
@@ -99,7 +99,7 @@ impl PlateParts {
     }
 
     fn of_profile(plate: &Plate) -> Self {
-        let rim_m = plate.rim_m();
+        let (rim_m, grown_m) = (plate.rim_m(), plate.deviation_m());
         let mut pieces = pieces(plate);
         let (mut well_m, mut heights) = (0.0, [f64::INFINITY, f64::NEG_INFINITY]);
         let mut bottom_m = f64::INFINITY;
@@ -115,14 +115,22 @@ impl PlateParts {
             bottom_m = bottom_m.min(piece.bottom_m());
             held += 1;
         }
-        let single = (held > 0).then(|| upright_cylinder(well_m, [bottom_m, heights[1]]));
         pieces.drain(..held);
+        let well_m = if pieces.is_empty() { well_m + grown_m } else { well_m };
+        let single = (held > 0).then(|| upright_cylinder(well_m, [bottom_m - grown_m, heights[1] + grown_m]));
+        pieces.iter_mut().for_each(|piece| piece.grow(grown_m));
         let half = half_angle(&plate.surface);
         let count = (PI / half).ceil();
         let half = PI / count;
         let all = pieces.iter().flat_map(|piece| piece.corners.iter());
-        let [low, high] = all.fold([bottom_m, heights[1]], |[low, high], &[_, z]| [low.min(z), high.max(z)]);
-        let reach_m = if pieces.is_empty() { well_m } else { rim_m / cos(half) };
+        let [low, high] = all.fold([bottom_m - grown_m, heights[1] + grown_m], |[low, high], &[_, z]| {
+            [low.min(z), high.max(z)]
+        });
+        let reach_m = if pieces.is_empty() {
+            well_m
+        } else {
+            plate.outer_m() / cos(half)
+        };
         let turns = if pieces.is_empty() { 0 } else { count as usize };
         Self {
             whole: upright_cylinder(reach_m, [low, high]),
@@ -163,6 +171,16 @@ impl Piece {
             to_m: to.radius_m,
             corners,
             tops: count,
+        }
+    }
+
+    /// Grows the piece on all sides, as the real plate deviates from its shape \[m\].
+    fn grow(&mut self, by_m: f64) {
+        if by_m > 0.0 {
+            let around = |&[rho, z]: &[f64; 2]| {
+                [-by_m, by_m].map(|out_m| [-by_m, by_m].map(|up_m| [(rho + out_m).max(0.0), z + up_m]))
+            };
+            self.corners = self.corners.iter().flat_map(around).flatten().collect();
         }
     }
 

@@ -4,6 +4,7 @@ use crate::redundancy::tests::*;
 use platewash_workcell::layout::{
     BaseFootprint, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, sample,
 };
+use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random::stream;
 use platewash_workcell::surface::Surface;
 use rand::RngExt;
@@ -138,6 +139,7 @@ fn searches_layouts_of_the_paper() {
                     height_m: 0.03,
                     thickness_m: 0.02,
                     foot: None,
+                    terms: PlateTerms::default(),
                 },
                 base: Some(BaseFootprint {
                     x_m: [-0.2115, 0.0905],

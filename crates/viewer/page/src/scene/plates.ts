@@ -86,7 +86,7 @@ export class Plates {
     const segments = plates.length > 24 ? 48 : 128;
     const before = this.#drawn;
     this.#drawn = plates.map((plate, index) => {
-      const key = JSON.stringify([plate.meridian_m, plate.thickness_m, plate.foot, segments]);
+      const key = JSON.stringify([plate.meridian_m, plate.thickness_m, plate.foot, plate.relief, segments]);
       const kept = before[index];
       if (kept === undefined || kept.key !== key) return this.#make(plate, key, segments);
       fix(kept.mesh, plate.pose);

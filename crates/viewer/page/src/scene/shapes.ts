@@ -4,7 +4,7 @@ import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js"
 import { RoundedBoxGeometry } from "three/examples/jsm/geometries/RoundedBoxGeometry.js";
 import { mergeGeometries, mergeVertices, toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { floats } from "../numbers.ts";
-import type { Plate, Shape } from "../view.ts";
+import type { Plate, Relief, Shape } from "../view.ts";
 
 /** How far a chord may be off its arc: no farther than anybody sees [m]. */
 const OFF_M = 0.00012;
@@ -186,8 +186,57 @@ function outlineOf(plate: Plate): { points: Vector2[]; face: number } {
   return { points, face };
 }
 
+/** A step of the heights of a relief [m]. */
+const RELIEF_STEP_M = 1e-5;
+
+/** The triangles of a plate as it was measured: both sides on a polar grid, and the edge between them. */
+function reliefGeometry(plate: Plate, relief: Relief): BufferGeometry {
+  const count = relief.azimuths;
+  const edge: [number, number] = plate.meridian_m[plate.meridian_m.length - 1] ?? [0, 0];
+  const points: number[] = [];
+  const flags: number[] = [];
+  /** From the middle out, the edge at a height over that of the face there. */
+  const side = (heights: readonly number[], edgeOver: number, face: number): void => {
+    const radii = [0, ...relief.radii_m, edge[0]];
+    radii.forEach((radius, ring) => {
+      for (let k = 0; k < count; k++) {
+        const angle = (2 * Math.PI * k) / count;
+        const at = Math.min(Math.max(ring - 1, 0), relief.radii_m.length - 1) * count + k;
+        const z = ring === radii.length - 1 ? edge[1] + edgeOver : RELIEF_STEP_M * heights[at]!;
+        points.push(radius * Math.cos(angle), radius * Math.sin(angle), z);
+        flags.push(face);
+      }
+    });
+  };
+  const under = relief.lower.length === relief.upper.length ? relief.lower : relief.upper.map((height) => height - plate.thickness_m / RELIEF_STEP_M);
+  const last = (relief.radii_m.length - 1) * count;
+  side(relief.upper, 0, 1);
+  side(under, RELIEF_STEP_M * (under[last]! - relief.upper[last]!), 0);
+  const rings = relief.radii_m.length + 2;
+  const index: number[] = [];
+  const quad = (a: number, b: number, out: boolean): void => {
+    for (let k = 0; k < count; k++) {
+      const next = (k + 1) % count;
+      const [p, q, r, s] = [a + k, b + k, b + next, a + next];
+      index.push(...(out ? [p, q, r, p, r, s] : [p, r, q, p, s, r]));
+    }
+  };
+  for (let ring = 0; ring + 1 < rings; ring++) {
+    quad(ring * count, (ring + 1) * count, true);
+    quad((rings + ring) * count, (rings + ring + 1) * count, false);
+  }
+  quad((rings - 1) * count, (2 * rings - 1) * count, true);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+  geometry.setAttribute("face", new Float32BufferAttribute(flags, 1));
+  geometry.setIndex(index);
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
 /** The triangles of a plate in its own frame, `most` of them round it. */
 export function plateGeometry(plate: Plate, most: number): BufferGeometry {
+  if (plate.relief !== undefined && plate.relief.radii_m.length > 0) return reliefGeometry(plate, plate.relief);
   const { points, face } = outlineOf(plate);
   if (points.length === 0) return new BufferGeometry();
   const geometry = new LatheGeometry(points, segmentsRound(Math.max(...points.map(({ x }) => x)), most)).rotateX(Math.PI / 2);

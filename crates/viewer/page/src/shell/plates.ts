@@ -140,8 +140,8 @@ export class Plates {
     });
     for (const { element } of this.#cards) this.#observer.observe(element);
     const inAir = this.#player.view.heading.dry_run === null ? "" : "Nothing is washed: what the sponge goes over in the air. ";
-    const [dirt] = this.#player.view.dirt;
-    const dirtWords = dirt === undefined ? "" : ` Dirt in the scene lies until a dose of ${fixedShort(dirt.dose_pa_m, 1)}\u202fPa·m is proved there: what stays dirty is not proved clean.`;
+    const doses = new Set(this.#player.view.dirt.map(({ dose_pa_m: dose, soil }) => `${fixedShort(dose, 1)}\u202fPa·m${soil === undefined ? "" : ` (${soil})`}`));
+    const dirtWords = doses.size === 0 ? "" : ` Dirt in the scene lies until a dose of ${[...doses].join(" or ")} is proved there: what stays dirty is not proved clean.`;
     const words = `${inAir}In the order of washing. ${meaning(this.#coverages.all)} Sampled on a raster to look at; what is proved is below each map.${dirtWords}`;
     if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
@@ -161,6 +161,7 @@ export class Plates {
     const last = proved === null ? `in the end ${percentDown(final)}` : `proved: ${counted?.is_promised ? "pressed" : "swept"} ≥\u202f${percentDown(proved)}`;
     const clean = cleanShare(this.#player.view, plate, Number.POSITIVE_INFINITY);
     const go = button({ class: "card-button", label: `Go to the washing of ${name}` }, () => this.#onPlate(plate), canvas);
+    const own = this.#player.view.plates[plate]?.own;
     const element = el(
       "li",
       { class: "card" },
@@ -168,6 +169,7 @@ export class Plates {
       el("div", { class: "card-words" }, isolated(name, { class: "card-name" }), el("strong", {}, share.node)),
       el("div", { class: "bar", set: { "aria-hidden": "true" } }, bar),
       el("p", { class: "card-proved" }, clean === null ? last : `${last}, clean ≥\u202f${percentDown(clean)}`),
+      ...(own === undefined ? [] : [el("p", { class: "card-proved" }, isolated(own))]),
     );
     return { plate, element, canvas, share, bar, maps: {}, seen };
   }

@@ -40,6 +40,9 @@ function row(view: View, asked: Contact["asked"], proved: PlateContact): HTMLEle
   );
 }
 
+/** Added where a plate has terms of its own. */
+const OWN_TERMS = " Plates with a height error, a deviation or a soil of their own are judged by it: see the cards of the plates.";
+
 /** In words what the columns say. */
 export function contactWords({ asked, plates }: Contact): string {
   const mm = (length: number): string => `${fixedShort(1000 * length, 2)}\u202fmm`;
@@ -78,7 +81,7 @@ export function contactTable(view: View, contact: Contact): HTMLElement[] {
   );
   return [
     el("h3", { class: "brief-title" }, "Contact with each plate, proved"),
-    el("p", { class: "summary" }, contactWords(contact)),
+    el("p", { class: "summary" }, contactWords(contact) + (view.plates.some(({ own }) => own !== undefined) ? OWN_TERMS : "")),
     el("div", { class: "wide" }, table),
   ];
 }

@@ -3,7 +3,7 @@
 use crate::clearance::motion::PartPairs;
 use crate::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
 use crate::fixtures::{kitchen_tool, workcell};
-use crate::plate::{Foot, Plate};
+use crate::plate::{Foot, Plate, PlateTerms};
 use crate::surface::{SHIPPED_PROFILES, Surface};
 use crate::words::plate_name;
 use crate::workcell::{Obstacle, ObstacleShape, Workcell};
@@ -19,6 +19,7 @@ fn plates(kind: usize, z: f64) -> [Plate; 2] {
             height_m: 0.006,
         }),
         pose: Pose::translation(x, y, z),
+        terms: PlateTerms::default(),
     })
 }
 

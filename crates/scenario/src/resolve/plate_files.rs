@@ -1,0 +1,563 @@
+//! Plates out of files: meshes, points that a probe touched, a table of places; and kinds of soil.
+//!
+//! Once its files are read, a scenario is as if its text stated what they say: a profile for a mesh, a `[[plate]]` section for a row.
+
+use crate::error::{Problem, ScenarioError, conflict};
+use crate::load::{MAX_BYTES, unread};
+use crate::scenario::Scenario;
+use crate::sections::layout::{LayoutSection, PlateSection, ProfileName};
+use crate::sections::motion::Program;
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use platewash_kinematics::urdf::MeshSource;
+use platewash_workcell::job::{MOST_PASSES, MeasuredShape, PatternName, Soil};
+use platewash_workcell::layout::MAX_PLATES;
+use platewash_workcell::measured::{self, MeasuredPlate, Unit};
+use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
+use platewash_workcell::plate::PlateTerms;
+use platewash_workcell::surface::Surface;
+use serde::Deserialize;
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Longest table of plates or points that is read \[bytes\].
+const MOST_TABLE_BYTES: u64 = 16 << 20;
+
+/// Greatest length or angle in a table of plates.
+const MOST: f64 = 1e5;
+
+/// Greatest coordinate of a plate \[m\].
+const FARTHEST_M: f64 = 10.0;
+
+/// Columns of a table of plates.
+const NAME: [&str; 1] = ["name"];
+const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
+const TOUCHED: [&str; 3] = ["touched_x_mm", "touched_y_mm", "touched_z_mm"];
+const TILT: [&str; 2] = ["tilt_deg", "tilt_azimuth_deg"];
+const KIND: [&str; 1] = ["kind"];
+const ERROR: [&str; 1] = ["height_error_mm"];
+const SOIL: [&str; 1] = ["soil"];
+
+/// Plates and soils out of the files that a scenario names, once they were read; empty before.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PlateFiles {
+    read: Option<Arc<ReadFiles>>,
+}
+
+impl PlateFiles {
+    /// The files that were read.
+    pub(crate) fn paths(&self) -> &[PathBuf] {
+        self.read.as_ref().map_or(&[], |files| &files.paths)
+    }
+
+    /// True where the plates are the rows of a table.
+    #[must_use]
+    pub fn have_places(&self) -> bool {
+        self.read.as_ref().is_some_and(|files| files.have_places)
+    }
+
+    /// True once the files were read.
+    pub(crate) fn are_read(&self) -> bool {
+        self.read.is_some()
+    }
+}
+
+/// Plates and soils that were read out of files.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct ReadFiles {
+    /// The files.
+    paths: Vec<PathBuf>,
+    measured: Vec<MeasuredShape>,
+    /// Index of the measured shape of each `[[plate]]` section; without sections, that of `[layout]`.
+    of_section: Vec<Option<usize>>,
+    soils: Vec<Soil>,
+    have_places: bool,
+}
+
+impl Scenario {
+    /// The files of plates and soils that the text names.
+    pub(crate) fn plate_paths(&self) -> Vec<&PathBuf> {
+        let layout = &self.layout;
+        let of_layout = [
+            &layout.plate_mesh,
+            &layout.plate_points,
+            &layout.plate_file,
+            &self.wash.soil_file,
+        ];
+        let of_sections = self.plate.iter().flat_map(|row| [&row.mesh, &row.points]);
+        of_layout.into_iter().chain(of_sections).flatten().collect()
+    }
+
+    /// Same as [`Self::plate_paths`], to change them.
+    pub(crate) fn plate_paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let layout = &mut self.layout;
+        let of_layout = [
+            &mut layout.plate_mesh,
+            &mut layout.plate_points,
+            &mut layout.plate_file,
+            &mut self.wash.soil_file,
+        ];
+        let of_sections = self.plate.iter_mut().flat_map(|row| [&mut row.mesh, &mut row.points]);
+        of_layout.into_iter().chain(of_sections).flatten()
+    }
+
+    /// Kinds of soil, once their file was read.
+    pub(crate) fn soils(&self) -> &[Soil] {
+        self.plate_files.read.as_ref().map_or(&[], |files| &files.soils)
+    }
+
+    /// Shapes of plates that were measured, once their files were read.
+    pub(crate) fn measured(&self) -> &[MeasuredShape] {
+        self.plate_files.read.as_ref().map_or(&[], |files| &files.measured)
+    }
+
+    /// Terms of the plates of a `[[plate]]` section, or of `[layout]`, whose own keys `layout` has.
+    pub(crate) fn plate_terms(&self, section: Option<usize>, layout: &LayoutSection) -> PlateTerms {
+        let measured = self.plate_files.read.as_ref().and_then(|files| {
+            let index = section.unwrap_or(0);
+            files.of_section.get(index).copied().flatten()
+        });
+        let soil = layout.plate_soil.as_ref();
+        PlateTerms {
+            height_error_m: section.and_then(|index| self.plate.get(index)?.height_error_m),
+            deviation_m: measured.map(|index| self.measured()[index].deviation_m),
+            measured,
+            soil: soil.and_then(|name| self.soils().iter().position(|soil| soil.name == *name)),
+        }
+    }
+
+    /// Refuses keys of files, soils and height errors that contradict others.
+    pub(crate) fn check_plate_files(&self) -> Result<(), Problem> {
+        let (layout, wash) = (&self.layout, &self.wash);
+        if self.job.program == Program::Paper && !self.plate_paths().is_empty() {
+            let detail = "the paper's program washes flat plates that the text states, or job.program = \"certified\"";
+            return conflict("layout.plate_file, layout.plate_mesh, wash.soil_file", detail);
+        }
+        if layout.plate_file.is_some() && layout.positions_m.is_some() {
+            return conflict(
+                "layout.plate_file, layout.positions_m",
+                "both say where the plates are: leave one out",
+            );
+        }
+        let rows = || self.plate.iter().enumerate();
+        for (index, row) in rows() {
+            let at = |name: &str| format!("plate[{index}].{name}");
+            let unread = layout.plate_file.is_some() && !self.plate_files.are_read();
+            match (&row.kind, unread) {
+                (Some(_), false) if !self.plate_files.are_read() => conflict(
+                    at("kind"),
+                    "names a kind for the rows of layout.plate_file, and there is none",
+                )?,
+                (None, true) => conflict(
+                    at("kind"),
+                    "is missing: with layout.plate_file a [[plate]] section states a kind of plates, by its name",
+                )?,
+                (Some(_), true) if row.at_m.is_some() || row.count.is_some() => conflict(
+                    at("kind"),
+                    "a kind has no place and no count: the rows of layout.plate_file have theirs",
+                )?,
+                _ => {}
+            }
+            let twice = row.kind.is_some() && self.plate[..index].iter().any(|other| other.kind == row.kind);
+            if twice {
+                conflict(at("kind"), "another section has this name")?;
+            }
+            if row.height_error_m.is_some() && !wash.contact {
+                conflict(at("height_error_m"), "is for a proof of contact, wash.contact = true")?;
+            }
+        }
+        let of_rows = rows().filter_map(|(index, row)| Some((format!("plate[{index}].soil"), row.soil.as_ref()?)));
+        let of_layout = layout.plate_soil.as_ref();
+        for (key, name) in of_layout
+            .map(|name| ("layout.plate_soil".to_owned(), name))
+            .into_iter()
+            .chain(of_rows)
+        {
+            if wash.soil_file.is_none() {
+                conflict(
+                    format!("{key}, wash.soil_file"),
+                    format!("there is no file that states the soil \"{name}\""),
+                )?;
+            }
+            self.check_soil(&key, name)?;
+        }
+        if wash.soil_file.is_some() && !wash.contact {
+            return conflict(
+                "wash.soil_file",
+                "a soil asks for a dose and a force, which wash.contact = true proves",
+            );
+        }
+        Ok(())
+    }
+
+    /// Refuses a soil that the file does not state, or that no path here can wash; nothing before the file is read.
+    fn check_soil(&self, key: &str, name: &str) -> Result<(), Problem> {
+        let Some(files) = &self.plate_files.read else {
+            return Ok(());
+        };
+        let Some(soil) = files.soils.iter().find(|soil| soil.name == name) else {
+            let all: Vec<_> = files.soils.iter().map(|soil| soil.name.as_str()).collect();
+            let detail = format!("there is no soil \"{name}\" in the file; it has {}", all.join(", "));
+            return conflict(format!("{key}, wash.soil_file"), detail);
+        };
+        let wash = &self.wash;
+        let is_spiral = wash.pattern == Some(PatternName::Spiral)
+            || wash.pattern.is_none()
+                && (wash.turns.is_some() || wash.path_radius_m.is_some() || wash.closing_ring.is_some());
+        if soil.passes.is_some_and(|passes| passes > 1) && is_spiral {
+            let detail = format!(
+                "the soil \"{name}\" asks for {} passes, and a spiral passes each place once: wash.pattern = \"rings\" goes round each ring as often",
+                soil.passes.unwrap_or(1)
+            );
+            return conflict(format!("{key}, wash.pattern"), detail);
+        }
+        Ok(())
+    }
+
+    /// Returns the scenario with its files of plates and soils read, or itself where there are none or they were read.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] with the key and the file: one that cannot be read, a mesh that is no round plate, a row that states none.
+    pub fn plates_read(&self) -> Result<Cow<'_, Self>, ScenarioError> {
+        if self.plate_files.are_read() || self.plate_paths().is_empty() {
+            return Ok(Cow::Borrowed(self));
+        }
+        let refused = |problem| ScenarioError::new(&self.name, None, problem);
+        let mut read = self.clone();
+        let mut files = ReadFiles {
+            paths: self.plate_paths().into_iter().cloned().collect(),
+            soils: self.read_soils().map_err(refused)?,
+            ..ReadFiles::default()
+        };
+        if self.plate.is_empty() {
+            let layout = &mut read.layout;
+            let stated = (
+                layout.plate_mesh.take(),
+                layout.plate_points.take(),
+                layout.plate_unit.take(),
+            );
+            let plate = self.measure(stated, "layout.plate_mesh, layout.plate_points", &mut files);
+            let index = plate.map_err(refused)?.map(|(index, plate)| {
+                let shape = Shape::of(&plate);
+                (layout.plate_radius_m, layout.plate_knots) = (shape.radius_m, shape.knots);
+                layout.plate_thickness_m = shape.thickness_m.unwrap_or(layout.plate_thickness_m);
+                layout.plate_foot_m = shape.foot_m.or(layout.plate_foot_m);
+                index
+            });
+            files.of_section.push(index);
+        }
+        for (k, row) in read.plate.iter_mut().enumerate() {
+            let stated = (row.mesh.take(), row.points.take(), row.unit.take());
+            let keys = format!("plate[{k}].mesh, plate[{k}].points");
+            let index = self
+                .measure(stated, &keys, &mut files)
+                .map_err(refused)?
+                .map(|(index, plate)| {
+                    let shape = Shape::of(&plate);
+                    (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
+                    row.thickness_m = row.thickness_m.or(shape.thickness_m);
+                    row.foot_m = row.foot_m.or(shape.foot_m);
+                    index
+                });
+            files.of_section.push(index);
+        }
+        if let Some(path) = read.layout.plate_file.take() {
+            files.have_places = true;
+            let kinds = std::mem::take(&mut read.plate);
+            let of_kinds = std::mem::take(&mut files.of_section);
+            let text = self
+                .text_of(&path, "layout.plate_file", MOST_TABLE_BYTES)
+                .map_err(refused)?;
+            let rows = self.table(&text, &kinds).map_err(|error| {
+                let detail = format!("{}: {error}", path.display());
+                refused(Problem::Conflict {
+                    keys: "layout.plate_file".to_owned(),
+                    detail,
+                })
+            })?;
+            for (row, kind) in rows {
+                files.of_section.push(match kind {
+                    Some(kind) => of_kinds[kind],
+                    None => of_kinds.first().copied().flatten().filter(|_| kinds.is_empty()),
+                });
+                read.plate.push(row);
+            }
+        }
+        read.plate_files.read = Some(Arc::new(files));
+        read.validate()?;
+        read.check_plate_files().map_err(refused)?;
+        Ok(Cow::Owned(read))
+    }
+
+    /// Measures the plate of a mesh or of points, if one of them is stated; adds it to the files, with its index.
+    fn measure(
+        &self,
+        (mesh, points, unit): (Option<PathBuf>, Option<PathBuf>, Option<Unit>),
+        keys: &str,
+        files: &mut ReadFiles,
+    ) -> Result<Option<(usize, MeasuredPlate)>, Problem> {
+        let (of_mesh, of_points) = keys.split_once(", ").unwrap_or((keys, keys));
+        let refused = |key: &str, path: &Path, detail: String| Problem::Conflict {
+            keys: key.to_owned(),
+            detail: format!("{}: {detail}", path.display()),
+        };
+        let (path, plate) = match (mesh, points) {
+            (Some(path), _) => {
+                let source = MeshSource::new(&self.robot.package_path, None).reading(&self.files);
+                let triangles = source
+                    .scan(&path.to_string_lossy())
+                    .map_err(|error| refused(of_mesh, &path, error.to_string()))?;
+                // Collada states its unit, and comes in metres.
+                let is_collada = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("dae"));
+                let unit = unit.or(is_collada.then_some(Unit::Metre));
+                let plate = measured::from_mesh(&triangles, unit);
+                let plate = plate.map_err(|error| refused(of_mesh, &path, error.to_string()))?;
+                (path, plate)
+            }
+            (None, Some(path)) => {
+                let text = self.text_of(&path, of_points, MOST_TABLE_BYTES)?;
+                let touched = measured::probe_points(&text);
+                let (touched, stated) = touched.map_err(|error| refused(of_points, &path, error.to_string()))?;
+                let plate = measured::from_points(&touched, stated.or(unit));
+                let plate = plate.map_err(|error| refused(of_points, &path, error.to_string()))?;
+                (path, plate)
+            }
+            (None, None) => return Ok(None),
+        };
+        let guessed = if plate.unit_is_guessed { " (guessed)" } else { "" };
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        files.measured.push(MeasuredShape {
+            file: name.to_string_lossy().into_owned(),
+            unit: format!("{}{guessed}", plate.unit.name()),
+            deviation_m: plate.deviation_m,
+            out_of_round_m: plate.out_of_round_m,
+            relief: plate.relief.clone(),
+        });
+        Ok(Some((files.measured.len() - 1, plate)))
+    }
+
+    /// The text of a file that a key names.
+    fn text_of(&self, path: &Path, key: &str, limit: u64) -> Result<String, Problem> {
+        let bytes = self.files.read_bytes(path, limit).map_err(|error| Problem::Conflict {
+            keys: key.to_owned(),
+            detail: format!("{}: {}", path.display(), unread(error)),
+        })?;
+        String::from_utf8(bytes.to_vec()).map_err(|_| Problem::Conflict {
+            keys: key.to_owned(),
+            detail: format!("{}: is not UTF-8 text", path.display()),
+        })
+    }
+
+    /// The rows of a table of plates as `[[plate]]` sections, each with the index of its kind.
+    fn table(&self, text: &str, kinds: &[PlateSection]) -> Result<Vec<(PlateSection, Option<usize>)>, TableError> {
+        let shape = TableShape {
+            required: &NAME,
+            optional: &[&PLACE, &TOUCHED, &TILT, &KIND, &ERROR, &SOIL],
+            most: MOST,
+            most_rows: MAX_PLATES,
+            has_comments: true,
+        };
+        let table = NumberTable::read(text, &shape)?;
+        let is_touched = match (table.places(&PLACE), table.places(&TOUCHED)) {
+            (Some(_), None) => false,
+            (None, Some(_)) => true,
+            _ => {
+                let reason = format!(
+                    "expected the columns {} or {}, one of them",
+                    PLACE.join(","),
+                    TOUCHED.join(",")
+                );
+                return Err(TableError {
+                    line: 1,
+                    column: None,
+                    reason,
+                });
+            }
+        };
+        let mount = self.robot.mount();
+        let mut names: Vec<String> = Vec::new();
+        let mut rows = Vec::new();
+        for row in table.rows() {
+            let row = row?;
+            if let Some([place]) = table.places(&NAME) {
+                let name = row.text(place).to_owned();
+                if name.is_empty() || names.contains(&name) {
+                    let what = if name.is_empty() { "is empty" } else { "is there twice" };
+                    return row.refused(place, format!("the name {what}; expected another name for each plate"));
+                }
+                names.push(name);
+            }
+            let at = |columns: &[&str; 3]| table.places(columns).map(|places| row.numbers(places)).transpose();
+            let at_m = if is_touched {
+                let [x, y, z] = at(&TOUCHED)?.unwrap_or_default();
+                (mount * Point3::new(1e-3 * x, 1e-3 * y, 1e-3 * z)).coords.into()
+            } else {
+                at(&PLACE)?.unwrap_or_default()
+            };
+            if at_m.iter().any(|at: &f64| at.abs() > FARTHEST_M) {
+                let columns = if is_touched { &TOUCHED } else { &PLACE };
+                let [place, ..] = table.places(columns).unwrap_or_default();
+                let reason = format!("the plate would be at {at_m:?} m; expected a place within ±{FARTHEST_M} m");
+                return row.refused(place, reason);
+            }
+            let (kind, mut section) = kind_of(&table, &row, kinds)?;
+            section.at_m = Some(at_m);
+            if let Some(places) = table.places(&TILT) {
+                let [tilt_deg, azimuth_deg] = row.numbers(places)?;
+                section.rpy_deg = Some(tilted_deg(tilt_deg, azimuth_deg));
+            }
+            if let Some([place]) = table.places(&ERROR).filter(|[place]| !row.text(*place).is_empty()) {
+                let [error_mm] = row.numbers([place])?;
+                if !(0.0..=1e3).contains(&error_mm) {
+                    return row.refused(
+                        place,
+                        format!("found {error_mm}; expected a height error from 0 to 1000 mm"),
+                    );
+                }
+                section.height_error_m = Some(1e-3 * error_mm);
+            }
+            if let Some([place]) = table.places(&SOIL).filter(|[place]| !row.text(*place).is_empty()) {
+                section.soil = Some(row.text(place).to_owned());
+            }
+            rows.push((section, kind));
+        }
+        Ok(rows)
+    }
+
+    /// The kinds of soil in the file that the text names.
+    fn read_soils(&self) -> Result<Vec<Soil>, Problem> {
+        let Some(path) = &self.wash.soil_file else {
+            return Ok(Vec::new());
+        };
+        let key = "wash.soil_file";
+        let text = self.text_of(path, key, MAX_BYTES)?;
+        let refused = |detail: String| Problem::Conflict {
+            keys: key.to_owned(),
+            detail: format!("{}: {detail}", path.display()),
+        };
+        let file: SoilFile = toml::from_str(&text).map_err(|error| refused(error.to_string().trim_end().to_owned()))?;
+        for (index, soil) in file.soil.iter().enumerate() {
+            let name = &soil.name;
+            let bad =
+                |what: &str, expected: String| Err(refused(format!("soil \"{name}\": {what} must be {expected}")));
+            let positive = |v: f64, most: f64| v > 0.0 && v <= most;
+            if name.trim().is_empty() || soil.source.trim().is_empty() {
+                return bad(
+                    "name and source",
+                    "texts that are not empty; the source may be \"assumed\"".to_owned(),
+                );
+            }
+            if file.soil[..index].iter().any(|other| other.name == *name) {
+                return bad("name", "another one than those before".to_owned());
+            }
+            if soil.dose_pa_m.is_some_and(|dose| !(0.0..=1e9).contains(&dose)) {
+                return bad("dose_pa_m", "from 0 to 1e9 Pa·m".to_owned());
+            }
+            if soil.passes.is_some_and(|passes| !(1..=MOST_PASSES).contains(&passes)) {
+                return bad("passes", format!("from 1 to {MOST_PASSES}"));
+            }
+            if soil
+                .speed_m_s
+                .is_some_and(|speed| !positive(speed, 10.0) || speed < 1e-6)
+            {
+                return bad("speed_m_s", "from 0.000001 to 10 m/s".to_owned());
+            }
+            if soil
+                .force_n
+                .is_some_and(|[least, most]| !(least >= 0.0 && least < most && most <= 1e6))
+            {
+                return bad(
+                    "force_n",
+                    "[least, greatest] with least < greatest, from 0 to 1e6 N".to_owned(),
+                );
+            }
+        }
+        Ok(file.soil)
+    }
+}
+
+/// File of soils.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SoilFile {
+    soil: Vec<Soil>,
+}
+
+/// Keys of a shape that was measured.
+struct Shape {
+    radius_m: Option<f64>,
+    knots: Option<Vec<[f64; 2]>>,
+    thickness_m: Option<f64>,
+    foot_m: Option<[f64; 2]>,
+}
+
+impl Shape {
+    fn of(plate: &MeasuredPlate) -> Self {
+        let (radius_m, knots) = match &plate.surface {
+            Surface::Profile(meridian) => {
+                let knots = meridian.knots().iter();
+                let knots = knots.map(|knot| [knot.radius_m, knot.slope_rad.to_degrees()]).collect();
+                (None, Some(knots))
+            }
+            flat => (Some(flat.rim_m()), None),
+        };
+        Self {
+            radius_m,
+            knots,
+            thickness_m: plate.thickness_m,
+            foot_m: plate.foot.map(|foot| [foot.radius_m, foot.height_m]),
+        }
+    }
+}
+
+/// The section of a row's kind, and its index among the kinds of the scenario.
+fn kind_of(
+    table: &NumberTable<'_>,
+    row: &Row<'_>,
+    kinds: &[PlateSection],
+) -> Result<(Option<usize>, PlateSection), TableError> {
+    let Some([place]) = table.places(&KIND).filter(|[place]| !row.text(*place).is_empty()) else {
+        return Ok((None, PlateSection::default()));
+    };
+    let name = row.text(place);
+    if let Some(index) = kinds.iter().position(|kind| kind.kind.as_deref() == Some(name)) {
+        let section = PlateSection {
+            kind: None,
+            ..kinds[index].clone()
+        };
+        return Ok((Some(index), section));
+    }
+    let profiles = [
+        ProfileName::Flat,
+        ProfileName::Coupe275,
+        ProfileName::Rim270,
+        ProfileName::Deep230,
+        ProfileName::Dessert190,
+    ];
+    match profiles.into_iter().find(|profile| profile.name() == name) {
+        Some(profile) => Ok((
+            None,
+            PlateSection {
+                profile: Some(profile),
+                ..PlateSection::default()
+            },
+        )),
+        None => {
+            let stated = kinds.iter().filter_map(|kind| kind.kind.as_deref());
+            let all: Vec<_> = stated.chain(profiles.map(ProfileName::name)).collect();
+            row.refused(
+                place,
+                format!("there is no kind \"{name}\"; expected one of {}", all.join(", ")),
+            )
+        }
+    }
+}
+
+/// Roll, pitch and yaw \[°\] of a plate whose axis leans by an angle from the vertical towards an azimuth \[°\].
+fn tilted_deg(tilt_deg: f64, azimuth_deg: f64) -> [f64; 3] {
+    let about = |axis, deg: f64| UnitQuaternion::from_axis_angle(&axis, deg.to_radians());
+    let (z, y) = (Vector3::z_axis(), Vector3::y_axis());
+    let turn = about(z, azimuth_deg) * about(y, tilt_deg) * about(z, -azimuth_deg);
+    let (roll, pitch, yaw) = turn.euler_angles();
+    [roll, pitch, yaw].map(f64::to_degrees)
+}

@@ -1,0 +1,147 @@
+//! Kinds of soil: the washing that each needs.
+
+use crate::job::error::JobError;
+use crate::job::requirements::ContactRequirements;
+use crate::job::terms::{JobTerms, positive, within};
+use crate::plate::Plate;
+use crate::words::{count_with_noun, printable};
+use platewash_kinematics::words::rounded;
+use serde::{Deserialize, Serialize};
+
+/// Significant digits of numbers in words.
+const DIGITS: usize = 4;
+
+/// Greatest number of passes.
+pub const MOST_PASSES: u32 = 20;
+
+/// Kind of soil: the washing that it needs. What it leaves out is as for the other plates of the job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Soil {
+    /// Name.
+    pub name: String,
+    /// Source of the figures, or "assumed".
+    pub source: String,
+    /// Least dose ∫ p dl that removes it \[Pa·m\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dose_pa_m: Option<f64>,
+    /// Least number of times that the path goes round every ring.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passes: Option<u32>,
+    /// Greatest speed of the tip while it washes \[m/s\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_m_s: Option<f64>,
+    /// Least and greatest force along the sponge's axis \[N\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<[f64; 2]>,
+}
+
+impl Soil {
+    /// Describes the soil with all that it asks for: `soil tea (assumed): dose 80 Pa·m`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let number = |value: f64| rounded(value, DIGITS).to_string();
+        let parts = [
+            self.dose_pa_m.map(|dose| format!("dose {} Pa·m", number(dose))),
+            self.passes.map(|passes| count_with_noun(passes as usize, "pass")),
+            self.speed_m_s.map(|speed| format!("at most {} m/s", number(speed))),
+            self.force_n
+                .map(|[least, most]| format!("{} to {} N", number(least), number(most))),
+        ];
+        let asked: Vec<_> = parts.into_iter().flatten().collect();
+        let asked = if asked.is_empty() {
+            "as the job"
+        } else {
+            &asked.join(", ")
+        };
+        format!("soil {} ({}): {asked}", printable(&self.name), printable(&self.source))
+    }
+}
+
+impl ContactRequirements {
+    /// Requirements of a plate: its own height error with its deviation, and what its soil asks for.
+    #[must_use]
+    pub fn of_plate(&self, plate: &Plate, soils: &[Soil]) -> Self {
+        let soil = plate.terms.soil.and_then(|soil| soils.get(soil));
+        Self {
+            height_error_m: plate.terms.height_error_m.unwrap_or(self.height_error_m) + plate.deviation_m(),
+            dose_pa_m: soil.and_then(|soil| soil.dose_pa_m).unwrap_or(self.dose_pa_m),
+            force_n: soil.and_then(|soil| soil.force_n).unwrap_or(self.force_n),
+            ..*self
+        }
+    }
+}
+
+impl Plate {
+    /// Describes the terms of the plate that differ from those of the job; `None` where none do.
+    #[must_use]
+    pub fn terms_words(&self, soils: &[Soil]) -> Option<String> {
+        let mm = |length_m: f64| rounded(1e3 * length_m, DIGITS);
+        let terms = &self.terms;
+        let parts = [
+            terms
+                .height_error_m
+                .map(|error| format!("height error {} mm", mm(error))),
+            terms
+                .deviation_m
+                .map(|deviation| format!("measured, off its shape by up to {} mm", mm(deviation))),
+            terms.soil.and_then(|soil| soils.get(soil)).map(Soil::words),
+        ];
+        let told: Vec<_> = parts.into_iter().flatten().collect();
+        (!told.is_empty()).then(|| told.join("; "))
+    }
+}
+
+impl JobTerms {
+    /// Soil of a plate, if one is stated.
+    #[must_use]
+    pub fn soil_of(&self, plate: &Plate) -> Option<&Soil> {
+        self.soils.get(plate.terms.soil?)
+    }
+
+    /// Contact requirements of a plate: see [`ContactRequirements::of_plate`]; `None` without any.
+    #[must_use]
+    pub fn contact_of(&self, plate: &Plate) -> Option<ContactRequirements> {
+        Some(self.requirements.contact?.of_plate(plate, &self.soils))
+    }
+
+    /// Greatest speed of the tip while it washes a plate \[m/s\]: that of the job, or that of the plate's soil if it is less.
+    #[must_use]
+    pub fn wash_speed_of(&self, plate: &Plate) -> f64 {
+        let soil = self.soil_of(plate).and_then(|soil| soil.speed_m_s);
+        soil.map_or(self.wash_speed_m_s(), |speed| speed.min(self.wash_speed_m_s()))
+    }
+
+    /// Least number of times that the path on a plate goes round every ring.
+    #[must_use]
+    pub fn passes_of(&self, plate: &Plate) -> u32 {
+        self.soil_of(plate).and_then(|soil| soil.passes).unwrap_or(1)
+    }
+
+    /// Checks the soils, and that every plate's terms name one that there is.
+    pub(crate) fn check_soils(&self) -> Result<(), JobError> {
+        for soil in &self.soils {
+            if let Some(dose) = soil.dose_pa_m {
+                within("soils.dose_pa_m", dose, [0.0, 1e9])?;
+            }
+            if let Some(passes) = soil.passes {
+                within("soils.passes", f64::from(passes), [1.0, f64::from(MOST_PASSES)])?;
+            }
+            if let Some(speed) = soil.speed_m_s {
+                positive("soils.speed_m_s", speed)?;
+            }
+            if let Some([least, most]) = soil.force_n {
+                within("soils.force_n", least, [0.0, most])?;
+                within("soils.force_n", most, [least, 1e6])?;
+            }
+        }
+        let names_one = |index: Option<usize>, of: usize| index.is_none_or(|index| index < of);
+        let lost = |plate: &Plate| {
+            !names_one(plate.terms.soil, self.soils.len()) || !names_one(plate.terms.measured, self.measured.len())
+        };
+        match self.plates.iter().position(lost) {
+            Some(plate) => Err(JobError::NoPlate { plate }),
+            None => Ok(()),
+        }
+    }
+}
