@@ -71,7 +71,7 @@ pub fn find(name: &str) -> Result<Description> {
 fn packages(folder: &Path) -> Vec<PathBuf> {
     let inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut all: Vec<_> = inside.map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
-    all.sort();
+    all.sort_unstable();
     all.push(folder.to_owned());
     all
 }

@@ -4,7 +4,9 @@ import copy
 import json
 import math
 import pickle
+import subprocess
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -185,3 +187,18 @@ def test_refuses_a_plan_that_presses_too_little() -> None:
     certificate = pw.prove(pw.Plan.from_json(json.dumps(table)))
     assert [check.requirement for check in certificate.broken] == ["pressed"] and not certificate.proved
     assert certificate.contact[0].pressed.required == 0.99999
+
+
+def test_plates_of_a_table_are_planned_and_proved(root: Path, platewash: Path, tmp_path: Path) -> None:
+    scenario = root / "examples" / "plates" / "twelve.toml"
+    planned = pw.plan(scenario)
+    certificate = pw.prove(planned)
+    assert certificate.verdict == "pass" and len(certificate.contact) == 12
+    plates = planned.job.plates
+    assert [plate.height_error_m for plate in plates[:3]] == pytest.approx([0.0008, 0.0006, 0.0005])
+    assert {plate.soil for plate in plates} == {0, 1, 2} and all(plate.deviation_m is None for plate in plates)
+    assert {contact["dose"]["threshold"] for contact in certificate.contact} == {40.0, 80.0, 150.0}
+    # The scenario that is changed still names its files.
+    assert pw.Scenario.load(scenario).replace(seed=2).job().plates == plates
+    subprocess.run([platewash, "plan", "--quiet", "--scenario", scenario, "--out", tmp_path], check=True, capture_output=True)
+    assert (tmp_path / "plan.json").read_text() == planned.plan.to_json()

@@ -193,7 +193,7 @@ fn tell_unplanned(
             ));
         }
     }
-    shown.sort_by_key(|plate| plate.plate);
+    shown.sort_unstable_by_key(|plate| plate.plate);
     answer.line(&CellLine::Unplanned {
         headline: &report.headline,
         reason: &report.reason,

@@ -265,7 +265,8 @@ fn named(session: &str) -> Result<(), String> {
 }
 
 fn read<'a, Q: Deserialize<'a>>(question: &'a [u8]) -> Result<Q, String> {
-    serde_json::from_slice(question).map_err(|error| format!("the question is none: {error}"))
+    let text = std::str::from_utf8(question).map_err(|error| format!("the question is none: {error}"))?;
+    serde_json::from_str(text).map_err(|error| format!("the question is none: {error}"))
 }
 
 /// Channel for the page's questions.

@@ -513,3 +513,26 @@ fn sends_a_map_from_coarse_to_fine() {
     };
     assert!(count("washable_m") > 20 && count("unwashable_m") > 20);
 }
+
+/// The files that a scenario names are read, and plates out of a table stay where they are.
+#[test]
+fn answers_a_scenario_with_a_table_of_plates_and_soils() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/plates");
+    let text = fs::read_to_string(folder.join("twelve.toml")).unwrap();
+    let editor = Editor::of_text("twelve", &text, Some(&folder)).unwrap();
+    let lines = ask(&editor, "/cell", &cell(&text, &json!([])));
+    assert_eq!(kinds(&lines).last(), Some(&"proof"), "{:?}", lines.last());
+    let told = line(&lines, "cell");
+    assert_eq!(
+        (told["plates"].as_array().unwrap().len(), &told["listed"]),
+        (12, &json!(true))
+    );
+    assert!(
+        told["plates"][0]["own"]
+            .as_str()
+            .unwrap()
+            .contains("soil dried sauce (assumed): dose 150 Pa·m, 2 passes")
+    );
+    let moves = told["moves"].to_string() + &lines[0].to_string();
+    assert!(moves.contains("change their places in that file"), "{moves}");
+}

@@ -374,7 +374,7 @@ pub(crate) fn speed_share(plan: &Plan, found: &Reading, points: Points) -> f64 {
 fn of_knots(plan: &Plan, found: &Reading) -> f64 {
     let both = plan.knots.t_s.iter().zip(&found.points).skip(1);
     let mut shares: Vec<_> = both.map(|(plan_s, point)| plan_s / point.t_s).collect();
-    shares.sort_by(f64::total_cmp);
+    shares.sort_unstable_by(f64::total_cmp);
     shares.get(shares.len() / 2).copied().unwrap_or(1.0)
 }
 

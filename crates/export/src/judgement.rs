@@ -149,7 +149,7 @@ impl ControllerDemands {
             let step = (both[1].qd_rad_s[0] - both[0].qd_rad_s[1]).amax();
             speed_step_rad_s = speed_step_rad_s.max(step);
         }
-        shares.sort_by(f64::total_cmp);
+        shares.sort_unstable_by(f64::total_cmp);
         let corners = motion.corner_scale.is_some();
         Self {
             acceleration_median: shares.get(shares.len() / 2).copied().filter(|_| corners),

@@ -120,7 +120,7 @@ impl<'a> Source<'a> {
             .filter(|segment| segment.kind == SegmentKind::Wash);
         let ends = washes.flat_map(|segment| [segment.t_start_s, segment.t_end_s]);
         let mut all: Vec<_> = [0.0, self.motion.duration_s()].into_iter().chain(ends).collect();
-        all.sort_by(f64::total_cmp);
+        all.sort_unstable_by(f64::total_cmp);
         all.dedup();
         all
     }

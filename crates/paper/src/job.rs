@@ -152,6 +152,6 @@ impl PaperJob {
 /// The settings as they are read back from a plan file, in which 3.0 is 3.
 fn stated(settings: &PaperSettings) -> Result<Value, PlanFileError> {
     let unwritable = |e: serde_json::Error| PlanFileError::Unwritable { detail: e.to_string() };
-    let text = serde_json_canonicalizer::to_vec(settings).map_err(unwritable)?;
-    serde_json::from_slice(&text).map_err(unwritable)
+    let text = serde_json_canonicalizer::to_string(settings).map_err(unwritable)?;
+    serde_json::from_str(&text).map_err(unwritable)
 }

@@ -13,6 +13,7 @@
 //! | sections, their keys, units, ranges and meanings | `sections`, `keys` |
 //! | reading and checking a file | `load`, `scenario`, `units` |
 //! | from a scenario to its job | `resolve` |
+//! | a plate from a mesh or from probed points | [`measured`] |
 //! | changing a text key by key | `draft` |
 //! | failures and refusals in the words of the keys | `failure`, `error` |
 //! | keys that would mend a job; a home and a region for an arm | `remedy`, `suggest` |
@@ -23,6 +24,7 @@ mod error;
 mod failure;
 pub mod keys;
 mod load;
+pub mod measured;
 mod obstacle_file;
 mod planning_scene;
 mod remedy;

@@ -3,6 +3,7 @@
 
 mod draft;
 mod draft_properties;
+mod measured;
 mod obstacles;
 mod plate_files;
 mod plates;

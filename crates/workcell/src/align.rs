@@ -185,7 +185,7 @@ impl Cloud {
     fn check_breadth(&self) -> Result<[f64; 2], AlignError> {
         let spread = self.about.iter().map(|p| p * p.transpose()).sum::<Matrix3<f64>>() / self.about.len() as f64;
         let mut along = spread.symmetric_eigenvalues().map(|value| value.max(0.0).sqrt());
-        along.as_mut_slice().sort_by(f64::total_cmp);
+        along.as_mut_slice().sort_unstable_by(f64::total_cmp);
         let [_, beside_m, length_m]: [f64; 3] = along.into();
         let (least_m, how) = (BESIDE_M.max(BESIDE_SHARE * length_m), self.how);
         if beside_m < least_m {

@@ -144,7 +144,7 @@ mod tests {
         let mut names: Vec<_> = files
             .map(|file| file.unwrap().file_name().into_string().unwrap())
             .collect();
-        names.sort();
+        names.sort_unstable();
         names
     }
 

@@ -6,7 +6,6 @@
 //! | --- | --- |
 //! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`], [`tool_chain`], [`obstacle`] |
 //! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
-//! | a plate from a mesh or from probed points | [`measured`] |
 //! | jobs and their simulation settings, resolved | [`job`], [`simulation`] |
 //! | the wash path on a plate; the arc between plates | [`wash_path`], [`arc`] |
 //! | a motion and its segments; a controller's motion; tables of both as CSV | [`trajectory`], [`piecewise`], [`csv`] |
@@ -33,7 +32,6 @@ pub mod fixtures;
 pub mod job;
 pub mod json;
 pub mod layout;
-pub mod measured;
 pub mod number_table;
 pub mod obstacle;
 pub mod piecewise;

@@ -4,7 +4,6 @@
 mod align;
 mod coverage;
 mod layout;
-mod measured;
 mod parts;
 mod plan;
 mod plate;

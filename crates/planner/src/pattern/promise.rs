@@ -427,7 +427,7 @@ impl SampledWash {
     /// Share of the speed, up to 1, at which enough of some places, but for a part `slack` of them, are in contact long enough with a margin;
     /// their times of contact at full speed are `times_s` \[s\].
     fn share(&self, margin: &Margin, mut times_s: Vec<f64>, slack: f64) -> f64 {
-        times_s.sort_by(|a, b| b.total_cmp(a));
+        times_s.sort_unstable_by(|a, b| b.total_cmp(a));
         let [_, share, _] = self.promise.shares;
         let needed = times_s.len() as f64 * (margin.required(share) - slack);
         let longest_s = times_s.get((needed.ceil() as usize).saturating_sub(1)).copied();

@@ -166,7 +166,7 @@ pub fn washable_map(
         let mut levels = Levels::new(map);
         while let Some((step_m, mut squares)) = levels.next() {
             let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
-            squares.sort_by(|a, b| away(a).total_cmp(&away(b)));
+            squares.sort_unstable_by(|a, b| away(a).total_cmp(&away(b)));
             let mut answers: Vec<(Square, bool)> = Vec::with_capacity(squares.len());
             for some in squares.chunks(IN_A_PATCH) {
                 let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();
@@ -242,7 +242,7 @@ pub fn plate_outlooks(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<PlateOutlo
     let outlooks: Result<Vec<PlateOutlook>, Cancelled> =
         turns.map(|k| pipeline.outlook_on(&scene, &order, k)).collect();
     let mut outlooks = outlooks?;
-    outlooks.sort_by_key(|outlook| outlook.plate);
+    outlooks.sort_unstable_by_key(|outlook| outlook.plate);
     Ok(outlooks)
 }
 

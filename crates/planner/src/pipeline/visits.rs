@@ -290,7 +290,7 @@ pub fn unwashable_plates(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<Unwasha
     let why = |failed: FailedVisit| pipeline.explain(&scene, failed);
     let plates: Result<Vec<UnwashablePlate>, Cancelled> = failed.into_par_iter().map(why).collect();
     let mut plates = plates?;
-    plates.sort_by_key(|plate| plate.plate);
+    plates.sort_unstable_by_key(|plate| plate.plate);
     Ok(plates)
 }
 

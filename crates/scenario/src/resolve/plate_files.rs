@@ -5,6 +5,7 @@
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::keys::value::json_of_table;
 use crate::load::{MAX_BYTES, unread};
+use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
 use crate::scenario::Scenario;
 use crate::sections::layout::{LayoutSection, PlateSection, ProfileName};
 use crate::sections::motion::Program;
@@ -12,7 +13,6 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::job::{MOST_PASSES, MeasuredShape, PatternName, Soil};
 use platewash_workcell::layout::MAX_PLATES;
-use platewash_workcell::measured::{self, MeasuredPlate, Unit};
 use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::surface::Surface;
@@ -304,6 +304,18 @@ impl Scenario {
             keys: key.to_owned(),
             detail: format!("{}: {detail}", path.display()),
         };
+        let misfit = |key: &str, path: &Path, error: MeasuredError| {
+            let unit = key
+                .replace("plate_", "")
+                .replace("mesh", "unit")
+                .replace("points", "unit");
+            let unit = unit.replace("layout.unit", "layout.plate_unit");
+            let hint = match error {
+                MeasuredError::Unit { .. } => format!(" ({unit})"),
+                _ => String::new(),
+            };
+            refused(key, path, format!("{error}{hint}"))
+        };
         let (path, plate) = match (mesh, points) {
             (Some(path), _) => {
                 let source = MeshSource::new(&self.robot.package_path, None).reading(&self.files);
@@ -314,7 +326,7 @@ impl Scenario {
                 let is_collada = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("dae"));
                 let unit = unit.or(is_collada.then_some(Unit::Metre));
                 let plate = measured::from_mesh(&triangles, unit);
-                let plate = plate.map_err(|error| refused(of_mesh, &path, error.to_string()))?;
+                let plate = plate.map_err(|error| misfit(of_mesh, &path, error))?;
                 (path, plate)
             }
             (None, Some(path)) => {
@@ -322,7 +334,7 @@ impl Scenario {
                 let touched = measured::probe_points(&text);
                 let (touched, stated) = touched.map_err(|error| refused(of_points, &path, error.to_string()))?;
                 let plate = measured::from_points(&touched, stated.or(unit));
-                let plate = plate.map_err(|error| refused(of_points, &path, error.to_string()))?;
+                let plate = plate.map_err(|error| misfit(of_points, &path, error))?;
                 (path, plate)
             }
             (None, None) => return Ok(None),

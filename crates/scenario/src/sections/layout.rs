@@ -4,11 +4,11 @@
 
 use crate::error::{Problem, conflict};
 use crate::load::serialize_lossy;
+use crate::measured::Unit;
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::layout::{PlateGeometry, Region};
-use platewash_workcell::measured::Unit;
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

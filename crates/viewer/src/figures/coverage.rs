@@ -119,7 +119,7 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
 fn step_s(maps: &[Map]) -> f64 {
     let all = maps.iter().flat_map(|map| map.dwell_s.iter().flatten().copied());
     let mut all: Vec<f64> = all.filter(|seconds| *seconds > 0.0).collect();
-    all.sort_by(f64::total_cmp);
+    all.sort_unstable_by(f64::total_cmp);
     let usual = all.get(all.len().saturating_sub(1) * 97 / 100);
     round_above(usual.map_or(1.0, |usual| usual / STEPS.len() as f64))
 }

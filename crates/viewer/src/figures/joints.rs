@@ -140,7 +140,7 @@ impl Panel {
     /// greater than nearly all of them.
     fn new(name: &'static str, lines: Vec<(Vec<f64>, String)>, limits: [f64; 2]) -> Self {
         let mut numbers: Vec<f64> = lines.iter().flat_map(|(line, _)| line.iter().copied()).collect();
-        numbers.sort_by(f64::total_cmp);
+        numbers.sort_unstable_by(f64::total_cmp);
         let at = |share: f64| numbers[(share * (numbers.len() - 1) as f64) as usize];
         let [low, high] = if numbers.is_empty() { limits } else { [at(0.0), at(1.0)] };
         let with = |low: f64, high: f64| [low.min(limits[0]), high.max(limits[1])];

@@ -3,8 +3,7 @@
 use super::numbers::Numbers;
 use super::tips::{Tips, washes};
 use nalgebra::Vector3;
-use platewash_workcell::job::JobTerms;
-use platewash_workcell::measured::Relief;
+use platewash_workcell::job::{JobTerms, Relief};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate;
 use platewash_workcell::wash_path::{self, WashCurve};

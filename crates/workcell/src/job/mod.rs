@@ -18,7 +18,7 @@ mod terms;
 mod wash_job;
 
 pub use crate::job::error::{End, JobError};
-pub use crate::job::measured_shape::MeasuredShape;
+pub use crate::job::measured_shape::{MeasuredShape, Relief};
 pub use crate::job::requirements::{
     ContactRequirements, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M, PatternName, Planner,
     PlannerSettings, ReachBorders, Requirements, Treatment,

@@ -4,7 +4,7 @@ use crate::job::error::JobError;
 use crate::job::requirements::ContactRequirements;
 use crate::job::terms::{JobTerms, positive, within};
 use crate::plate::Plate;
-use crate::words::{count_with_noun, printable};
+use crate::words::printable;
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,8 @@ impl Soil {
         let number = |value: f64| rounded(value, DIGITS).to_string();
         let parts = [
             self.dose_pa_m.map(|dose| format!("dose {} Pa·m", number(dose))),
-            self.passes.map(|passes| count_with_noun(passes as usize, "pass")),
+            self.passes
+                .map(|passes| format!("{passes} {}", if passes == 1 { "pass" } else { "passes" })),
             self.speed_m_s.map(|speed| format!("at most {} m/s", number(speed))),
             self.force_n
                 .map(|[least, most]| format!("{} to {} N", number(least), number(most))),

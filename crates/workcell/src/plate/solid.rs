@@ -243,7 +243,7 @@ fn pieces(plate: &Plate) -> Vec<Piece> {
     let mut radii: Vec<f64> = meridian.knots().iter().map(|knot| knot.radius_m).collect();
     if let Some(foot) = foot.filter(|foot| foot.radius_m < rim_m) {
         radii.push(foot.radius_m);
-        radii.sort_by(f64::total_cmp);
+        radii.sort_unstable_by(f64::total_cmp);
         radii.dedup();
     }
     let mut all = Vec::new();

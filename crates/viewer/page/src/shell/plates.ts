@@ -27,8 +27,11 @@ export function meaning(coverages: readonly Coverage[]): string {
   const counted = coverages.map((coverage) => coverage.counted);
   const promised = counted.find((one) => one?.is_promised);
   if (promised) {
-    const [compression, error] = [promised.compression_m, promised.height_error_m].map((length) => fixedShort(1000 * length, 2));
-    return `Coloured where the sponge is pressed by ${compression}\u202fmm or more, wherever within ±${error}\u202fmm the plate lies.`;
+    const mm = (length: number): string => `${fixedShort(1000 * length, 2)}\u202fmm`;
+    const errors = counted.flatMap((one) => (one?.is_promised ? [one.height_error_m] : []));
+    const [least, most] = [Math.min(...errors), Math.max(...errors)];
+    const error = least === most ? `±${mm(most)}` : `its height error (±${mm(least)} to ±${mm(most)})`;
+    return `Coloured where the sponge is pressed by ${mm(promised.compression_m)} or more, wherever within ${error} the plate lies.`;
   }
   if (counted.length > 0 && counted.every((one) => one !== null)) return "Coloured where the sponge touches the face.";
   return "Coloured where the sponge was over the face.";

@@ -3,14 +3,14 @@
 use crate::measured::algebra::Moments;
 use crate::measured::axis::{Cloud, Fitted, Frame};
 use crate::measured::body::{Extremes, Ruler};
-use crate::measured::face::{Relief, check_slope, outermost};
+use crate::measured::face::{check_slope, outermost, relief};
 use crate::measured::knots::{Profile, rings};
 use crate::measured::{
     FIRST_KNOTS, FLAT, File, MeasuredError, MeasuredPlate, Unit, is_coordinate, out_of_round_m, smooth_enough, sparing,
 };
-use crate::trig::atan2;
-use crate::words::millimetres;
 use nalgebra::{Point3, Vector3};
+use platewash_kinematics::trig::atan2;
+use platewash_workcell::words::millimetres;
 use std::f64::consts::TAU;
 
 /// Least number of probed points.
@@ -65,7 +65,7 @@ pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<Measure
         .iter()
         .map(|point| (point.coords - moments.middle) * length_m)
         .collect();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     let mut frame = side_of_points(&sorted, &axis, reach * length_m);
     // A ring of the profile weighs as much as any other.
     let weight = |point: &Vector3<f64>| frame.local(point).xy().norm().max(0.05 * reach * length_m);
@@ -129,7 +129,7 @@ pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<Measure
         .map(seen)
         .for_each(|local| extremes.see(ruler.above_m(&local), 0.0, &local));
     let frame = frame.raised(extremes.middle_m());
-    let mut plate = file.plate(&frame, surface, &extremes, Relief::of(&surface, None, None));
+    let mut plate = file.plate(&frame, surface, &extremes, relief(&surface, None, None));
     plate.out_of_round_m = out_of_round_m(sorted.iter().map(|point| frame.local(point)), &surface);
     smooth_enough(plate)
 }
@@ -162,7 +162,7 @@ fn side_of_points(points: &[Vector3<f64>], axis: &Vector3<f64>, reach_m: f64) ->
 /// Refuses points that leave too much of the face untouched.
 fn check_gaps(local: &[Vector3<f64>], rim_m: f64) -> Result<(), MeasuredError> {
     let mut radii: Vec<f64> = local.iter().map(|p| p.xy().norm()).chain([0.0]).collect();
-    radii.sort_by(f64::total_cmp);
+    radii.sort_unstable_by(f64::total_cmp);
     if let Some(gap) = radii.windows(2).find(|gap| gap[1] - gap[0] > RADIUS_GAP * rim_m) {
         let [from, to] = [0, 1].map(|k| millimetres(gap[k]));
         let why = format!("none lies between radius {from} and {to}; touch the face there, too");
@@ -170,7 +170,7 @@ fn check_gaps(local: &[Vector3<f64>], rim_m: f64) -> Result<(), MeasuredError> {
     }
     let outer = local.iter().filter(|p| p.xy().norm() > 0.5 * rim_m);
     let mut azimuths: Vec<f64> = outer.map(|p| atan2(p.y, p.x)).collect();
-    azimuths.sort_by(f64::total_cmp);
+    azimuths.sort_unstable_by(f64::total_cmp);
     azimuths.extend(azimuths.first().map(|first| first + TAU));
     if let Some(gap) = azimuths.windows(2).find(|gap| gap[1] - gap[0] > AZIMUTH_GAP) {
         let [from, to] = [0, 1].map(|k| gap[k].to_degrees());

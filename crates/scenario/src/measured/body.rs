@@ -4,9 +4,9 @@
 //! L, seen along the axis, the difference is at most M L²/6 more than at the corners. Facets are halved until that is small, and it is added.
 
 use crate::measured::NOISE_M;
-use crate::plate::{Foot, LEAST_PLATE_M};
-use crate::surface::Surface;
 use nalgebra::Vector3;
+use platewash_workcell::plate::{Foot, LEAST_PLATE_M};
+use platewash_workcell::surface::Surface;
 use std::f64::consts::PI;
 
 /// Number of rings in which the bend of the profile and the depth of the body are kept.

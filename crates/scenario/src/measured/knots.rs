@@ -6,8 +6,8 @@
 
 use crate::measured::NOISE_M;
 use crate::measured::algebra::cholesky;
-use crate::surface::{Knot, MOST_KNOTS, Meridian, Surface};
-use crate::trig::{asin, ln};
+use platewash_kinematics::trig::{asin, ln};
+use platewash_workcell::surface::{Knot, MOST_KNOTS, Meridian, Surface};
 
 /// Number of rings in which heights are averaged.
 const RINGS: usize = 256;

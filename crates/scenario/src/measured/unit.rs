@@ -2,9 +2,9 @@
 
 use crate::measured::error::MeasuredError;
 use crate::measured::{LEAST_PLATE_M, MOST_PLATE_M};
-use crate::number_table::{NumberTable, TableError, TableShape};
-use crate::words::without_mark;
 use nalgebra::Point3;
+use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
+use platewash_workcell::words::without_mark;
 use serde::{Deserialize, Serialize};
 
 /// Least and greatest diameter of a plate whose unit is guessed \[m\]. Their ratio is below 2.54, that of inch and cm, so that no two units

@@ -44,7 +44,7 @@ fn principal(mut m: Matrix3<f64>) -> [(f64, Vector3<f64>); 3] {
         turned *= rotation;
     }
     let mut all = [0, 1, 2].map(|k| (m[(k, k)], Vector3::from(turned.column(k))));
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     all
 }
 

@@ -1,12 +1,13 @@
 //! Heights of a face on a polar grid: its holes, and its picture.
 
+pub use platewash_workcell::job::Relief;
+
 use crate::measured::axis::Frame;
 use crate::measured::error::{MeasuredError, Place};
 use crate::measured::knots::Ring;
-use crate::surface::{STEEPEST_RAD, Surface};
-use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use platewash_kinematics::trig::{atan2, sin_cos};
+use platewash_workcell::surface::{STEEPEST_RAD, Surface};
 use std::f64::consts::{PI, TAU};
 
 /// Numbers of rings and of azimuths of the grid; a relief has every third.
@@ -23,22 +24,6 @@ const SLOPE_SLACK: f64 = 1.15;
 /// Unit of heights in a relief \[m\].
 const STEP_M: f64 = 1e-5;
 
-/// Heights of a plate on a polar grid, for pictures, relative to the pole, plate frame.
-///
-/// Ring k of n has the radius (k + ½)/n of the rim's. Azimuths begin at x, at equal angles. Heights are in steps of 10 µm, ring by ring.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Relief {
-    /// Radii of the rings \[m\].
-    pub radii_m: Vec<f64>,
-    /// Number of azimuths.
-    pub azimuths: usize,
-    /// Heights of the face \[10 µm\].
-    pub upper: Vec<i32>,
-    /// Heights of the underside \[10 µm\]; empty if it was not measured.
-    pub lower: Vec<i32>,
-}
-
 /// Heights on the grid \[m\]; NaN where nothing is.
 pub(super) struct Heights(Vec<f64>);
 
@@ -54,6 +39,7 @@ fn place(ring: usize, azimuth: usize, rim_m: f64) -> [f64; 2] {
 
 impl Heights {
     /// Returns the greatest heights of triangles, plate frame, or with side −1 the least.
+    #[inline(never)]
     pub fn of(triangles: impl Iterator<Item = [Vector3<f64>; 3]>, rim_m: f64, side: f64) -> Self {
         let mut heights = vec![f64::NAN; GRID[0] * GRID[1]];
         for corners in triangles {
@@ -150,33 +136,31 @@ fn azimuths_of(corners: &[Vector3<f64>; 3]) -> [usize; 2] {
     }
 }
 
-impl Relief {
-    /// Returns the relief of grids; where nothing was measured it is that of a surface, and `thickness_m` below it.
-    pub(super) fn of(surface: &Surface, upper: Option<&Heights>, lower: Option<(&Heights, f64)>) -> Self {
-        let rim_m = surface.rim_m();
-        let rings = || (0..GRID[0] / EVERY).map(|k| EVERY * k + EVERY / 2);
-        let list = |heights: Option<&Heights>, below_m: f64| {
-            let at = |ring: usize, azimuth: usize| {
-                let found = heights.map_or(f64::NAN, |heights| heights.0[ring * GRID[1] + azimuth]);
-                let height = if found.is_nan() {
-                    surface.height_m(radius_m(ring, rim_m)) - below_m
-                } else {
-                    found
-                };
-                (height / STEP_M).round() as i32
+/// Returns the relief of grids; where nothing was measured it is that of a surface, and `thickness_m` below it.
+pub(super) fn relief(surface: &Surface, upper: Option<&Heights>, lower: Option<(&Heights, f64)>) -> Relief {
+    let rim_m = surface.rim_m();
+    let rings = || (0..GRID[0] / EVERY).map(|k| EVERY * k + EVERY / 2);
+    let list = |heights: Option<&Heights>, below_m: f64| {
+        let at = |ring: usize, azimuth: usize| {
+            let found = heights.map_or(f64::NAN, |heights| heights.0[ring * GRID[1] + azimuth]);
+            let height = if found.is_nan() {
+                surface.height_m(radius_m(ring, rim_m)) - below_m
+            } else {
+                found
             };
-            let ring = |ring: usize| (0..GRID[1]).step_by(EVERY).map(move |azimuth| (ring, azimuth));
-            rings()
-                .flat_map(ring)
-                .map(|(ring, azimuth)| at(ring, azimuth))
-                .collect()
+            (height / STEP_M).round() as i32
         };
-        Self {
-            radii_m: rings().map(|ring| radius_m(ring, rim_m)).collect(),
-            azimuths: GRID[1] / EVERY,
-            upper: list(upper, 0.0),
-            lower: lower.map_or_else(Vec::new, |(heights, thickness_m)| list(Some(heights), thickness_m)),
-        }
+        let ring = |ring: usize| (0..GRID[1]).step_by(EVERY).map(move |azimuth| (ring, azimuth));
+        rings()
+            .flat_map(ring)
+            .map(|(ring, azimuth)| at(ring, azimuth))
+            .collect()
+    };
+    Relief {
+        radii_m: rings().map(|ring| radius_m(ring, rim_m)).collect(),
+        azimuths: GRID[1] / EVERY,
+        upper: list(upper, 0.0),
+        lower: lower.map_or_else(Vec::new, |(heights, thickness_m)| list(Some(heights), thickness_m)),
     }
 }
 

@@ -37,14 +37,14 @@ pub use crate::measured::unit::{Unit, probe_points};
 
 use crate::measured::axis::{Fitted, Frame};
 use crate::measured::body::{Body, Extremes, Ruler};
-use crate::measured::face::{Heights, check_slope};
+use crate::measured::face::{Heights, check_slope, relief};
 use crate::measured::knots::{Profile, rings};
 use crate::measured::mesh::{Mesh, SECTORS};
-use crate::plate::Foot;
-use crate::surface::Surface;
-use crate::trig::atan2;
 use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
+use platewash_kinematics::trig::atan2;
+use platewash_workcell::plate::Foot;
+use platewash_workcell::surface::Surface;
 
 /// Greatest deviation of a plate from its profile \[m\]. Chipped and bent plates are refused.
 pub const MOST_DEVIATION_M: f64 = 2e-3;
@@ -244,13 +244,13 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
     let frame = frame.raised(extremes.middle_m());
     let upper = Heights::of(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
     let all = || mesh.triangles.iter().map(|t| local(t, &frame));
-    let mut plate = file.plate(&frame, surface, &extremes, Relief::of(&surface, Some(&upper), None));
+    let mut plate = file.plate(&frame, surface, &extremes, relief(&surface, Some(&upper), None));
     plate.out_of_round_m = out_of_round_m(face.facets.iter().flat_map(|t| local(t, &frame)), &surface);
     if mesh.is_closed(&frame.axis()) {
         let body = Body::of(&ruler, all());
         let (thickness_m, foot) = body.thickness_and_foot(&surface);
         let lower = Heights::of(all(), rim_m, -1.0);
-        plate.relief = Relief::of(&surface, Some(&upper), Some((&lower, thickness_m)));
+        plate.relief = relief(&surface, Some(&upper), Some((&lower, thickness_m)));
         (plate.thickness_m, plate.foot) = (Some(thickness_m), foot);
         if body.beyond.0 > plate.deviation_m {
             plate.deviation_m = body.beyond.0;

@@ -1,7 +1,7 @@
 //! Errors of a measured plate, and places on it.
 
 use crate::measured::{LEAST_PLATE_M, MOST_DEVIATION_M, MOST_PLATE_M};
-use crate::words::millimetres;
+use platewash_workcell::words::millimetres;
 
 /// Place on a measured plate.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -245,6 +245,7 @@ impl Mesh {
     }
 
     /// True if a facet that faces up falls outwards as steeply as the lip.
+    #[inline(never)]
     pub fn is_lip(&self, t: &[u32; 3], frame: &Frame) -> bool {
         let [a, b, c] = self.corners(t).map(|corner| frame.local(&corner));
         let (normal, middle) = ((b - a).cross(&(c - a)), a + b + c);

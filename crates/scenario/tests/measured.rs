@@ -1,12 +1,15 @@
-use crate::parts::rng;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use platewash_workcell::measured::*;
+use platewash_scenario::measured::*;
 use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
-use rand::RngExt;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
 type Triangle = [Point3<f64>; 3];
+
+fn rng(seed: u64) -> Pcg64 {
+    Pcg64::seed_from_u64(seed)
+}
 
 const THICKNESS_M: f64 = 4e-3;
 const FOOT_M: [f64; 2] = [0.05, 3e-3];
