@@ -36,7 +36,7 @@ const AZIMUTH_GAP: f64 = 1.75;
 /// Returns the plate whose face was touched in points. Its rim is at the outermost one: touch the rim all round.
 ///
 /// # Errors
-/// [`MeasuredError`]: too few points, or points that fix no axis or no profile, or deviate by more than [`MOST_DEVIATION_M`].
+/// [`MeasuredError`]: too few points, or points that fix no axis or no profile, or deviate by more than [`MOST_DEVIATION_M`](crate::measured::MOST_DEVIATION_M).
 pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<MeasuredPlate, MeasuredError> {
     if points.len() < LEAST_POINTS {
         let (found, least) = (points.len(), LEAST_POINTS);

@@ -59,7 +59,7 @@ pub struct LayoutSection {
     pub plate_soil: Option<String>,
     /// CSV file of plates, one a row: name, place (x_m, y_m, z_m; or touched_x_mm, touched_y_mm, touched_z_mm as the pendant shows the tip in the
     /// middle of the plate), and if wanted tilt_deg with tilt_azimuth_deg, kind, height_error_mm, soil. A kind is a built-in profile or the
-    /// `kind` of a [[plate]] section.
+    /// `kind` of a `[[plate]]` section.
     #[key(domain = Path)]
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
     pub plate_file: Option<PathBuf>,

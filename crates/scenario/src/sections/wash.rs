@@ -111,7 +111,7 @@ pub struct WashSection {
     /// Share of a face's area that gets contact_dose_pa_m. Without it, 0.99 where contact is true.
     #[key(domain = Number(0.0, 1.0))]
     pub contact_dose_share: Option<f64>,
-    /// TOML file of kinds of soil: [[soil]] sections with name, source, and as wanted dose_pa_m, passes, speed_m_s, force_n. Plates name
+    /// TOML file of kinds of soil: `[[soil]]` sections with name, source, and as wanted dose_pa_m, passes, speed_m_s, force_n. Plates name
     /// theirs by layout.plate_soil, or each by its own.
     #[key(domain = Path)]
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
