@@ -239,7 +239,7 @@ impl fmt::Display for LimitShares {
             ("joint acceleration", self.joint_acceleration),
         ];
         let mut shown: Vec<_> = shares.into_iter().filter(|(_, share)| *share >= 0.005).collect();
-        shown.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
+        shown.sort_by(|a, b| b.1.total_cmp(&a.1));
         for (k, (limit, share)) in shown.iter().enumerate() {
             let [before, after] = if k == 0 { ["; ", " of the time"] } else { [", ", ""] };
             write!(f, "{before}{limit} is the limit for {:.0} %{after}", 100.0 * share)?;

@@ -58,6 +58,8 @@ pub enum Note {
         file: String,
         /// Unit of the file, and whether it was guessed.
         unit: String,
+        /// True for points on the face, false for a mesh.
+        is_probed: bool,
         /// Greatest deviation of the measured plate from the fitted one \[m\].
         deviation_m: f64,
     },
@@ -82,6 +84,7 @@ impl Scenario {
         let measured = self.measured().iter().map(|shape| Note::MeasuredPlate {
             file: shape.file.clone(),
             unit: shape.unit.clone(),
+            is_probed: shape.is_probed,
             deviation_m: shape.deviation_m,
         });
         notes.chain(open).chain(measured).collect()
@@ -150,13 +153,17 @@ impl fmt::Display for Note {
             Self::MeasuredPlate {
                 file,
                 unit,
+                is_probed,
                 deviation_m,
-            } => write!(
-                f,
-                "{} is in {unit}; its plate deviates from the fitted profile by up to {} mm, which adds to its height error",
-                quoted(file),
-                decimals_up(1e3 * deviation_m, 2)
-            ),
+            } => {
+                let (file, by_mm) = (quoted(file), decimals_up(1e3 * deviation_m, 2));
+                let at_points = if *is_probed { " at the points" } else { "" };
+                let between = if *is_probed { "; between them the face is not measured" } else { "" };
+                write!(
+                    f,
+                    "{file} is in {unit}; its plate deviates from the fitted profile by up to {by_mm} mm{at_points}, which adds to its height error{between}"
+                )
+            }
             Self::LargerThanMesh { body, by_m } => write!(
                 f,
                 "{} counts as convex parts, which reach up to {} mm beyond its mesh: a plan can fail for that alone; a mesh cut \

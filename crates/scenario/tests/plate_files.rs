@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use platewash_scenario::Scenario;
 use platewash_workcell::job::JobTerms;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::surface::Surface;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -229,4 +231,96 @@ fn keys_that_contradict_each_other_are_refused() {
         };
         assert!(words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
     }
+}
+
+/// Points of a dessert plate, ring by ring from the middle of the face over the rim to the middle below [mm].
+fn rings(around: usize) -> Vec<Vec<[f64; 3]>> {
+    let surface = Surface::shipped("dessert190").unwrap();
+    let face = |k: usize| surface.at_arc(surface.arc_m() * k as f64 / 40.0);
+    let top = (1..=40).map(|k| [face(k).radius_m, face(k).height_m]);
+    let below = (1..=40).rev().map(|k| [face(k).radius_m, face(k).height_m - 0.004]);
+    let ring = |[rho, z]: [f64; 2]| {
+        let at = |k: usize| {
+            let (sine, cosine) = (std::f64::consts::TAU * k as f64 / around as f64).sin_cos();
+            [1e3 * rho * cosine + 300.0, 1e3 * rho * sine, 1e3 * z]
+        };
+        (0..around).map(at).collect()
+    };
+    top.chain(below).map(ring).collect()
+}
+
+/// The plate as an OBJ file, and points on its face as a table.
+fn mesh_and_points() -> [String; 2] {
+    let (around, all) = (96, rings(96));
+    let mut obj = String::from("v 300 0 0\nv 300 0 -4\n");
+    for [x, y, z] in all.iter().flatten() {
+        obj += &format!("v {x} {y} {z}\n");
+    }
+    let at = |ring: usize, k: usize| 3 + ring * around + k % around;
+    for k in 0..around {
+        obj += &format!(
+            "f 1 {} {}\nf 2 {} {}\n",
+            at(0, k),
+            at(0, k + 1),
+            at(79, k + 1),
+            at(79, k)
+        );
+        for ring in 0..79 {
+            let [a, b, c, d] = [at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)];
+            obj += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+        }
+    }
+    let rows = (3..40).step_by(4).flat_map(|ring| all[ring].iter().step_by(12));
+    let rows: String = rows.map(|[x, y, z]| format!("{x},{y},{z}\n")).collect();
+    [obj, format!("x_mm,y_mm,z_mm\n{rows}")]
+}
+
+#[test]
+fn a_measured_shape_reaches_every_plate_that_takes_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let [mesh, points] = mesh_and_points();
+    write(folder.path(), "a.obj", &mesh);
+    write(folder.path(), "a.csv", &points);
+    let text = format!(
+        "{HEAD}[layout]\nplate_mesh = \"a.obj\"\nplate_thickness_m = 0.001\n\
+         [[plate]]\nat_m = [0.35, 0.2, 0.03]\n[[plate]]\nat_m = [0.35, -0.2, 0.03]\npoints = \"a.csv\"\nthickness_m = 0.006\n\
+         [[plate]]\nat_m = [-0.35, 0.2, 0.03]\nprofile = \"dessert190\"\n"
+    );
+    write(folder.path(), "mine.toml", &text);
+    let terms = terms(folder.path());
+    let [meshed, probed, named] = &terms.plates[..] else {
+        panic!("three plates")
+    };
+    assert_eq!(
+        [meshed, probed, named].map(|plate| plate.terms.measured),
+        [Some(0), Some(1), None]
+    );
+    assert_eq!(
+        [&terms.measured[0], &terms.measured[1]].map(|shape| shape.is_probed),
+        [false, true]
+    );
+    assert_eq!(
+        [meshed, probed].map(|plate| plate.terms.deviation_m),
+        [0, 1].map(|k| Some(terms.measured[k].deviation_m))
+    );
+    assert!(
+        terms
+            .measured
+            .iter()
+            .all(|shape| shape.deviation_m < 5e-4 && shape.unit.starts_with("mm"))
+    );
+    let truth = Surface::shipped("dessert190").unwrap();
+    for rho_m in [0.0, 0.03, 0.06, 0.075, 0.09] {
+        let off_m = |plate: &Plate| (plate.surface.height_m(rho_m) - truth.height_m(rho_m)).abs();
+        assert!(
+            off_m(meshed) < 2e-4 && off_m(probed) < 5e-4,
+            "{rho_m}: {} {}",
+            off_m(meshed),
+            off_m(probed)
+        );
+    }
+    // The body of a mesh is that of the mesh, whatever the text says; that of points is what the text says.
+    assert!((meshed.thickness_m - 0.004).abs() < 5e-4 && probed.thickness_m == 0.006 && named.thickness_m > 0.003);
+    let contact = terms.contact_of(meshed).unwrap();
+    assert_eq!(contact.height_error_m, 0.001 + terms.measured[0].deviation_m);
 }

@@ -124,7 +124,7 @@ fn pairs(f: &mut impl fmt::Write, all: &[PairBound]) -> fmt::Result {
             line.at_least_m.unwrap_or(f64::NEG_INFINITY),
         )
     };
-    sorted.sort_unstable_by(|a, b| {
+    sorted.sort_by(|a, b| {
         let ((a_touches, a_kept, a), (b_touches, b_kept, b)) = (rank(a), rank(b));
         (a_touches, a_kept).cmp(&(b_touches, b_kept)).then(a.total_cmp(&b))
     });

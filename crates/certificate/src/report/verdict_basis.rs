@@ -44,6 +44,11 @@ const FOUNDATION: &str = "the sponge is round and each column of it presses with
 const ERROR_OF_HEIGHT: &str = "contact, landing and lifting hold for plates too high or too low by up to the stated height error; everything else, \
                                clearance too, at the stated height";
 
+/// Assumptions added for plates out of meshes, and out of points that a probe touched.
+const MESHED: &str = "plates out of meshes are as their meshes; these lie within the stated deviation of the fitted profile, and shares are those of \
+                      the fitted face";
+const PROBED: &str = "plates out of touched points have the fitted profile within the stated deviation between the points, too, where nobody measured";
+
 /// Assumption added for a dry run.
 const PARENT: &str =
     "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
@@ -130,6 +135,9 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
         (None, false) => TOUCHES,
     });
     all.extend(job.requirements.contact.map(|_| ERROR_OF_HEIGHT));
+    let is_measured = |probed: bool| job.measured.iter().any(|shape| shape.is_probed == probed);
+    all.extend(is_measured(false).then_some(MESHED));
+    all.extend(is_measured(true).then_some(PROBED));
     all.extend(job.dry_run.is_some().then_some(PARENT));
     all
 }

@@ -217,7 +217,7 @@ impl<'a> IkSolver<'a> {
                 stopped.push((descent.best, Start::Listed(k)));
             }
         }
-        stopped.sort_unstable_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
+        stopped.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
         stopped.truncate(QP_FROM_LIST);
         let mut due = postponed.into_iter().chain(stopped);
         due.find_map(|(from, start)| self.bounded(from, start, search))

@@ -214,7 +214,7 @@ impl Search<'_> {
             starts.push((self.cost(&q), (q - seed).norm(), q));
         }
         // Starts with an allowed pose come first, and of those the nearest to the seed.
-        starts.sort_unstable_by(|a, b| {
+        starts.sort_by(|a, b| {
             a.0.max(POLISH_BELOW)
                 .total_cmp(&b.0.max(POLISH_BELOW))
                 .then(a.1.total_cmp(&b.1))

@@ -78,7 +78,7 @@ impl IkSolver<'_> {
             k += 1;
         }
         let mut answers = found.answers;
-        answers.sort_unstable_by(|a, b| (a - near).norm().total_cmp(&(b - near).norm()));
+        answers.sort_by(|a, b| (a - near).norm().total_cmp(&(b - near).norm()));
         Ok(answers)
     }
 
@@ -93,7 +93,7 @@ impl IkSolver<'_> {
             (crate::ik::starts::distance(&axis.turned(pose, by), target), q)
         });
         let mut ranked: Vec<_> = turned.collect();
-        ranked.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         ranked.into_iter().take(count).map(|(_, q)| q).collect()
     }
 }

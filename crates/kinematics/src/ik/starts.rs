@@ -40,7 +40,7 @@ impl Starts {
     pub fn nearest(&self, target: &RigidTransform, count: usize) -> Vec<JointVector> {
         let ranked = self.entries.iter().map(|(q, pose)| (distance(pose, target), q));
         let mut ranked: Vec<_> = ranked.collect();
-        ranked.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         ranked.into_iter().take(count).map(|(_, q)| *q).collect()
     }
 }

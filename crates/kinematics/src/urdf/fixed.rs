@@ -27,7 +27,7 @@ pub(crate) struct Fixed {
 pub(crate) fn fix(robot: &mut Robot, stated: &FixedJoints) -> Result<Fixed, UrdfError> {
     let mut fixed = Fixed::default();
     let mut outermost_first: Vec<usize> = (0..robot.joints.len()).collect();
-    outermost_first.sort_unstable_by_key(|index| std::cmp::Reverse(depth(robot, *index)));
+    outermost_first.sort_by_key(|index| std::cmp::Reverse(depth(robot, *index)));
     for index in outermost_first {
         let joint = &robot.joints[index];
         let Some(&position) = stated.get(&joint.name).filter(|_| joint.joint_type != JointType::Fixed) else {

@@ -265,7 +265,7 @@ impl Patterns {
                 Kept::Never => {}
             }
         }
-        hasty.sort_unstable_by(|(a, _), (b, _)| a.total_cmp(b));
+        hasty.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         let mut found = 0;
         for (time_s, whole) in hasty {
             let bound_s = best.map_or(f64::INFINITY, |best| best.time_s);
@@ -353,7 +353,7 @@ impl Patterns {
             all.filter_map(|estimate| self.slowed(&self.whole(estimate), cone_rad, margin, SLOWEST, &mut suspects));
         let kept = kept.filter(|pattern| self.is_chosen() || pattern.speed_share < 1.0);
         let mut kept: Vec<Pattern> = kept.take(MOST_SLOWED).collect();
-        kept.sort_unstable_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        kept.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         kept.truncate(OFFERED.len());
         kept
     }

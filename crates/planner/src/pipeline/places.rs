@@ -166,7 +166,7 @@ pub fn washable_map(
         let mut levels = Levels::new(map);
         while let Some((step_m, mut squares)) = levels.next() {
             let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
-            squares.sort_unstable_by(|a, b| away(a).total_cmp(&away(b)));
+            squares.sort_by(|a, b| away(a).total_cmp(&away(b)));
             let mut answers: Vec<(Square, bool)> = Vec::with_capacity(squares.len());
             for some in squares.chunks(IN_A_PATCH) {
                 let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();

@@ -177,7 +177,7 @@ fn on_ring(trial: &mut Trial<'_>, here: &Vector2<f64>, ring: u32) -> Result<Vec<
             found.push((halve(trial, here, &away, ring)?, away));
         }
     }
-    found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(found)
 }
 

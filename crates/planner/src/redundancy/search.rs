@@ -165,7 +165,7 @@ impl Graph {
     pub fn tilts_by_preference(&self, task: &Task<'_>, contact: &Contact) -> Vec<f64> {
         let preferred = self.preferred.tilt(task.scene.distance(&contact.point));
         let mut tilts = self.tilts.clone();
-        tilts.sort_unstable_by(|a, b| (a - preferred).abs().total_cmp(&(b - preferred).abs()));
+        tilts.sort_by(|a, b| (a - preferred).abs().total_cmp(&(b - preferred).abs()));
         tilts
     }
 

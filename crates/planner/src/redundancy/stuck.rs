@@ -140,7 +140,7 @@ pub(crate) fn reasons(hindrances: impl IntoIterator<Item = Hindrance>) -> Vec<Re
             )),
         }
     }
-    found.sort_unstable_by(|(f, a), (g, b)| b.tilts.cmp(&a.tilts).then(f.cmp(g)));
+    found.sort_by(|(f, a), (g, b)| b.tilts.cmp(&a.tilts).then(f.cmp(g)));
     found.into_iter().map(|(_, reason)| reason).collect()
 }
 

@@ -203,7 +203,7 @@ fn causes(unwashed: Vec<(f64, Vec<Reason>)>, tried: f64) -> Vec<Cause> {
             }
         }
     }
-    found.sort_unstable_by(|(_, a), (_, b)| b.share.total_cmp(&a.share));
+    found.sort_by(|(_, a), (_, b)| b.share.total_cmp(&a.share));
     found.into_iter().map(|(_, cause)| cause).collect()
 }
 

@@ -243,7 +243,7 @@ fn extremes_are_reachable(task: &Task<'_>, tilts: &[f64]) -> bool {
 /// [`Cancelled`].
 pub(crate) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>, Cancelled> {
     let mut tilts = graph.tilts.clone();
-    tilts.sort_unstable_by(|a, b| a.abs().total_cmp(&b.abs()));
+    tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let inverse = &task.scene.inverse;
     if !inverse.knows_all_branches() {
         // A search for branches costs too much to be made at each.

@@ -153,7 +153,7 @@ impl<'a> Inverse<'a> {
             |(shoulder, elbow)| elbow == Elbow::Up && (shoulder == Shoulder::Front || arm.shoulder_sides_are_alike());
         let rank = |start: &Start| !start.sides.is_some_and(above);
         let far = |start: &Start| (start.q - near).norm();
-        found.sort_unstable_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
+        found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
         let mut starts = Vec::new();
         merge_starts(&mut starts, found);
         if starts.is_empty() {

@@ -256,7 +256,7 @@ impl Search<'_> {
             }
         };
         let mut near: Vec<_> = names.iter().enumerate().map(of).filter(|near| near.count > 0).collect();
-        near.sort_unstable_by_key(|near| std::cmp::Reverse(near.count));
+        near.sort_by_key(|near| std::cmp::Reverse(near.count));
         Ok(near)
     }
 

@@ -232,37 +232,38 @@ impl Scenario {
             soils: self.read_soils().map_err(refused)?,
             ..ReadFiles::default()
         };
-        if self.plate.is_empty() {
-            let layout = &mut read.layout;
-            let stated = (
-                layout.plate_mesh.take(),
-                layout.plate_points.take(),
-                layout.plate_unit.take(),
-            );
-            let plate = self.measure(stated, "layout.plate_mesh, layout.plate_points", &mut files);
-            let index = plate.map_err(refused)?.map(|(index, plate)| {
-                let shape = Shape::of(&plate);
-                (layout.plate_radius_m, layout.plate_knots) = (shape.radius_m, shape.knots);
-                layout.plate_thickness_m = shape.thickness_m.unwrap_or(layout.plate_thickness_m);
-                layout.plate_foot_m = shape.foot_m.or(layout.plate_foot_m);
-                index
-            });
-            files.of_section.push(index);
-        }
+        let layout = &mut read.layout;
+        let stated = (
+            layout.plate_mesh.take(),
+            layout.plate_points.take(),
+            layout.plate_unit.take(),
+        );
+        let plate = self.measure(stated, "layout.plate_mesh, layout.plate_points", &mut files);
+        let of_layout = plate.map_err(refused)?.map(|(index, plate)| {
+            let shape = Shape::of(&plate);
+            (layout.plate_radius_m, layout.plate_knots) = (shape.radius_m, shape.knots);
+            layout.plate_thickness_m = shape.thickness_m.unwrap_or(layout.plate_thickness_m);
+            layout.plate_foot_m = shape.foot_m.or(layout.plate_foot_m);
+            index
+        });
         for (k, row) in read.plate.iter_mut().enumerate() {
+            // A section without a shape of its own takes that of the layout.
+            let has_own = row.has_shape();
             let stated = (row.mesh.take(), row.points.take(), row.unit.take());
             let keys = format!("plate[{k}].mesh, plate[{k}].points");
-            let index = self
-                .measure(stated, &keys, &mut files)
-                .map_err(refused)?
-                .map(|(index, plate)| {
-                    let shape = Shape::of(&plate);
-                    (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
-                    row.thickness_m = row.thickness_m.or(shape.thickness_m);
-                    row.foot_m = row.foot_m.or(shape.foot_m);
-                    index
-                });
-            files.of_section.push(index);
+            let plate = self.measure(stated, &keys, &mut files).map_err(refused)?;
+            let index = plate.map(|(index, plate)| {
+                let shape = Shape::of(&plate);
+                (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
+                // What was measured counts, so that the body holds the mesh.
+                row.thickness_m = shape.thickness_m.or(row.thickness_m);
+                row.foot_m = shape.foot_m.or(row.foot_m);
+                index
+            });
+            files.of_section.push(if has_own { index } else { of_layout });
+        }
+        if self.plate.is_empty() {
+            files.of_section.push(of_layout);
         }
         if let Some(path) = read.layout.plate_file.take() {
             files.have_places = true;
@@ -279,10 +280,8 @@ impl Scenario {
                 })
             })?;
             for (row, kind) in rows {
-                files.of_section.push(match kind {
-                    Some(kind) => of_kinds[kind],
-                    None => of_kinds.first().copied().flatten().filter(|_| kinds.is_empty()),
-                });
+                let of_kind = kind.and_then(|kind| of_kinds[kind]);
+                files.of_section.push(if row.has_shape() { of_kind } else { of_layout });
                 read.plate.push(row);
             }
         }
@@ -299,6 +298,7 @@ impl Scenario {
         keys: &str,
         files: &mut ReadFiles,
     ) -> Result<Option<(usize, MeasuredPlate)>, Problem> {
+        let is_probed = mesh.is_none();
         let (of_mesh, of_points) = keys.split_once(", ").unwrap_or((keys, keys));
         let refused = |key: &str, path: &Path, detail: String| Problem::Conflict {
             keys: key.to_owned(),
@@ -344,6 +344,7 @@ impl Scenario {
         files.measured.push(MeasuredShape {
             file: name.to_string_lossy().into_owned(),
             unit: format!("{}{guessed}", plate.unit.name()),
+            is_probed,
             deviation_m: plate.deviation_m,
             out_of_round_m: plate.out_of_round_m,
             relief: plate.relief.clone(),

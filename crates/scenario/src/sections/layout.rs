@@ -318,11 +318,16 @@ impl PlateSection {
         self.faces == Some(Faces::Both)
     }
 
+    /// True where the section states a shape of its own.
+    pub(crate) fn has_shape(&self) -> bool {
+        let by_size = self.radius_m.is_some() || self.profile.is_some() || self.knots.is_some();
+        by_size || self.mesh.is_some() || self.points.is_some()
+    }
+
     /// The section of a layout in which every plate is one of these.
     pub(crate) fn of(&self, layout: &LayoutSection) -> LayoutSection {
         let mut own = layout.clone();
-        let files = self.mesh.is_some() || self.points.is_some();
-        if files || self.radius_m.is_some() || self.profile.is_some() || self.knots.is_some() {
+        if self.has_shape() {
             own.plate_radius_m = self.radius_m;
             own.plate_profile = self.profile;
             own.plate_knots.clone_from(&self.knots);

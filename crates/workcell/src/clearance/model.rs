@@ -255,7 +255,7 @@ impl ClearanceModel {
             self.describe(a, b, nearest(found))
         });
         let mut near: Vec<_> = near.filter(|pair| !pair.is_clear(required_m)).collect();
-        near.sort_unstable_by(|x, y| x.distance_m.total_cmp(&y.distance_m));
+        near.sort_by(|x, y| x.distance_m.total_cmp(&y.distance_m));
         near
     }
 

@@ -224,6 +224,6 @@ fn ascending<T>(
     let mut near: Vec<_> = bounded
         .filter(|(at_least, _)| *at_least < below || at_least.is_nan())
         .collect();
-    near.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+    near.sort_by(|x, y| x.0.total_cmp(&y.0));
     near.into_iter()
 }

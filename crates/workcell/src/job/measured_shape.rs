@@ -10,6 +10,8 @@ pub struct MeasuredShape {
     pub file: String,
     /// Unit of the file, and whether it was guessed, as "mm" or "mm (guessed)".
     pub unit: String,
+    /// True for points on the face, false for a mesh: between points nothing is measured.
+    pub is_probed: bool,
     /// Greatest deviation of the measured plate from the fitted one \[m\].
     pub deviation_m: f64,
     /// Greatest deviation of the face from being round \[m\].

@@ -154,7 +154,7 @@ impl<'a> Window<'a> {
     pub fn anchors_with(&self, joint: usize, values: impl Iterator<Item = f64>) -> Vec<JointVector> {
         let far = |value: &f64| (value - self.anchor[joint]).abs();
         let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-        values.sort_unstable_by(|a, b| far(a).total_cmp(&far(b)));
+        values.sort_by(|a, b| far(a).total_cmp(&far(b)));
         let anchored = |value| {
             let mut anchor = self.anchor;
             anchor[joint] = value;
