@@ -56,6 +56,9 @@ pub fn sweep_each(
         problem,
     };
     check_seed("the last of the seeds", *seeds.end()).map_err(seed_error)?;
+    // Its files are read once, not for every seed.
+    let read = scenario.plates_read()?;
+    let scenario = &*read;
     scenario.validate()?;
     scenario.check_work()?;
     let arm = match scenario.check() {

@@ -122,6 +122,8 @@ impl Resolver {
                 let mut scenario = self.study.bases[address.base].scenario(&what.1)?;
                 scenario.solids = self.solids.clone();
                 scenario.files = Files::held(self.study.files.clone());
+                let read = scenario.plates_read().map_err(|error| error.to_string())?;
+                scenario = read.into_owned();
                 *last() = Some((what, Arc::new(scenario.clone())));
                 scenario
             }
