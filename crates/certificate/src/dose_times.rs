@@ -51,7 +51,10 @@ pub fn dose_times(
     let seen = &*plan.seen_from_base();
     let job = &seen.job;
     let subject = Subject::new(job, arm, wash_paths::by_plate(seen));
-    let Some(foundation) = Foundation::of(&job.workcell.tool.sponge) else {
+    // Where no share is proved, the bound on which the sum rests may not hold.
+    let proved = certificate.contact.iter().filter(|contact| contact.dose.at_least > 0.0);
+    let plates: Vec<usize> = proved.map(|contact| contact.plate).collect();
+    let (false, Some(foundation)) = (plates.is_empty(), Foundation::of(&job.workcell.tool.sponge)) else {
         return Ok(Vec::new());
     };
     let pieces = read(&seen.knots)?;
@@ -61,8 +64,6 @@ pub fn dose_times(
     let cancel = CancelToken::new();
     let arm = Arm::new(arm, &job.workcell.tool, &cancel);
     let along = arm.along(&pieces);
-    // Where no share is proved, the bound on which the sum rests may not hold.
-    let proved = certificate.contact.iter().filter(|contact| contact.dose.at_least > 0.0);
     let of_plate = |index: usize| {
         let plate = subject.plates().get(index)?;
         let wanted = job.contact_of(plate).filter(|wanted| wanted.dose_pa_m > 0.0)?;
@@ -80,7 +81,6 @@ pub fn dose_times(
         let times_s = places.par_iter().map(|place| passes.dose_time_s(*place)).collect();
         Some(DoseTimes { plate: index, times_s })
     };
-    let plates: Vec<usize> = proved.map(|contact| contact.plate).collect();
     Ok(plates.into_par_iter().filter_map(of_plate).collect())
 }
 

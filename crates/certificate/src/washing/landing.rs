@@ -106,10 +106,9 @@ fn judge(
         let plate = subject.plates().get(span.plate)?;
         let sponge = &subject.job.workcell.tool.sponge;
         let far = if touch.is_free {
-            let contact = subject.job.contact_of(plate);
             FarFace {
                 beyond_m: sponge.compression_m,
-                error_m: contact.map_or(plate.deviation_m(), |contact| contact.height_error_m),
+                error_m: subject.job.height_error_of(plate),
             }
         } else {
             FarFace {

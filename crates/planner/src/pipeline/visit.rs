@@ -223,8 +223,7 @@ impl Pipeline<'_> {
     fn first_contact_height_m(&self, plate: usize, lift_m: f64, over: impl Fn(&f64) -> Pose) -> f64 {
         let sponge = &self.terms.workcell.tool.sponge;
         let (columns, plate) = (Columns::new(&foundation(sponge)), &self.plates[plate]);
-        let contact = self.terms.contact_of(plate);
-        let higher_m = contact.map_or(plate.deviation_m(), |contact| contact.height_error_m);
+        let higher_m = self.terms.height_error_of(plate);
         let deepest_m = |height: f64| {
             let pose = SpongePose::on(plate, &RigidTransform::from(&over(&height)));
             columns.load(&plate.surface, &pose, higher_m).deepest_m

@@ -27,23 +27,10 @@ impl Moments {
     }
 }
 
-/// Eigenvalues and eigenvectors of a symmetric matrix, by Jacobi rotations.
-fn principal(mut m: Matrix3<f64>) -> [(f64, Vector3<f64>); 3] {
-    let mut turned = Matrix3::identity();
-    for (i, j) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(60) {
-        if m[(i, j)] == 0.0 {
-            continue;
-        }
-        let theta = (m[(j, j)] - m[(i, i)]) / (2.0 * m[(i, j)]);
-        let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-        let c = 1.0 / (t * t + 1.0).sqrt();
-        let mut rotation = Matrix3::identity();
-        (rotation[(i, i)], rotation[(j, j)]) = (c, c);
-        (rotation[(i, j)], rotation[(j, i)]) = (t * c, -t * c);
-        m = rotation.transpose() * m * rotation;
-        turned *= rotation;
-    }
-    let mut all = [0, 1, 2].map(|k| (m[(k, k)], Vector3::from(turned.column(k))));
+/// Eigenvalues and eigenvectors of a symmetric matrix, from the least to the greatest.
+fn principal(m: Matrix3<f64>) -> [(f64, Vector3<f64>); 3] {
+    let eigen = m.symmetric_eigen();
+    let mut all = [0, 1, 2].map(|k| (eigen.eigenvalues[k], Vector3::from(eigen.eigenvectors.column(k))));
     all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     all
 }

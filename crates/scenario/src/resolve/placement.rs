@@ -336,7 +336,7 @@ impl Scenario {
 
 /// Names of the keys of a plate's shape: those of `[layout]`, or those of a `[[plate]]` by its index.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ShapeKeys(Option<usize>);
+pub(crate) struct ShapeKeys(pub Option<usize>);
 
 impl ShapeKeys {
     /// A key of `[layout]`, as it is called here.

@@ -6,12 +6,13 @@ use crate::error::{Problem, ScenarioError, conflict};
 use crate::keys::value::json_of_table;
 use crate::load::{MAX_BYTES, unread};
 use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
+use crate::resolve::placement::ShapeKeys;
 use crate::scenario::Scenario;
 use crate::sections::layout::{LayoutSection, PlateSection, ProfileName};
 use crate::sections::motion::Program;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::urdf::MeshSource;
-use platewash_workcell::job::{MOST_PASSES, MeasuredShape, PatternName, Soil};
+use platewash_workcell::job::{MeasuredShape, PatternName, Soil};
 use platewash_workcell::layout::MAX_PLATES;
 use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
 use platewash_workcell::plate::PlateTerms;
@@ -31,6 +32,9 @@ const MOST: f64 = 1e5;
 
 /// Greatest coordinate of a plate \[m\].
 const FARTHEST_M: f64 = 10.0;
+
+/// Keys of `[layout]` that state a measured shape.
+const OF_LAYOUT: [&str; 3] = ["layout.plate_mesh", "layout.plate_points", "layout.plate_unit"];
 
 /// Columns of a table of plates.
 const NAME: [&str; 1] = ["name"];
@@ -145,17 +149,16 @@ impl Scenario {
         let rows = || self.plate.iter().enumerate();
         for (index, row) in rows() {
             let at = |name: &str| format!("plate[{index}].{name}");
-            let unread = layout.plate_file.is_some() && !self.plate_files.are_read();
-            match (&row.kind, unread) {
-                (Some(_), false) if !self.plate_files.are_read() => conflict(
+            match (&row.kind, &layout.plate_file) {
+                (Some(_), None) => conflict(
                     at("kind"),
                     "names a kind for the rows of layout.plate_file, and there is none",
                 )?,
-                (None, true) => conflict(
+                (None, Some(_)) => conflict(
                     at("kind"),
                     "is missing: with layout.plate_file a [[plate]] section states a kind of plates, by its name",
                 )?,
-                (Some(_), true) if row.at_m.is_some() || row.count.is_some() => conflict(
+                (Some(_), Some(_)) if row.at_m.is_some() || row.count.is_some() => conflict(
                     at("kind"),
                     "a kind has no place and no count: the rows of layout.plate_file have theirs",
                 )?,
@@ -238,7 +241,7 @@ impl Scenario {
             layout.plate_points.take(),
             layout.plate_unit.take(),
         );
-        let plate = self.measure(stated, "layout.plate_mesh, layout.plate_points", &mut files);
+        let plate = self.measure(stated, OF_LAYOUT, &mut files);
         let of_layout = plate.map_err(refused)?.map(|(index, plate)| {
             let shape = Shape::of(&plate);
             (layout.plate_radius_m, layout.plate_knots) = (shape.radius_m, shape.knots);
@@ -250,8 +253,10 @@ impl Scenario {
             // A section without a shape of its own takes that of the layout.
             let has_own = row.has_shape();
             let stated = (row.mesh.take(), row.points.take(), row.unit.take());
-            let keys = format!("plate[{k}].mesh, plate[{k}].points");
-            let plate = self.measure(stated, &keys, &mut files).map_err(refused)?;
+            let keys = OF_LAYOUT.map(|key| ShapeKeys(Some(k)).called(key));
+            let plate = self
+                .measure(stated, keys.each_ref().map(String::as_str), &mut files)
+                .map_err(refused)?;
             let index = plate.map(|(index, plate)| {
                 let shape = Shape::of(&plate);
                 (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
@@ -295,23 +300,17 @@ impl Scenario {
     fn measure(
         &self,
         (mesh, points, unit): (Option<PathBuf>, Option<PathBuf>, Option<Unit>),
-        keys: &str,
+        [of_mesh, of_points, of_unit]: [&str; 3],
         files: &mut ReadFiles,
     ) -> Result<Option<(usize, MeasuredPlate)>, Problem> {
         let is_probed = mesh.is_none();
-        let (of_mesh, of_points) = keys.split_once(", ").unwrap_or((keys, keys));
         let refused = |key: &str, path: &Path, detail: String| Problem::Conflict {
             keys: key.to_owned(),
             detail: format!("{}: {detail}", path.display()),
         };
         let misfit = |key: &str, path: &Path, error: MeasuredError| {
-            let unit = key
-                .replace("plate_", "")
-                .replace("mesh", "unit")
-                .replace("points", "unit");
-            let unit = unit.replace("layout.unit", "layout.plate_unit");
             let hint = match error {
-                MeasuredError::Unit { .. } => format!(" ({unit})"),
+                MeasuredError::Unit { .. } => format!(" ({of_unit})"),
                 _ => String::new(),
             };
             refused(key, path, format!("{error}{hint}"))
@@ -325,7 +324,7 @@ impl Scenario {
                 // Collada states its unit, and comes in metres.
                 let is_collada = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("dae"));
                 let unit = unit.or(is_collada.then_some(Unit::Metre));
-                let plate = measured::from_mesh(&triangles, unit);
+                let plate = self.solids.plate(&triangles, unit);
                 let plate = plate.map_err(|error| misfit(of_mesh, &path, error))?;
                 (path, plate)
             }
@@ -461,39 +460,21 @@ impl Scenario {
         let file = file.map_err(|error| refused(error.to_string()))?;
         for (index, soil) in file.soil.iter().enumerate() {
             let name = &soil.name;
-            let bad =
-                |what: &str, expected: String| Err(refused(format!("soil \"{name}\": {what} must be {expected}")));
-            let positive = |v: f64, most: f64| v > 0.0 && v <= most;
+            let bad = |what: &str, expected: &str| Err(refused(format!("soil \"{name}\": {what} must be {expected}")));
             if name.trim().is_empty() || soil.source.trim().is_empty() {
                 return bad(
                     "name and source",
-                    "texts that are not empty; the source may be \"assumed\"".to_owned(),
+                    "texts that are not empty; the source may be \"assumed\"",
                 );
             }
             if file.soil[..index].iter().any(|other| other.name == *name) {
-                return bad("name", "another one than those before".to_owned());
+                return bad("name", "another one than those before");
             }
-            if soil.dose_pa_m.is_some_and(|dose| !(0.0..=1e9).contains(&dose)) {
-                return bad("dose_pa_m", "from 0 to 1e9 Pa·m".to_owned());
-            }
-            if soil.passes.is_some_and(|passes| !(1..=MOST_PASSES).contains(&passes)) {
-                return bad("passes", format!("from 1 to {MOST_PASSES}"));
-            }
-            if soil
-                .speed_m_s
-                .is_some_and(|speed| !positive(speed, 10.0) || speed < 1e-6)
-            {
-                return bad("speed_m_s", "from 0.000001 to 10 m/s".to_owned());
-            }
-            if soil
-                .force_n
-                .is_some_and(|[least, most]| !(least >= 0.0 && least < most && most <= 1e6))
-            {
-                return bad(
-                    "force_n",
-                    "[least, greatest] with least < greatest, from 0 to 1e6 N".to_owned(),
-                );
-            }
+            soil.validate().map_err(|error| {
+                let words = error.to_string();
+                let words = words.strip_prefix("job: soils.").unwrap_or(&words);
+                refused(format!("soil \"{name}\": {words}"))
+            })?;
         }
         Ok(file.soil)
     }

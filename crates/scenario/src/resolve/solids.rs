@@ -1,6 +1,7 @@
-//! Meshes as convex bodies, cut once: a scenario is resolved again and again, for every seed of a sweep and every move on a page.
+//! Meshes as convex bodies and as plates, cut and fitted once: a scenario is resolved again and again, for every seed of a sweep and every move on a page.
 
 use crate::error::BodyFault;
+use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
 use nalgebra::Point3;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::{MeshSource, MeshSplitter};
@@ -14,11 +15,47 @@ const KEPT: usize = 64;
 /// The corners of the convex parts of a mesh \[m\].
 pub(crate) type Hulls = Arc<Vec<Vec<Point3<f64>>>>;
 
-/// Cache of the convex parts of meshes that were cut before, by their triangles. The files are read each time, so that a changed
+/// Cache of the convex parts of meshes that were cut before, and of the plates that were fitted, by their triangles. The files are read each time, so that a changed
 /// one takes effect at once. Clones share the cache; it decides nothing, and all caches are equal.
 #[derive(Debug, Clone, Default)]
 pub struct Solids {
-    kept: Arc<Mutex<Vec<(String, Hulls)>>>,
+    hulls: Cache<Hulls>,
+    plates: Cache<MeasuredPlate>,
+}
+
+/// Results that are kept by a key; the longest unused one is forgotten first.
+#[derive(Debug, Clone)]
+struct Cache<T> {
+    kept: Arc<Mutex<Vec<(String, T)>>>,
+}
+
+impl<T> Default for Cache<T> {
+    fn default() -> Self {
+        Self { kept: Arc::default() }
+    }
+}
+
+impl<T: Clone> Cache<T> {
+    /// Returns the result of a key, which then becomes the last to be forgotten.
+    fn found(&self, id: &str) -> Option<T> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = kept.iter().position(|(of, _)| of == id)?;
+        let found = kept.remove(at);
+        let result = found.1.clone();
+        kept.push(found);
+        Some(result)
+    }
+
+    fn keep(&self, id: String, result: T) {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        // Another thread may have computed it meanwhile.
+        if kept.iter().all(|(of, _)| *of != id) {
+            kept.push((id, result));
+        }
+        if kept.len() > KEPT {
+            kept.remove(0);
+        }
+    }
 }
 
 impl PartialEq for Solids {
@@ -45,13 +82,33 @@ impl Solids {
 
     /// The convex parts of a mesh.
     fn cut(&self, triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<Hulls, SolidError> {
-        let id = id(triangles, parts);
-        if let Some(hulls) = self.found(&id) {
+        let kind = match parts {
+            SolidParts::Hull => "hull",
+            SolidParts::Decomposed => "decomposed",
+            SolidParts::Few => "few",
+        };
+        let id = id(triangles, kind);
+        if let Some(hulls) = self.hulls.found(&id) {
             return Ok(hulls);
         }
         let hulls = Arc::new(solid_parts(triangles, parts)?);
-        self.keep(id, hulls.clone());
+        self.hulls.keep(id, hulls.clone());
         Ok(hulls)
+    }
+
+    /// The plate of a mesh, in the unit stated.
+    pub(crate) fn plate(
+        &self,
+        triangles: &[[Point3<f64>; 3]],
+        unit: Option<Unit>,
+    ) -> Result<MeasuredPlate, MeasuredError> {
+        let id = id(triangles, unit.map_or("", Unit::name));
+        if let Some(plate) = self.plates.found(&id) {
+            return Ok(plate);
+        }
+        let plate = measured::from_mesh(triangles, unit)?;
+        self.plates.keep(id, plate.clone());
+        Ok(plate)
     }
 
     /// Upper bound on how far the convex parts of a mesh reach beyond it \[m\]; `None` where there are none.
@@ -59,27 +116,6 @@ impl Solids {
         let triangles = source.solid(&file.to_string_lossy(), scale).ok()?;
         let hulls = self.parts(source, file, scale, parts).ok()?;
         Some(excess_m(&triangles, &hulls))
-    }
-
-    /// Returns the cached parts of a mesh, which then becomes the last to be forgotten.
-    fn found(&self, id: &str) -> Option<Hulls> {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let at = kept.iter().position(|(of, _)| of == id)?;
-        let found = kept.remove(at);
-        let hulls = found.1.clone();
-        kept.push(found);
-        Some(hulls)
-    }
-
-    fn keep(&self, id: String, hulls: Hulls) {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        // Another thread may have cut it meanwhile.
-        if kept.iter().all(|(of, _)| *of != id) {
-            kept.push((id, hulls));
-        }
-        if kept.len() > KEPT {
-            kept.remove(0);
-        }
     }
 }
 
@@ -90,16 +126,11 @@ impl MeshSplitter for Solids {
     }
 }
 
-/// Key of the parts of a mesh: its triangles and the kind of parts.
-fn id(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> String {
+/// Key of what is made of a mesh: its triangles, and a word for what it is.
+fn id(triangles: &[[Point3<f64>; 3]], kind: &str) -> String {
     let numbers = triangles.iter().flatten().flat_map(|corner| corner.iter().copied());
     let bytes = numbers.flat_map(f64::to_le_bytes);
-    let kind: u8 = match parts {
-        SolidParts::Hull => 0,
-        SolidParts::Decomposed => 1,
-        SolidParts::Few => 2,
-    };
-    sha256_hex(&bytes.chain([kind]).collect::<Vec<u8>>())
+    sha256_hex(&bytes.chain(kind.bytes()).collect::<Vec<u8>>())
 }
 
 #[cfg(test)]
@@ -131,11 +162,11 @@ mod tests {
     fn the_cache_is_bounded_and_drops_the_longest_unused_first() {
         let (solids, hulls) = (Solids::default(), Hulls::default());
         for k in 0..KEPT {
-            solids.keep(k.to_string(), hulls.clone());
+            solids.hulls.keep(k.to_string(), hulls.clone());
         }
-        assert!(solids.found("0").is_some());
-        solids.keep("more".to_owned(), hulls);
-        assert_eq!(solids.kept.lock().unwrap().len(), KEPT);
-        assert!(solids.found("0").is_some() && solids.found("1").is_none());
+        assert!(solids.hulls.found("0").is_some());
+        solids.hulls.keep("more".to_owned(), hulls);
+        assert_eq!(solids.hulls.kept.lock().unwrap().len(), KEPT);
+        assert!(solids.hulls.found("0").is_some() && solids.hulls.found("1").is_none());
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::job::error::JobError;
 use crate::job::requirements::ContactRequirements;
-use crate::job::terms::{JobTerms, positive, within};
+use crate::job::terms::{JobTerms, within};
 use crate::plate::Plate;
 use crate::words::printable;
 use platewash_kinematics::words::rounded;
@@ -37,6 +37,30 @@ pub struct Soil {
 }
 
 impl Soil {
+    /// Checks that what the soil asks for makes sense.
+    ///
+    /// # Errors
+    /// [`JobError::Number`]
+    pub fn validate(&self) -> Result<(), JobError> {
+        if let Some(dose) = self.dose_pa_m {
+            within("soils.dose_pa_m", dose, [0.0, 1e9])?;
+        }
+        if let Some(passes) = self.passes {
+            within("soils.passes", f64::from(passes), [1.0, f64::from(MOST_PASSES)])?;
+        }
+        if let Some(speed) = self.speed_m_s {
+            within("soils.speed_m_s", speed, [1e-6, 10.0])?;
+        }
+        match self.force_n {
+            Some([least, most]) if !(least >= 0.0 && least < most && most <= 1e6) => Err(JobError::Number {
+                name: "soils.force_n",
+                expected: "[least, greatest] with least < greatest, from 0 to 1e6 N".to_owned(),
+                found: least,
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Describes the soil with all that it asks for: `soil tea (assumed): dose 80 Pa·m`.
     #[must_use]
     pub fn words(&self) -> String {
@@ -106,6 +130,13 @@ impl JobTerms {
         Some(self.requirements.contact?.of_plate(plate, &self.soils))
     }
 
+    /// Height by which a plate may lie higher or lower than stated, for its contact \[m\]: its deviation alone where contact is not required.
+    #[must_use]
+    pub fn height_error_of(&self, plate: &Plate) -> f64 {
+        let contact = self.contact_of(plate);
+        contact.map_or(plate.deviation_m(), |contact| contact.height_error_m)
+    }
+
     /// Greatest speed of the tip while it washes a plate \[m/s\]: that of the job, or that of the plate's soil if it is less.
     #[must_use]
     pub fn wash_speed_of(&self, plate: &Plate) -> f64 {
@@ -121,21 +152,7 @@ impl JobTerms {
 
     /// Checks the soils, and that every plate's terms name one that there is.
     pub(crate) fn check_soils(&self) -> Result<(), JobError> {
-        for soil in &self.soils {
-            if let Some(dose) = soil.dose_pa_m {
-                within("soils.dose_pa_m", dose, [0.0, 1e9])?;
-            }
-            if let Some(passes) = soil.passes {
-                within("soils.passes", f64::from(passes), [1.0, f64::from(MOST_PASSES)])?;
-            }
-            if let Some(speed) = soil.speed_m_s {
-                positive("soils.speed_m_s", speed)?;
-            }
-            if let Some([least, most]) = soil.force_n {
-                within("soils.force_n", least, [0.0, most])?;
-                within("soils.force_n", most, [least, 1e6])?;
-            }
-        }
+        self.soils.iter().try_for_each(Soil::validate)?;
         let names_one = |index: Option<usize>, of: usize| index.is_none_or(|index| index < of);
         let lost = |plate: &Plate| {
             !names_one(plate.terms.soil, self.soils.len()) || !names_one(plate.terms.measured, self.measured.len())

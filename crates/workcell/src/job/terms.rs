@@ -276,7 +276,7 @@ pub(crate) fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) ->
     Err(JobError::Number { name, expected, found })
 }
 
-pub(crate) fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
+fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
     if found > 0.0 && found.is_finite() {
         return Ok(());
     }
