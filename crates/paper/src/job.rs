@@ -131,6 +131,7 @@ impl PaperJob {
             seed: self.seed,
             simulation: self.simulation.clone(),
             dry_run: None,
+            recovery: None,
             soils: Vec::new(),
             measured: Vec::new(),
         })

@@ -16,6 +16,7 @@
 //! | transits between plates | `transit`, `joint_path` |
 //! | timing as fast as the limits allow | `timing` |
 //! | the result | `planned_job` |
+//! | going on after a stop | `recovery` |
 //! | a job that cannot be done, and where its plates could lie | `infeasible`, `outlook`, `washable_map`, `suggest` |
 //! | errors; the caller that waits | `error`, `watch` |
 
@@ -27,6 +28,7 @@ mod outlook;
 mod pattern;
 mod pipeline;
 mod planned_job;
+mod recovery;
 pub mod redundancy;
 pub mod scene;
 pub mod suggest;
@@ -45,6 +47,7 @@ pub use crate::pipeline::{
     plan_unexplained, plan_with, plate_outlooks, unwashable_plates, washable_map,
 };
 pub use crate::planned_job::{Pace, PlannedJob, TourSummary, TransitSummary, VisitSummary};
+pub use crate::recovery::{Recovered, RecoveryError, Stop, recover};
 pub use crate::redundancy::Chance;
 pub use crate::redundancy::places::SEARCHED_M;
 pub use crate::washable_map::{MapArea, MapPatch};

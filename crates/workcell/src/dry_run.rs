@@ -29,6 +29,12 @@ const TOLD: usize = 12;
 /// Number of digits of a hash.
 const DIGITS: usize = 64;
 
+/// True for lower-case hexadecimal digits, as many as SHA-256 has.
+pub(crate) fn is_hash(text: &str) -> bool {
+    let digit = |c: u8| matches!(c, b'0'..=b'9' | b'a'..=b'f');
+    text.len() == DIGITS && text.bytes().all(digit)
+}
+
 /// Statement that a job is the dry run of a plan. Its plates are those of that plan, raised, with nothing there; the real ones stand below
 /// them as obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,8 +71,7 @@ impl DryRun {
     /// True if the parent is a valid hash: lower-case hexadecimal digits, as many as SHA-256 has.
     #[must_use]
     pub fn names_a_hash(&self) -> bool {
-        let digit = |c: u8| matches!(c, b'0'..=b'9' | b'a'..=b'f');
-        self.parent.len() == DIGITS && self.parent.bytes().all(digit)
+        is_hash(&self.parent)
     }
 
     /// True if the height is above 0 and not too large.

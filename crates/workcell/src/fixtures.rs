@@ -104,6 +104,7 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
             payload_kg: None,
         },
         dry_run: None,
+        recovery: None,
         soils: Vec::new(),
         measured: Vec::new(),
     }

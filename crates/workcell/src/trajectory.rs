@@ -278,6 +278,12 @@ impl SegmentKind {
             Self::Return => "return",
         }
     }
+
+    /// True if the tip is on a plate, or on the normal over it.
+    #[must_use]
+    pub fn is_at_plate(self) -> bool {
+        matches!(self, Self::Approach | Self::Wash | Self::Retreat)
+    }
 }
 
 /// Segment of a plan in time.

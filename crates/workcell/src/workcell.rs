@@ -75,6 +75,9 @@ pub struct ReducedClearance {
     pub pair: [String; 2],
     /// Part of the required clearance that the pair need not keep \[m\]; less than all of it.
     pub by_m: f64,
+    /// True where the pair is this near where the arm was stopped, at the start of a recovery. Any bodies may be.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub at_stop: bool,
 }
 
 /// True if a pair of names is that of the two bodies, in either order.

@@ -13,7 +13,7 @@ use crate::clearance::search::{FINE_M, Goal, PairDistance, Search};
 use crate::motion::timeline::Timeline;
 use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
 use crate::washing::reach;
 use platewash_kinematics::RobotModel;
@@ -366,7 +366,7 @@ fn tasks(
 
 /// True if the sponge may touch `plate` during a segment of this kind at the plate `on`.
 pub(crate) fn may_touch(subject: &Subject<'_>, kind: SegmentKind, on: usize, plate: usize) -> bool {
-    is_at_plate(kind) && (on == plate || reach::is_within_reach(subject, on, plate))
+    kind.is_at_plate() && (on == plate || reach::is_within_reach(subject, on, plate))
 }
 
 /// Returns the piece ranges of some spans, with neighbours joined.

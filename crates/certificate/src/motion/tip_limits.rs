@@ -7,7 +7,7 @@ use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Moment, Stretch, TipPiece};
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
 use crate::washing::contact::tighter;
 use crate::washing::face::{Face, Pass, sine_of_tilt};
@@ -97,7 +97,7 @@ impl Tips {
             tips.washing.push((limit, rates));
         }
         let sine = sin(limits.tilt_rad + TILT_ROUNDING_RAD);
-        for (i, span) in schedule.spans.iter().enumerate().filter(|(_, s)| is_at_plate(s.kind)) {
+        for (i, span) in schedule.spans.iter().enumerate().filter(|(_, s)| s.kind.is_at_plate()) {
             let Some(plate) = subject.plates().get(span.plate) else {
                 continue;
             };
@@ -162,7 +162,7 @@ impl Tips {
     /// Lower bound on the cosine of the angle from the plate's axis over all spans at a plate; 0 without any.
     pub fn least_upright_cosine_at(&self, schedule: &Schedule, plate: usize) -> f64 {
         let spans = schedule.spans.iter().enumerate();
-        let there = spans.filter(|(_, span)| span.plate == plate && is_at_plate(span.kind));
+        let there = spans.filter(|(_, span)| span.plate == plate && span.kind.is_at_plate());
         let cosines = there.map(|(i, _)| self.least_upright_cosine_of(i));
         cosines.min_by(f64::total_cmp).unwrap_or(0.0)
     }

@@ -5,7 +5,7 @@
 use crate::motion::piece::Piece;
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
 
 /// Index of joint 5.
@@ -67,9 +67,9 @@ fn visits(pieces: &[Piece], schedule: &Schedule) -> Vec<Visit> {
     let mut visits: Vec<Visit> = Vec::new();
     let mut before: Option<&Span> = None;
     for span in &schedule.spans {
-        let goes_on = before.is_some_and(|before| is_at_plate(before.kind) && before.plate == span.plate);
+        let goes_on = before.is_some_and(|before| before.kind.is_at_plate() && before.plate == span.plate);
         before = Some(span);
-        if !is_at_plate(span.kind) {
+        if !span.kind.is_at_plate() {
             continue;
         }
         if !goes_on {

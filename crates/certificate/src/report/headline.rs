@@ -8,7 +8,7 @@ use crate::report::check::{Check, Measure, Sense, Status, Unit};
 use crate::report::requirement::Requirement;
 use crate::report::words::{number, rounded_bound};
 use platewash_kinematics::words::distinct_decimals;
-use platewash_workcell::job::{ContactRequirements, Requirements};
+use platewash_workcell::job::{ContactRequirements, Recovery, Requirements};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::{count_with_noun, pair_text};
 
@@ -36,8 +36,13 @@ pub fn paper_headline(plan: &Plan) -> String {
 
 /// Returns the first line: verdict, share of each plate, clearance, waived requirements and laxer ones.
 pub(crate) fn headline(certificate: &Certificate) -> String {
-    let plates = count_with_noun(certificate.rests_on.plates.len(), "plate");
-    let subject = format!("{plates} in {}", seconds(certificate.duration_s));
+    let basis = &certificate.rests_on;
+    let left_out = basis.recovery.as_ref().map_or(0, |recovery| recovery.left_out.len());
+    let duration = seconds(certificate.duration_s);
+    let subject = match basis.plates.len() - left_out.min(basis.plates.len()) {
+        0 => format!("home in {duration}"),
+        plates => format!("{} in {duration}", count_with_noun(plates, "plate")),
+    };
     let judged = match certificate.verdict {
         Verdict::Pass => format!(
             "PROVED{}: {subject}{}",
@@ -55,6 +60,10 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
         laxer_text(certificate),
         certificate.rests_on.without_floor()
     );
+    let judged = match &basis.recovery {
+        Some(recovery) => format!("{}; {judged}", recovery.words()),
+        None => judged,
+    };
     match &certificate.rests_on.dry_run {
         // Before everything else: nobody shall take it for a washing.
         Some(dry_run) => {
@@ -92,7 +101,12 @@ fn achieved_text(certificate: &Certificate) -> String {
         };
         Some(format!(", between {} {}", pair_text(&line.pair), at_least(&measure)?))
     });
-    let contact = if wanted.contact.is_some() || in_air {
+    let is_motion_home = certificate
+        .rests_on
+        .recovery
+        .as_ref()
+        .is_some_and(Recovery::is_motion_home);
+    let contact = if wanted.contact.is_some() || in_air || is_motion_home {
         ""
     } else {
         ", contact not required"

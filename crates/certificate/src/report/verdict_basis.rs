@@ -8,7 +8,7 @@ use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::trig::atan2;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, Requirements, Soil};
+use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, Recovery, Requirements, Soil};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name, plate_number, printable, quoted};
@@ -75,6 +75,9 @@ pub struct VerdictBasis {
     /// Parent plan of a dry run, as stated by the job; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
+    /// Stopped plan, as stated by the job; not judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recovery: Option<Recovery>,
     /// Assumptions in words.
     pub assumptions: Vec<String>,
 }
@@ -100,6 +103,7 @@ impl VerdictBasis {
                 .chain(hulls(arm))
                 .collect(),
             dry_run: job.dry_run.clone(),
+            recovery: job.recovery.clone(),
         }
     }
 }
@@ -188,6 +192,8 @@ impl VerdictBasis {
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let dry_run = self.dry_run.iter().map(|dry_run| ("dry run", dry_run_text(dry_run)));
         let mut lines: Vec<_> = dry_run.collect();
+        let recovery = self.recovery.iter();
+        lines.extend(recovery.map(|recovery| ("recovery", recovery_text(recovery))));
         lines.extend([
             ("arm", arm(&self.workcell)),
             ("tool", tool(&self.workcell.tool)),
@@ -244,6 +250,10 @@ fn dry_run_text(dry_run: &DryRun) -> String {
         printable(&dry_run.parent),
         mm(dry_run.height_m)
     )
+}
+
+fn recovery_text(recovery: &Recovery) -> String {
+    format!("{}; of the plan {}", recovery.words(), printable(&recovery.parent))
 }
 
 fn arm(world: &Workcell) -> String {

@@ -109,14 +109,20 @@ fn washed_once(plan: &Plan) -> Vec<Discrepancy> {
             Some(times) => *times += 1,
             None => wrong.push(Discrepancy::new(format!("order[{i}]"), plate, "the index of a plate")),
         }
-        if plan.job.requirements.as_listed && plate != i {
-            let asked = format!("{i}, as plates are washed as they are listed");
+        let listed = plan.job.plates_to_wash().nth(i);
+        if let Some(listed) = listed.filter(|listed| plan.job.requirements.as_listed && plate != *listed) {
+            let asked = format!("{listed}, as plates are washed as they are listed");
             wrong.push(Discrepancy::new(format!("order[{i}]"), plate, asked));
         }
     }
-    let times = washed.iter().enumerate().filter(|(_, times)| **times != 1);
+    let asked = |plate| usize::from(plan.job.washes(plate));
+    let times = washed
+        .iter()
+        .enumerate()
+        .filter(|(plate, times)| **times != asked(*plate));
     wrong.extend(times.map(|(plate, times)| {
-        Discrepancy::new(format!("order: times that {} is washed", plate_name(plate)), times, 1)
+        let what = format!("order: times that {} is washed", plate_name(plate));
+        Discrepancy::new(what, times, asked(plate))
     }));
     wrong
 }

@@ -11,6 +11,7 @@ use crate::motion::piece::Piece;
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
 use platewash_kinematics::JointVector;
+use platewash_workcell::job::RetreatLine;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::{count_with_noun, plate_name};
@@ -105,7 +106,7 @@ impl Schedule {
     /// Returns the approach and retreat spans at a plate.
     pub fn around(&self, plate: usize) -> impl Iterator<Item = &Span> {
         let is_around =
-            move |span: &&Span| span.plate == plate && is_at_plate(span.kind) && span.kind != SegmentKind::Wash;
+            move |span: &&Span| span.plate == plate && span.kind.is_at_plate() && span.kind != SegmentKind::Wash;
         self.spans.iter().filter(is_around)
     }
 
@@ -116,7 +117,7 @@ impl Schedule {
             let ends = there.first().zip(there.last());
             ends.is_some_and(|(first, last)| first.start_s <= time_s && time_s <= last.start_s + last.length_s)
         };
-        let of = |span: &Span| span.plate == plate && is_at_plate(span.kind);
+        let of = |span: &Span| span.plate == plate && span.kind.is_at_plate();
         let indexed = || self.spans.iter().enumerate().filter(|(_, span)| of(span));
         let wash = indexed().find(|(_, span)| span.kind == SegmentKind::Wash);
         let found = wash
@@ -138,14 +139,12 @@ impl Schedule {
     }
 }
 
-/// True if the tip is on a plate, or on the normal over it, during a segment of this kind.
-pub(crate) fn is_at_plate(kind: SegmentKind) -> bool {
-    matches!(kind, SegmentKind::Approach | SegmentKind::Wash | SegmentKind::Retreat)
-}
-
 /// Compares the sequence of kinds and plates with the one that the order implies.
 fn kinds(plan: &Plan) -> Vec<Discrepancy> {
-    let expected = expected(&plan.order);
+    let expected = match plan.job.recovery.as_ref().filter(|recovery| recovery.is_motion_home()) {
+        Some(recovery) => expected_home(recovery.retreat()),
+        None => expected(&plan.order),
+    };
     let mut wrong = Vec::new();
     if plan.segments.len() != expected.len() {
         let asked = format!("{} for {}", expected.len(), count_with_noun(plan.order.len(), "plate"));
@@ -180,6 +179,13 @@ fn expected(order: &[usize]) -> Vec<(SegmentKind, usize)> {
         all.push((SegmentKind::Return, last));
     }
     all
+}
+
+/// Returns kinds and plates of a motion from a stop home.
+fn expected_home(retreat: Option<RetreatLine>) -> Vec<(SegmentKind, usize)> {
+    let plate = retreat.map_or(0, |line| line.plate);
+    let up = retreat.map(|_| (SegmentKind::Retreat, plate));
+    up.into_iter().chain([(SegmentKind::Return, plate)]).collect()
 }
 
 /// Greatest distance from home that counts as home \[rad\], and greatest speed that counts as rest \[rad/s\].

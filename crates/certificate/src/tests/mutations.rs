@@ -232,10 +232,11 @@ fn a_pair_with_a_reduced_clearance_is_proved_on_its_own() {
         plan.job.requirements.clearance_m = 0.0212;
         let pair = ["handle", "link_4"].map(str::to_owned);
         let by_m = 0.0212 - required_m;
-        plan.job
-            .workcell
-            .reduced_clearances
-            .push(workcell::ReducedClearance { pair, by_m });
+        plan.job.workcell.reduced_clearances.push(workcell::ReducedClearance {
+            pair,
+            by_m,
+            at_stop: false,
+        });
         judged(plan)
     };
     let certificate = reduced(0.015);

@@ -22,6 +22,7 @@ fn told(name: &str, change: impl Fn(&mut VerdictBasis)) -> String {
         waived_pairs: Vec::new(),
         soils: Vec::new(),
         dry_run: None,
+        recovery: None,
         assumptions: vec!["nothing".to_owned()],
     };
     rests.workcell.obstacles = vec![Obstacle::floor()];

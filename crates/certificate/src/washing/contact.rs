@@ -219,7 +219,10 @@ pub(crate) fn checks(
         Requirement::Strain,
         Requirement::ContactForce,
     ];
-    let all_washed = (0..subject.plates().len()).all(|plate| all.iter().any(|c| c.plate == plate));
+    let all_washed = subject
+        .job
+        .plates_to_wash()
+        .all(|plate| all.iter().any(|c| c.plate == plate));
     if !all_washed {
         return asked.map(Check::not_judged).into();
     }

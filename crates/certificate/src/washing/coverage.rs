@@ -259,7 +259,10 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     let Some(worst) = worst else {
         return Check::not_judged(Requirement::Swept);
     };
-    let all_washed = (0..subject.plates().len()).all(|i| coverage.iter().any(|c| c.plate == i));
+    let all_washed = subject
+        .job
+        .plates_to_wash()
+        .all(|i| coverage.iter().any(|c| c.plate == i));
     let measure = Measure {
         bound: Some(if all_washed { worst.at_least } else { 0.0 }),
         seen: worst.at_most,

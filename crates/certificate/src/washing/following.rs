@@ -15,11 +15,11 @@ use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits;
 use crate::report::check::{Check, Unit};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, is_at_plate};
+use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
 use crate::washing::face::Face;
 use nalgebra::Vector3;
-use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
+use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M, Recovery};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::{BLEND_RAD, WashCurve, WashPath};
@@ -49,12 +49,16 @@ pub(crate) fn checks(
     let limits = [PATH_TOLERANCE_M, LINE_TOLERANCE_M];
     let mut trackers = limits.map(|limit| BoundTracker::new(limit, RESOLUTION * limit));
     let mut no_curve = [false; 2];
-    for span in schedule.spans.iter().filter(|span| is_at_plate(span.kind)) {
+    for span in schedule.spans.iter().filter(|span| span.kind.is_at_plate()) {
         let which = usize::from(span.kind != SegmentKind::Wash);
-        let (plate, path) = (subject.plates().get(span.plate), subject.path_of(span.plate));
-        let curve = plate
-            .zip(path)
-            .and_then(|(plate, path)| Curve::new(plate, path, span.kind));
+        let plate = subject.plates().get(span.plate);
+        let of_path = |plate| Curve::new(plate, subject.path_of(span.plate)?, span.kind);
+        let curve = match subject.job.recovery.as_ref().and_then(Recovery::retreat) {
+            Some(line) => plate
+                .zip(along.get(span.pieces.start))
+                .map(|(plate, first)| Curve::up_from(plate, first.stretch().ends[0].position, line.length_m)),
+            None => plate.and_then(of_path),
+        };
         match curve {
             Some(curve) => follow(arm, &along[span.pieces.clone()], &curve, &mut trackers[which]),
             None => no_curve[which] = true,
@@ -187,6 +191,12 @@ impl<'a> Curve<'a> {
             }
             SegmentKind::Depart | SegmentKind::Transit | SegmentKind::Return => None,
         }
+    }
+
+    /// The line along the normal of a plate, from a place of the tip \[m\].
+    fn up_from(plate: &Plate, from: Vector3<f64>, length: f64) -> Self {
+        let along = plate.normal_at(&from);
+        Self::Line { from, along, length }
     }
 
     /// The last θ; the first is 0.

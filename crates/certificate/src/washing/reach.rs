@@ -14,7 +14,7 @@ use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
 use crate::report::check::{Check, Discrepancy, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span, is_at_plate};
+use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
 use crate::washing::coverage::{PlateCoverage, Polyline, Wash};
 use crate::washing::face::{Face, PLACE_M, norm};
@@ -42,7 +42,7 @@ impl ReachInputs<'_> {
     /// Returns the spans at a plate, with their indices.
     fn spans_at(&self, plate: usize) -> impl Iterator<Item = (usize, &Span)> {
         let spans = self.schedule.spans.iter().enumerate();
-        spans.filter(move |(_, span)| span.plate == plate && is_at_plate(span.kind))
+        spans.filter(move |(_, span)| span.plate == plate && span.kind.is_at_plate())
     }
 }
 

@@ -14,7 +14,7 @@
 pub(crate) mod motion;
 mod phases;
 pub(crate) mod places;
-mod shared;
+pub(crate) mod shared;
 mod tour;
 mod visit;
 mod visits;

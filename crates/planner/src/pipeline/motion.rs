@@ -14,7 +14,7 @@ use crate::watch::Activity;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
 use platewash_workcell::random;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
+use platewash_workcell::trajectory::{KnotError, PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::WashPath;
 
 /// The whole motion in time.
@@ -44,14 +44,34 @@ pub(crate) fn assemble(visits: &[Visit], transits: &[Transit]) -> Result<WholeMo
             assembly.append(&visit.wash);
         }
     }
-    let Assembly { t_s, q, qd, segments } = assembly;
-    Ok(WholeMotion {
-        motion: Trajectory::from_knots(t_s, q, qd)?,
-        segments,
-    })
+    Ok(assembly.whole()?)
+}
+
+/// Joins motions of the given kinds, at a plate or leading to it, into one. Neighbours of a kind are one segment.
+pub(crate) fn one_after_the_other<'a>(
+    parts: impl Iterator<Item = (SegmentKind, &'a TimedPath)>,
+    plate: usize,
+) -> Result<WholeMotion, KnotError> {
+    let mut assembly = Assembly::default();
+    for (kind, timed) in parts {
+        let before = assembly.segments.pop_if(|last| last.kind == kind);
+        assembly.declare(kind, plate, timed, f64::INFINITY);
+        if let (Some(before), Some(last)) = (before, assembly.segments.last_mut()) {
+            last.t_start_s = before.t_start_s;
+        }
+        assembly.append(timed);
+    }
+    assembly.whole()
 }
 
 impl Assembly {
+    fn whole(self) -> Result<WholeMotion, KnotError> {
+        Ok(WholeMotion {
+            motion: Trajectory::from_knots(self.t_s, self.q, self.qd)?,
+            segments: self.segments,
+        })
+    }
+
     /// Retreat from a plate, free motion and approach to a plate of one transit.
     fn transit(&mut self, before: Option<usize>, transit: &Transit, after: Option<usize>) {
         let [leaves, enters] = transit.free;
@@ -100,6 +120,19 @@ impl Assembly {
 }
 
 impl Pipeline<'_> {
+    /// Rules of the transits of a scene.
+    pub fn transit_rules<'a>(&'a self, scene: &'a Scene<'a>) -> TransitRules<'a> {
+        TransitRules {
+            scene,
+            limits: &self.transit,
+            clearance_m: self.clearance_m(),
+            arc: Some(BaseArc {
+                arc: self.settings.arc,
+                policy: self.policy(),
+            }),
+        }
+    }
+
     /// Transits between neighbours of the lines over the plates, and from and to home; those that `wanted` names by their index.
     /// Each draws from a stream of its own.
     pub fn transits(
@@ -111,17 +144,9 @@ impl Pipeline<'_> {
         let [start, end] = self.terms.home_rad.map(LiftLine::home);
         let leaving = std::iter::once(&start).chain(lines.iter().map(|[_, exit]| *exit));
         let entering = lines.iter().map(|[entry, _]| *entry).chain(std::iter::once(&end));
-        let rules = TransitRules {
-            scene,
-            limits: &self.transit,
-            clearance_m: self.clearance_m(),
-            arc: Some(BaseArc {
-                arc: self.settings.arc,
-                policy: self.policy(),
-            }),
-        };
+        let rules = self.transit_rules(scene);
         let pairs = leaving.zip(entering).enumerate().filter(|(k, _)| wanted(*k));
-        let of = self.plates.len() + 1;
+        let of = lines.len() + 1;
         pairs
             .map(|(k, (from, to))| {
                 (self.watch.tell)(&Activity::Transit { turn: k + 1, of });

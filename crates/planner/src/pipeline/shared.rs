@@ -126,10 +126,10 @@ impl<'a> Pipeline<'a> {
                 *patterns = Arc::new(patterns.along(path));
             }
         }
-        let count = pipeline.plates.len();
         let mut sorted = order.to_vec();
         sorted.sort_unstable();
-        if !sorted.into_iter().eq(0..count) {
+        if !sorted.into_iter().eq(pipeline.terms.plates_to_wash()) {
+            let count = pipeline.terms.plates_to_wash().count();
             return Err(PlanError::Order { count });
         }
         Ok(Self {

@@ -211,6 +211,7 @@ impl Scenario {
             seed: self.seed,
             simulation: self.simulation(),
             dry_run: None,
+            recovery: None,
             soils: self.soils().to_vec(),
             measured: self.measured().to_vec(),
         };
@@ -281,6 +282,7 @@ impl Scenario {
             Ok(ReducedClearance {
                 pair: [a.clone(), b.clone()],
                 by_m: required_m - clearance_m,
+                at_stop: false,
             })
         };
         self.reduced_clearance.iter().enumerate().map(reduced).collect()

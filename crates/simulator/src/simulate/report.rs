@@ -159,7 +159,7 @@ impl SimulationReport {
         let verdict = match seal {
             Seal::Broken => SimulationVerdict::Altered,
             Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
-            Seal::Whole => SimulationVerdict::new(treatment, done == plan.job.plates.len()),
+            Seal::Whole => SimulationVerdict::new(treatment, done == plan.job.plates_to_wash().count()),
         };
         let before = dry_run
             .as_ref()
@@ -175,7 +175,7 @@ impl SimulationReport {
             headline: format!(
                 "{before}{}{} {} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
                 payload.overload().map_or_else(String::new, |words| words + "; "),
-                part_of(done, plan.job.plates.len(), "plate"),
+                part_of(done, plan.job.plates_to_wash().count(), "plate"),
                 treatment.participle(),
                 settings.law.name(),
                 1e3 * tracking.tip_m.rms,

@@ -42,12 +42,12 @@ pub(crate) fn reduced(
     stated: &[ReducedClearance],
 ) -> Result<ReducedPairs, ClearanceError> {
     let mut found = ReducedPairs::new();
-    for ReducedClearance { pair, by_m } in stated {
+    for ReducedClearance { pair, by_m, at_stop } in stated {
         let refused = |fault| {
             let pair = pair.clone();
             Err(ClearanceError::NotReducible { pair, fault })
         };
-        if !pair.iter().all(|name| is_of_arm(bodies, name)) {
+        if !at_stop && !pair.iter().all(|name| is_of_arm(bodies, name)) {
             return refused("one of them is not a body of the arm or its tool with a collision shape");
         }
         let is_named = |&&(a, b): &&(usize, usize)| is_pair(pair, (&bodies[a].name, &bodies[b].name));

@@ -78,6 +78,12 @@ pub enum JobError {
     /// The parent of a dry run is not the hash of a plan.
     #[error("job: dry_run.parent must be the hash of a plan, 64 digits of lower-case hexadecimal")]
     Parent,
+    /// The statement about a recovery does not fit the job.
+    #[error("job: recovery: {fault}")]
+    Recovery {
+        /// What is wrong.
+        fault: &'static str,
+    },
     /// The terms are for another arm.
     #[error("the job is for the arm \"{}\" with description {}; given is \"{}\" with {}", .job.name, .job.urdf_sha256, .given.name, .given.urdf_sha256)]
     OtherArm {

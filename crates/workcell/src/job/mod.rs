@@ -6,12 +6,14 @@
 //! | a job with its arm | `wash_job` |
 //! | everything about a job but the arm; the job in the frame of the base | `terms` |
 //! | requirements and limits | `requirements` |
+//! | what is left to do after a stop | `recovery` |
 //! | shapes of plates that were measured | `measured_shape` |
 //! | kinds of soil, and the requirements of each plate | `soil` |
 //! | errors | `error` |
 
 mod error;
 mod measured_shape;
+mod recovery;
 mod requirements;
 mod soil;
 mod terms;
@@ -19,6 +21,7 @@ mod wash_job;
 
 pub use crate::job::error::{End, JobError};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
+pub use crate::job::recovery::{RETREAT_M_S, Recovery, RecoveryPart, RetreatLine};
 pub use crate::job::requirements::{
     ContactRequirements, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M, PatternName, Planner,
     PlannerSettings, ReachBorders, Requirements, Treatment,

@@ -8,6 +8,7 @@ use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_ove
 use crate::dry_run::DryRun;
 use crate::job::error::JobError;
 use crate::job::measured_shape::MeasuredShape;
+use crate::job::recovery::Recovery;
 use crate::job::requirements::{Limits, Planner, PlannerSettings, Requirements, Treatment};
 use crate::job::soil::Soil;
 use crate::layout::{MAX_PLATES, base_footprint};
@@ -56,6 +57,9 @@ pub struct JobTerms {
     /// Parent plan and height of a dry run; left out of files if the job is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dry_run: Option<DryRun>,
+    /// Parent plan and plates left out after a stop; left out of files if the job is no recovery.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recovery: Option<Recovery>,
     /// Kinds of soil on the plates.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub soils: Vec<Soil>,
@@ -73,6 +77,24 @@ impl JobTerms {
             (None, Some(_)) => Treatment::Washed,
             (None, None) => Treatment::Swept,
         }
+    }
+
+    /// Returns true where the job washes a plate. All plates are washed, but those that a recovery leaves out.
+    #[must_use]
+    pub fn washes(&self, plate: usize) -> bool {
+        let left_out = |recovery: &Recovery| recovery.left_out.contains(&plate);
+        !self.recovery.as_ref().is_some_and(left_out)
+    }
+
+    /// Returns true for the motion from a stop to home, which washes nothing.
+    #[must_use]
+    pub fn is_motion_home(&self) -> bool {
+        self.recovery.as_ref().is_some_and(Recovery::is_motion_home)
+    }
+
+    /// Indices of the plates that are washed, ascending.
+    pub fn plates_to_wash(&self) -> impl Iterator<Item = usize> {
+        (0..self.plates.len()).filter(|plate| self.washes(*plate))
     }
 
     /// Returns the settings of the planner; `None` for a run of the paper's program.
@@ -140,6 +162,10 @@ impl JobTerms {
         check_workcell(&self.workcell, self.plates.len())?;
         for reduced in &self.workcell.reduced_clearances {
             let (name, by_m) = ("workcell.reduced_clearances.by_m", reduced.by_m);
+            if reduced.at_stop && !self.is_motion_home() {
+                let fault = "only the motion home has pairs that are near at the stop";
+                return Err(JobError::Recovery { fault });
+            }
             positive(name, by_m)?;
             if by_m >= wanted.clearance_m {
                 let expected = format!("below requirements.clearance_m, {}", wanted.clearance_m);
@@ -151,6 +177,9 @@ impl JobTerms {
             }
         }
         self.check_dry_run()?;
+        self.recovery
+            .as_ref()
+            .map_or(Ok(()), |recovery| recovery.validate(self))?;
         self.check_soils()?;
         let count = self.plates.len();
         if !(1..=MAX_PLATES).contains(&count) {

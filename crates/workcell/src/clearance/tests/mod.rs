@@ -70,6 +70,7 @@ fn a_reduced_clearance_counts_for_its_pair_alone() {
         let reduced = |pair: &[&str; 2]| ReducedClearance {
             pair: pair.map(str::to_owned),
             by_m,
+            at_stop: false,
         };
         world.reduced_clearances = pairs.iter().map(reduced).collect();
         ClearanceModel::new(&robot, &world, &plates)

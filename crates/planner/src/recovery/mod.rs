@@ -1,0 +1,352 @@
+//! Going on after a stop: from wherever the arm stands a motion up from the plate, clear of everything, home; then the plates that are left.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | moment of the stop, plates washed by then | `stop.rs` |
+//! | way to the nearest place that is clear | `retreat.rs` |
+//! | both plans | here |
+//!
+//! The certificate judges both as it judges any plan. Where the sponge is at a plate, it may touch that plate until it is up, slowly and
+//! along the plate's normal. Other pairs that are nearer than the job asks keep what they have at the start: the plan names them. Where
+//! one of them touches, there is no recovery.
+
+mod retreat;
+mod stop;
+
+use crate::error::PlanError;
+use crate::pipeline::motion::{WholeMotion, one_after_the_other};
+use crate::pipeline::plan_in_order;
+use crate::pipeline::shared::Pipeline;
+use crate::recovery::retreat::{NEARER_M, Start, Way};
+use crate::scene::{Scene, Stretch};
+use crate::transit::{self, LiftLine, Transit, TransitError};
+use crate::watch::{Activity, Watch};
+use platewash_kinematics::words::distinct_decimals;
+use platewash_kinematics::{JointVector, LimitViolation, RobotModel};
+use platewash_workcell::clearance::PairClearance;
+use platewash_workcell::job::{
+    JobError, JobTerms, RETREAT_M_S, Recovery, RecoveryPart, Requirements, RetreatLine, WashJob,
+};
+use platewash_workcell::plan::{Knots, Plan, PlanFileError, PlanParts, Process, Provenance};
+use platewash_workcell::random;
+use platewash_workcell::trajectory::{KnotError, SegmentKind};
+use platewash_workcell::words::{plate_name, printable};
+use platewash_workcell::workcell::{ReducedClearance, Workcell, is_pair};
+use std::sync::Arc;
+
+pub use crate::recovery::stop::Stop;
+
+/// Times about the stop at which the plan may have the arm clear \[s\].
+const ABOUT_S: [f64; 7] = [0.0, -0.1, 0.1, -0.3, 0.3, -0.8, 0.8];
+
+/// Recovery from a stop, planned and not proved.
+#[derive(Debug, Clone)]
+pub struct Recovered {
+    /// The stop.
+    pub stop: Stop,
+    /// Pairs that are nearer at the stop than the job asks, without the sponge and the plate that it is at; the nearest first.
+    pub near: Vec<PairClearance>,
+    /// Plan of the motion home.
+    pub home: Plan,
+    /// Plan of the plates that are left: the stopped plan itself where none was washed, `None` where all were.
+    pub rest: Option<Plan>,
+}
+
+/// Reason that there is no recovery.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecoveryError {
+    /// The plan is a run of the paper's program.
+    #[error("the plan is a run of the paper's program, which is not proved; recover is for plans of a washing")]
+    PaperRun,
+    /// The plan is the motion home of a recovery.
+    #[error(
+        "the plan is the motion home of a recovery: give the plan that was stopped first, with where the arm stands now"
+    )]
+    MotionHome,
+    /// The plan's hash is missing, or not that of its contents.
+    #[error("the plan was changed after it was written; a recovery names its parent by its hash")]
+    NotSealed,
+    /// A joint position is NaN or infinite.
+    #[error("the joint positions must be finite numbers")]
+    NotFinite,
+    /// The arm stands beyond a limit of a joint.
+    #[error("where the arm stands, {0}; move that joint back by hand first")]
+    Limit(LimitViolation),
+    /// The time is not within the plan.
+    #[error("the time of the stop must be from 0 to {duration_s:.3} s, the plan's end; found {found_s} s")]
+    Time {
+        /// Time given \[s\].
+        found_s: f64,
+        /// Duration of the plan \[s\].
+        duration_s: f64,
+    },
+    /// Bodies touch where the arm stands.
+    #[error(
+        "where the arm stands, '{}' and '{}' touch: no motion from there can be proved; move the arm away by hand first",
+        printable(&.pair.a), printable(&.pair.b)
+    )]
+    Touching {
+        /// The bodies.
+        pair: Box<PairClearance>,
+    },
+    /// No way to a clear place was found.
+    #[error("no way was found from where the arm stands to a place that is clear of everything{}", nearest(.plate, .pair.as_deref()))]
+    NoWay {
+        /// Plate that the sponge is at.
+        plate: Option<usize>,
+        /// Nearest bodies.
+        pair: Option<Box<PairClearance>>,
+    },
+    /// The motion home, or the plates that are left, could not be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+}
+
+fn nearest(plate: &Option<usize>, pair: Option<&PairClearance>) -> String {
+    match (plate, pair) {
+        (_, Some(pair)) => {
+            let [found, _] = distinct_decimals(1e3 * pair.distance_m, 0.0, 2);
+            format!(
+                ": '{}' and '{}' are {found} mm apart",
+                printable(&pair.a),
+                printable(&pair.b)
+            )
+        }
+        (Some(plate), None) => format!(": the sponge is at {}", plate_name(*plate)),
+        (None, None) => String::new(),
+    }
+}
+
+impl From<JobError> for RecoveryError {
+    fn from(error: JobError) -> Self {
+        Self::Plan(error.into())
+    }
+}
+
+impl From<PlanFileError> for RecoveryError {
+    fn from(error: PlanFileError) -> Self {
+        Self::Plan(error.into())
+    }
+}
+
+impl From<KnotError> for RecoveryError {
+    fn from(error: KnotError) -> Self {
+        Self::Plan(error.into())
+    }
+}
+
+/// Plans the way home from where the arm stands, `at` \[rad\], and the washing of the plates that are left.
+///
+/// `time_s` is the time in the plan at which it was stopped \[s\], where that is known. Otherwise the joints tell, and the earliest moment
+/// that fits them counts.
+///
+/// # Errors
+/// [`RecoveryError`]; it is cancelled with [`PlanError::Cancelled`].
+pub fn recover(
+    plan: &Plan,
+    arm: &Arc<RobotModel>,
+    at: &JointVector,
+    time_s: Option<f64>,
+    watch: &Watch<'_>,
+) -> Result<Recovered, RecoveryError> {
+    check(plan, arm, at)?;
+    let stop = Stop::new(plan, &plan.knots.motion()?, at, time_s)?;
+    let job = WashJob::new(arm.clone(), plan.job.clone())?.named(&plan.provenance.scenario);
+    let pipeline = Pipeline::here(&job, watch)?;
+    (watch.tell)(&Activity::Transit { turn: 1, of: 1 });
+    let (home, near) = motion_home(plan, &pipeline, &stop, at)?;
+    let rest = rest(plan, arm, &stop, watch)?;
+    Ok(Recovered { stop, near, home, rest })
+}
+
+fn check(plan: &Plan, arm: &RobotModel, at: &JointVector) -> Result<(), RecoveryError> {
+    if plan.process == Process::Paper {
+        return Err(RecoveryError::PaperRun);
+    }
+    if plan.job.is_motion_home() {
+        return Err(RecoveryError::MotionHome);
+    }
+    if !plan.is_sealed() {
+        return Err(RecoveryError::NotSealed);
+    }
+    if !at.iter().all(|q| q.is_finite()) {
+        return Err(RecoveryError::NotFinite);
+    }
+    arm.limits()
+        .violation(at)
+        .map_or(Ok(()), |violation| Err(RecoveryError::Limit(violation)))
+}
+
+/// The motion from the stop to the start of a plan, and the pairs that are near at the stop.
+fn motion_home(
+    plan: &Plan,
+    pipeline: &Pipeline<'_>,
+    stop: &Stop,
+    at: &JointVector,
+) -> Result<(Plan, Vec<PairClearance>), RecoveryError> {
+    let scene = pipeline.scene()?;
+    let clearance_m = pipeline.clearance_m();
+    let motion = plan.knots.motion()?;
+    let about = |after_s: &f64| Some(motion.at(stop.time_s? + after_s)?.q);
+    let plate = plate_at(pipeline, stop, at);
+    let required_m = clearance_m + Stretch::Free.reserve_m();
+    let start = Start {
+        near: pipeline.clearance.too_near(at, plate.as_slice(), required_m),
+        on_plan: ABOUT_S.iter().filter_map(about).collect(),
+        pipeline,
+        scene: &scene,
+        at: *at,
+        plate,
+    };
+    let near: Vec<_> = start
+        .near
+        .iter()
+        .filter(|pair| !pair.is_clear(clearance_m))
+        .cloned()
+        .collect();
+    if let Some(pair) = near.iter().find(|pair| pair.distance_m <= NEARER_M) {
+        let pair = Box::new(pair.clone());
+        return Err(RecoveryError::Touching { pair });
+    }
+    let (way, transit) = way_home(&start)?;
+    let retreat = plate.zip(way.as_ref()).map(|(plate, way)| RetreatLine {
+        plate,
+        length_m: way.whole_m(),
+    });
+    let up = way.map(|way| way.timed(&start)).transpose()?;
+    let of = retreat.map_or(0, |line| line.plate);
+    let kind = if retreat.is_some() {
+        SegmentKind::Retreat
+    } else {
+        SegmentKind::Return
+    };
+    let parts = up
+        .iter()
+        .map(|up| (kind, up))
+        .chain([(SegmentKind::Return, &transit.timed)]);
+    let WholeMotion { motion, segments } = one_after_the_other(parts, of)?;
+    let wanted = &plan.job.requirements;
+    let terms = JobTerms {
+        home_rad: [*at, plan.job.home_rad[0]],
+        requirements: Requirements {
+            contact: None,
+            landing_m_s: None,
+            lifting_m_s: Some(wanted.lifting_m_s.map_or(RETREAT_M_S, |asked| asked.min(RETREAT_M_S))),
+            wrist_rad: None,
+            ..*wanted
+        },
+        workcell: with_near_pairs(&plan.job.workcell, &start.near, clearance_m),
+        recovery: Some(Recovery {
+            parent: plan.hash.clone().unwrap_or_default(),
+            left_out: (0..plan.job.plates.len()).collect(),
+            part: RecoveryPart::Home { retreat },
+        }),
+        ..plan.job.clone()
+    };
+    terms.validate()?;
+    let parts = PlanParts {
+        provenance: Provenance::of(&format!("{}-home", plan.provenance.scenario)),
+        order: Vec::new(),
+        wash_paths: Vec::new(),
+        segments,
+        knots: Knots::from(&motion),
+    };
+    Ok((Plan::sealed(terms, parts)?, near))
+}
+
+/// The plate that the sponge is at: nearer than a free motion allows, and the nearest of several.
+fn plate_at(pipeline: &Pipeline<'_>, stop: &Stop, at: &JointVector) -> Option<usize> {
+    let required_m = pipeline.clearance_m() + Stretch::Free.reserve_m();
+    let near = pipeline.clearance.too_near(at, &[], required_m);
+    let of = |plate: usize| {
+        let is_it = |pair: &&PairClearance| {
+            let (a, b) = (&pair.a, &pair.b);
+            is_pair(&["sponge".to_owned(), plate_name(plate)], (a, b))
+        };
+        near.iter().find(is_it).map(|pair| (plate, pair.distance_m))
+    };
+    let all = (0..pipeline.plates.len()).filter_map(of);
+    // Of two that touch, the one that was under way.
+    let rank = |(plate, distance_m): &(usize, f64)| (*distance_m, Some(*plate) != stop.at_plate);
+    let found = all.min_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal));
+    found.map(|(plate, _)| plate)
+}
+
+/// The way to a clear place, if the start is not clear, and the free motion home from there.
+fn way_home(start: &Start<'_>) -> Result<(Option<Way>, Transit), RecoveryError> {
+    if start.plate.is_none() && start.near.is_empty() {
+        return Ok((None, transit_home(start, &start.at)?));
+    }
+    let mut last = RecoveryError::NoWay {
+        plate: start.plate,
+        pair: start.near.first().cloned().map(Box::new),
+    };
+    for way in start.ways() {
+        match transit_home(start, &way.top()) {
+            Ok(transit) => return Ok((Some(way), transit)),
+            Err(error @ RecoveryError::Plan(PlanError::Cancelled(_))) => return Err(error),
+            Err(error) => last = error,
+        }
+    }
+    Err(last)
+}
+
+fn transit_home(start: &Start<'_>, from: &JointVector) -> Result<Transit, RecoveryError> {
+    let (pipeline, scene): (_, &Scene<'_>) = (start.pipeline, start.scene);
+    let mut rng = random::stream(pipeline.terms.seed, "recovery");
+    let [from, to] = [*from, pipeline.terms.home_rad[0]].map(LiftLine::home);
+    let found = transit::plan(&pipeline.transit_rules(scene), &from, &to, &mut rng);
+    found.map_err(|error: TransitError| RecoveryError::Plan(error.into()))
+}
+
+/// The workcell in which the pairs that are near at the start keep what they have.
+fn with_near_pairs(workcell: &Workcell, near: &[PairClearance], clearance_m: f64) -> Workcell {
+    let mut workcell = workcell.clone();
+    for pair in near {
+        let by_m = clearance_m - (pair.distance_m - NEARER_M);
+        if by_m <= pair.reduced_by_m {
+            continue;
+        }
+        workcell
+            .reduced_clearances
+            .retain(|stated| !is_pair(&stated.pair, (&pair.a, &pair.b)));
+        workcell.reduced_clearances.push(ReducedClearance {
+            pair: [pair.a.clone(), pair.b.clone()],
+            by_m,
+            at_stop: true,
+        });
+    }
+    workcell
+}
+
+/// The plan of the plates that are left, in the order and along the paths of the stopped one.
+fn rest(plan: &Plan, arm: &Arc<RobotModel>, stop: &Stop, watch: &Watch<'_>) -> Result<Option<Plan>, RecoveryError> {
+    let is_left = |plate: &usize| !stop.washed.contains(plate);
+    let order: Vec<usize> = plan.order.iter().copied().filter(is_left).collect();
+    if order.is_empty() {
+        return Ok(None);
+    }
+    if stop.washed.is_empty() {
+        return Ok(Some(plan.clone()));
+    }
+    let left_out = (0..plan.job.plates.len())
+        .filter(|plate| !order.contains(plate))
+        .collect();
+    let terms = JobTerms {
+        recovery: Some(Recovery {
+            parent: plan.hash.clone().unwrap_or_default(),
+            left_out,
+            part: RecoveryPart::Rest,
+        }),
+        ..plan.job.clone()
+    };
+    let job = WashJob::new(arm.clone(), terms)?.named(&format!("{}-rest", plan.provenance.scenario));
+    let paths: Vec<_> = plan
+        .wash_paths
+        .iter()
+        .filter(|path| is_left(&path.plate))
+        .copied()
+        .collect();
+    Ok(Some(plan_in_order(&job, &order, &paths, watch)?.plan))
+}
