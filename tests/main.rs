@@ -21,6 +21,7 @@ mod proved_only;
 mod random_jobs;
 mod random_scenarios;
 mod reachable_points;
+mod recovery;
 mod simulation;
 mod spiral_knots;
 mod transit_gain;

@@ -19,6 +19,7 @@ mod output;
 mod page;
 mod plan_file;
 mod prove_motion;
+mod recover;
 mod reproduce;
 mod robot;
 mod run;
@@ -104,6 +105,13 @@ enum Verb {
     /// Exit code 3 if no motion was found at that height (the message names a height that works, if one was found), 4 if a plan is not
     /// proved.
     DryRun(dry_run::DryRunArguments),
+    /// After a stop: a proved motion from where the arm stands home, and a proved plan of the plates that are left
+    ///
+    /// The sponge leaves the plate that it is at slowly, along the plate's normal; then the arm goes home, clear of everything. The plates
+    /// whose wash had not ended are planned again, in the same order and along the same paths. Writes home.json, rest.json, their
+    /// certificates, report.json and report.txt to the folder recovery in the output folder. Exit code 3 if bodies touch where the arm
+    /// stands, or no way was found (the message names the bodies), 4 if a plan is not proved.
+    Recover(recover::RecoverArguments),
     /// Find where the arm stands at a table, from points touched with its tip
     ///
     /// Prints T_world_base, the residual of each point, and points of the drawing in the base frame. Exit code 4 if a residual exceeds
@@ -275,6 +283,7 @@ fn carry_out(options: &Options, verb: Verb) -> Result<ExitCode> {
         Verb::ProveMotion(arguments) => prove_motion::run(options, &arguments),
         Verb::Compare(arguments) => compare::run(options, &arguments),
         Verb::DryRun(arguments) => dry_run::run(options, &arguments),
+        Verb::Recover(arguments) => recover::run(options, &arguments),
         Verb::Align(arguments) => align::run(options, &arguments),
         Verb::Simulate(arguments) => simulate::simulate(options, &arguments),
         Verb::View(arguments) => view::view(options, &arguments),

@@ -1,0 +1,239 @@
+//! `platewash recover`: after a stop home from where the arm stands, and the plates that are left.
+
+use super::failure::ExitCode;
+use super::files::Files;
+use super::numbers::{Unit, joints};
+use super::options::Options;
+use super::output::{DetailArguments, full_report, json};
+use super::plan_file::PlanFile;
+use anyhow::{Context, Error, Result};
+use clap::Args;
+use platewash::certificate::prove_with;
+use platewash::kinematics::AXES;
+use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, Watch, recover};
+use platewash::workcell::words::{count_with_noun, pair_text, plate_name};
+use platewash::{Certificate, Failure, PairClearance, Plan};
+use serde::Serialize;
+use std::fmt;
+use std::path::PathBuf;
+
+/// Names that belong to a recovery in its folder.
+const NAMES: [&str; 6] = [
+    "home.json",
+    "home.certificate.json",
+    "rest.json",
+    "rest.certificate.json",
+    "report.json",
+    "report.txt",
+];
+
+/// Arguments of `recover`.
+#[derive(Debug, Args)]
+pub struct RecoverArguments {
+    /// Plan file that was stopped; it must be proved
+    plan: PathBuf,
+    /// Where the arm stands: its six joint positions [deg]
+    #[arg(long, value_name = "Q", num_args = AXES, required = true, allow_negative_numbers = true)]
+    at_deg: Vec<f64>,
+    /// Time in the plan at which it was stopped [s] [default: the earliest at which the plan is about there]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    stopped_s: Option<f64>,
+    #[command(flatten)]
+    details: DetailArguments,
+}
+
+/// Report on a recovery.
+#[derive(Debug, Serialize)]
+struct Report {
+    /// Hash of the plan that was stopped.
+    parent: String,
+    /// True where the motion home and the plan of the plates that are left are proved.
+    proved: bool,
+    headline: String,
+    stop: Stop,
+    /// Pairs of bodies that are nearer where the arm stands than the job asks, without the sponge and the plate that it is at.
+    near: Vec<PairClearance>,
+    home: ProvedPlan,
+    /// The plates that are left; `None` where all were washed.
+    rest: Option<ProvedPlan>,
+}
+
+/// A plan of a recovery, judged.
+#[derive(Debug, Serialize)]
+struct ProvedPlan {
+    /// Indices of the plates that it washes, in order.
+    order: Vec<usize>,
+    duration_s: f64,
+    certificate: Certificate,
+}
+
+impl ProvedPlan {
+    fn new(options: &Options, file: &PlanFile<'_>, plan: &Plan) -> Result<Self> {
+        let proved = prove_with(plan, &file.arm, &options.cancel);
+        Ok(Self {
+            order: plan.order.clone(),
+            duration_s: plan.duration_s(),
+            certificate: proved.map_err(|error| file.failure(error.into()))?,
+        })
+    }
+}
+
+/// Plans and proves the way home and the plates that are left, and writes both.
+pub fn run(options: &Options, arguments: &RecoverArguments) -> Result<ExitCode> {
+    let mut files = Files::new(options.folder().join("recovery"), &NAMES);
+    files.check()?;
+    let file = PlanFile::read(options, &arguments.plan)?;
+    let parent = file.prove(options)?;
+    if !parent.passes() {
+        let first = &parent.headline;
+        return Err(file.not_verified(format_args!("a recovery is one of a proved plan; this one is {first}")));
+    }
+    let at = joints(&arguments.at_deg, Unit::Degrees).context("--at-deg")?;
+    let progress = options.progress("planning the recovery");
+    let watch = Watch {
+        tell: &|activity| progress.say(activity),
+        cancel: &options.cancel,
+    };
+    let recovered = match recover(&file.plan, &file.arm, &at, arguments.stopped_s, &watch) {
+        Ok(recovered) => recovered,
+        Err(error) => {
+            drop(progress);
+            return refused(options, &file, error);
+        }
+    };
+    let Recovered { stop, near, home, rest } = recovered;
+    let judged = |plan: &Plan| ProvedPlan::new(options, &file, plan);
+    let mut report = Report {
+        parent: file.plan.hash.clone().unwrap_or_default(),
+        proved: false,
+        headline: String::new(),
+        home: judged(&home)?,
+        rest: rest.as_ref().map(judged).transpose()?,
+        stop,
+        near,
+    };
+    drop(progress);
+    report.judge();
+    for (name, plan, judged) in [
+        ("home", Some(&home), Some(&report.home)),
+        ("rest", rest.as_ref(), report.rest.as_ref()),
+    ] {
+        if let Some((plan, judged)) = plan.zip(judged) {
+            files.add(&format!("{name}.json"), plan.to_json().map_err(Failure::from)?);
+            files.add(&format!("{name}.certificate.json"), json(&judged.certificate)?);
+        }
+    }
+    files.add("report.json", json(&report)?);
+    files.add("report.txt", full_report(&report));
+    files.answer(options, &report, || arguments.details.printed(&report))?;
+    Ok(ExitCode::NotVerified.unless(report.proved))
+}
+
+/// Answer where there is no recovery.
+#[derive(Debug, Serialize)]
+struct RefusalAnswer {
+    proved: bool,
+    headline: String,
+}
+
+/// Says why there is no recovery: as an answer where the arm stands so that none was found, else as an error.
+fn refused(options: &Options, file: &PlanFile<'_>, error: RecoveryError) -> Result<ExitCode> {
+    match error {
+        RecoveryError::Limit(_) | RecoveryError::Touching { .. } | RecoveryError::NoWay { .. } => {
+            let headline = format!("NOT RECOVERED: {error}");
+            let answer = RefusalAnswer {
+                proved: false,
+                headline,
+            };
+            options.print(&answer, || format!("{}\n", answer.headline))?;
+            Ok(ExitCode::Infeasible)
+        }
+        RecoveryError::NotSealed => Err(file.not_verified(error)),
+        RecoveryError::Plan(PlanError::Cancelled(cancelled)) => Err(cancelled.into()),
+        RecoveryError::Plan(error) => Err(Error::from(Failure::from(error))),
+        error => Err(file.refused(error)),
+    }
+}
+
+impl Report {
+    /// Draws the verdict from both certificates.
+    fn judge(&mut self) {
+        let all = || std::iter::once(&self.home).chain(&self.rest);
+        let proved = all().all(|plan| plan.certificate.passes());
+        let rest = match &self.rest {
+            None => "; all plates were washed".to_owned(),
+            Some(rest) => {
+                let plates = count_with_noun(rest.order.len(), "plate");
+                format!(", then the {plates} that are left in {:.2} s", rest.duration_s)
+            }
+        };
+        let verdict = if proved {
+            "RECOVERED, PROVED"
+        } else {
+            "RECOVERY NOT PROVED"
+        };
+        self.headline = format!("{verdict}: home in {:.2} s{rest}", self.home.duration_s);
+        self.proved = proved;
+    }
+
+    fn stop_words(&self) -> String {
+        let Stop {
+            time_s,
+            is_stated,
+            off_rad,
+            washed,
+            at_plate,
+        } = &self.stop;
+        let off_deg = off_rad.to_degrees();
+        let Some(time_s) = time_s else {
+            return format!(
+                "the arm is nowhere near the plan (a joint is off by {off_deg:.1}°): no plate counts as washed; --stopped-s says when it was stopped"
+            );
+        };
+        let how = if *is_stated {
+            "as stated"
+        } else {
+            "the earliest that fits"
+        };
+        let at = at_plate.map_or_else(String::new, |plate| format!(", at {}", plate_name(plate)));
+        let washed = match &washed[..] {
+            [] => "none".to_owned(),
+            some => some
+                .iter()
+                .map(|plate| plate_name(*plate))
+                .collect::<Vec<_>>()
+                .join(", "),
+        };
+        format!("at {time_s:.2} s of the plan ({how}; joints off by up to {off_deg:.2}°){at}; washed by then: {washed}")
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        writeln!(f, "  stop  {}", self.stop_words())?;
+        for PairClearance { a, b, distance_m, .. } in &self.near {
+            let pair = pair_text(&[a.clone(), b.clone()]);
+            writeln!(
+                f,
+                "  near  {pair} are {:.2} mm apart: nearer than asked, and proved to come no nearer",
+                1e3 * distance_m
+            )?;
+        }
+        writeln!(f, "  home  {}", self.home.certificate.headline)?;
+        if let Some(rest) = &self.rest {
+            writeln!(f, "  rest  {}", rest.certificate.headline)?;
+        }
+        writeln!(
+            f,
+            "\nplatewash export recovery/home.json --to rapid|urscript|ros2|csv makes a program; run home first, then rest\n\
+             what stands around the arm must be as the plan says: a plate that moved is not where the proof has it"
+        )?;
+        if f.alternate() {
+            for plan in std::iter::once(&self.home).chain(&self.rest) {
+                write!(f, "\n{:#}", plan.certificate)?;
+            }
+        }
+        Ok(())
+    }
+}
