@@ -1,6 +1,7 @@
 //! Recovery from a stop: from where the arm stands home with a proof, or the true reason; then the plates that are left.
 
 use platewash::certificate::{Requirement, Status, certify, prove};
+use platewash::export::dialect::by_name;
 use platewash::export::{ExportSettings, export};
 use platewash::kinematics::RobotModel;
 use platewash::planner::{Recovered, RecoveryError, Stop, Watch, plan, recover};
@@ -241,20 +242,11 @@ fn both_plans_are_exported_for_the_arm_where_it_stands() {
     for plan in [home, rest.unwrap()] {
         let start = plan.job.home_rad[0];
         let certified = certify(plan, &arm).unwrap();
-        for name in ["rapid", "urscript"] {
-            let dialect = platewash::export::dialect::by_name(name).unwrap();
-            let told = export(
-                &certified,
-                &arm,
-                dialect,
-                &ExportSettings::default(),
-                &CancelToken::new(),
-            )
-            .unwrap();
-            assert!(told.judgement.holds());
-            let first = told.reading.points[0].q_rad;
-            assert!((first - start).amax() < 1e-5, "{name}: {first} {start}");
-        }
+        let rapid = by_name("rapid").unwrap();
+        let told = export(&certified, &arm, rapid, &ExportSettings::default(), &CancelToken::new()).unwrap();
+        assert!(told.judgement.holds());
+        let first = told.reading.points[0].q_rad;
+        assert!((first - start).amax() < 1e-5, "{first} {start}");
     }
 }
 

@@ -81,7 +81,7 @@ from ._errors import (
 from ._figure import Figure
 from ._nouns import finish as _finish
 from ._page import Page
-from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
+from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record, Recovery
 from ._studies.samples import samples
 from ._studies.rows import StudyRows
 from ._values import Coverage, Foot, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve
@@ -128,6 +128,7 @@ __all__ = [
     "PlatewashError",
     "ProveError",
     "Record",
+    "Recovery",
     "Rings",
     "Robot",
     "Scenario",

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._figure import Figure
 from ._page import Page
-from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record
+from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record, Recovery
 from ._studies.rows import StudyRows
 from ._values import Coverage, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve
 
@@ -511,6 +511,9 @@ class Plan:
     def dry_run(
         self, height_m: float = 0.05, speed_m_s: float = 0.1, *, robot: Robot | None = None
     ) -> Plan: ...
+    def recover(
+        self, stands_rad: npt.ArrayLike, stopped_s: float | None = None, *, robot: Robot | None = None
+    ) -> Recovery: ...
     def to_joint_trajectory(
         self, speed_share: float = 1.0, *, accept: Iterable[str] = (), stands_rad: npt.ArrayLike | None = None, robot: Robot | None = None
     ) -> dict[str, Any]: ...

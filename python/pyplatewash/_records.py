@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ._errors import InputTypeError, NoKeyError
+
+if TYPE_CHECKING:
+    from ._core import Plan
 
 
 class Record(Mapping[str, Any]):
@@ -188,3 +191,16 @@ class CoverageRaster(_ArrayFields):
 
     def __repr__(self) -> str:
         return f"CoverageRaster({len(self.x_m)} x {len(self.y_m)})"
+
+
+class Recovery(NamedTuple):
+    """The way on after a stop. Neither plan is proved yet: see ``prove``."""
+
+    home: Plan
+    """Motion from where the arm stands home."""
+    rest: Plan | None
+    """The plates that are left, in the order and along the paths of the stopped plan; None where all were washed."""
+    stop: Record
+    """The stop: ``time_s`` in the plan, ``off_rad``, the plates that were ``washed``, the plate that the arm was ``at_plate``."""
+    near: list[Record]
+    """Pairs of bodies that are nearer where the arm stands than the job asks, with ``distance_m``."""

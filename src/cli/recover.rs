@@ -6,7 +6,7 @@ use super::numbers::{Unit, joints};
 use super::options::Options;
 use super::output::{DetailArguments, full_report, json};
 use super::plan_file::PlanFile;
-use anyhow::{Context, Error, Result};
+use anyhow::{Context, Error, Result, anyhow};
 use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::kinematics::AXES;
@@ -148,6 +148,7 @@ fn refused(options: &Options, file: &PlanFile<'_>, error: RecoveryError) -> Resu
             options.print(&answer, || format!("{}\n", answer.headline))?;
             Ok(ExitCode::Infeasible)
         }
+        RecoveryError::Time { .. } => Err(anyhow!("--stopped-s: {error}")),
         RecoveryError::NotSealed => Err(file.not_verified(error)),
         RecoveryError::Plan(PlanError::Cancelled(cancelled)) => Err(cancelled.into()),
         RecoveryError::Plan(error) => Err(Error::from(Failure::from(error))),
@@ -193,7 +194,7 @@ impl Report {
         let how = if *is_stated {
             "as stated"
         } else {
-            "the earliest that fits"
+            "by the joints; the earliest where several moments fit"
         };
         let at = at_plate.map_or_else(String::new, |plate| format!(", at {}", plate_name(plate)));
         let washed = match &washed[..] {
@@ -226,7 +227,7 @@ impl fmt::Display for Report {
         }
         writeln!(
             f,
-            "\nplatewash export recovery/home.json --to rapid|urscript|ros2|csv makes a program; run home first, then rest\n\
+            "\nplatewash export makes a program of home.json, and of rest.json: run the first, then the second\n\
              what stands around the arm must be as the plan says: a plate that moved is not where the proof has it"
         )?;
         if f.alternate() {

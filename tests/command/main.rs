@@ -25,6 +25,7 @@ mod other_arms;
 mod page;
 mod prove_motion;
 mod reader;
+mod recover;
 mod remedies;
 mod scenarios;
 mod served;

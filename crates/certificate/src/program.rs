@@ -138,7 +138,10 @@ pub fn prove_program(
     cancel.check()?;
     world.checks_to_world(&mut checks);
     world.pairs_to_world(&mut clearance);
-    let is_implied = |check: &Check| matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
+    let is_implied = |check: &Check| match check.requirement {
+        Requirement::WashSpeed => washes,
+        requirement => requirement == Requirement::TipSpeed,
+    };
     Ok(ProgramProof {
         checks,
         implied: rates.into_iter().filter(is_implied).collect(),

@@ -52,10 +52,13 @@ pub(crate) fn lines(
     lines.extend(dialect.assumptions().iter().map(|words| format!("- {words}")));
     let rests_on = &certified.certificate().rests_on.assumptions;
     lines.extend(rests_on.iter().map(|words| format!("- {words}")));
-    lines.push(
-        "Before the first run: the dry run of this plan (platewash dry-run), and a small share of the speed."
-            .to_owned(),
-    );
+    let first = match plan.job.is_motion_home() {
+        true => {
+            "Before it runs: look whether the arm and the plates are as stated above, and take a small share of the speed."
+        }
+        false => "Before the first run: the dry run of this plan (platewash dry-run), and a small share of the speed.",
+    };
+    lines.push(first.to_owned());
     lines.push("This program is not a safety function.".to_owned());
     lines.extend(settings.lines());
     lines
@@ -186,7 +189,10 @@ fn speeds(source: &Source<'_>, settings: &ExportSettings, points: &[Point]) -> V
     vec![
         format!(
             "{}, {:.3} s at a share of {share} of the plan's speed (the plan: {plan_s:.3} s); {} points, the nearest {:.1} ms apart",
-            count_with_noun(source.plan.order.len(), "plate"),
+            match source.plan.job.is_motion_home() {
+                true => "the motion home".to_owned(),
+                false => count_with_noun(source.plan.order.len(), "plate"),
+            },
             plan_s / share,
             points.len(),
             1e3 * steps.fold(f64::INFINITY, f64::min)

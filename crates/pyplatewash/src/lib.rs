@@ -23,6 +23,7 @@ mod paper;
 mod plan;
 mod planned;
 mod plate;
+mod recovery;
 mod robot;
 mod scenario;
 mod simulation;

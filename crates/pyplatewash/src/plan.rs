@@ -6,7 +6,7 @@ use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
 use crate::work::ask;
-use crate::{argument, dry_run, export};
+use crate::{argument, arrays, dry_run, export, recovery};
 use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;
 use platewash::workcell::csv::table as csv_table;
@@ -391,6 +391,30 @@ impl PlanObject {
         let robot = self.robot_for(py, Robot::given(robot)?)?;
         let plan = dry_run::planned(py, &self.inner, robot.get().model(), asked)?;
         Ok(Self::new(plan, Some(robot)))
+    }
+
+    /// The way on after a stop: a motion from where the arm stands home, and a plan of the plates that are left, as a `Recovery`.
+    ///
+    /// `stands_rad` is where the arm stands, shape (6,) [rad], `stopped_s` the time in the plan at which it was stopped [s]; without it the
+    /// earliest moment at which the plan is about there counts, so that a plate may be washed twice and none is left out. This plan is
+    /// proved first; those that are made are not: see `prove`. `robot` is the arm, by default the one that the plan was made for.
+    ///
+    /// Raises PlanError, with the stage `"recovery"` where bodies touch or no way was found; InputError for a time outside of the plan;
+    /// ProveError for a plan whose arm must be given.
+    #[pyo3(signature = (stands_rad, stopped_s=None, *, robot=None))]
+    fn recover<'py>(
+        &self,
+        py: Python<'py>,
+        stands_rad: &Bound<'py, PyAny>,
+        stopped_s: Option<&Bound<'py, PyAny>>,
+        robot: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let stands = arrays::joint_vector("stands_rad", stands_rad)?;
+        let stopped_s = stopped_s
+            .map(|value| argument::number("stopped_s", value))
+            .transpose()?;
+        let robot = self.robot_for(py, Robot::given(robot)?)?;
+        recovery::recovered(py, &self.inner, robot, stands, stopped_s)
     }
 
     fn __repr__(&self) -> String {

@@ -123,6 +123,9 @@ pub enum DryRunError {
         /// First digits of its parent's hash.
         parent: String,
     },
+    /// The plan is the motion home of a recovery.
+    #[error("the plan is a motion home after a stop, which washes nothing; a dry run is one of a washing")]
+    MotionHome,
     /// The plan's hash is missing, or not that of its contents.
     #[error("the plan was changed after it was written; a dry run names its parent by its hash")]
     NotSealed,
@@ -181,6 +184,9 @@ pub enum DryRunError {
 /// [`DryRunError`].
 pub fn dry_run_terms(parent: &Plan, arm: &RobotModel, height_m: f64, speed_m_s: f64) -> Result<JobTerms, DryRunError> {
     let job = &parent.job;
+    if job.is_motion_home() {
+        return Err(DryRunError::MotionHome);
+    }
     let dry_run = DryRun {
         parent: named(parent)?,
         height_m,

@@ -3,14 +3,14 @@
 use crate::recovery::RecoveryError;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{SegmentKind, Trajectory};
+use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use serde::Serialize;
 
-/// Moments of the same stop: nearly as near to where the arm stands as the nearest one \[rad\].
+/// Distance beyond that of the nearest moment up to which a moment fits \[rad\]: the joints may be off by as much.
 const AS_NEAR_RAD: f64 = 0.035;
 
 /// Largest distance of a joint from the plan at which the arm counts as stopped on it \[rad\].
-const ON_PLAN_RAD: f64 = 0.26;
+const ON_PLAN_RAD: f64 = 0.06;
 
 /// Moments of each piece of the motion that are looked at.
 const LOOKS: u32 = 4;
@@ -18,8 +18,8 @@ const LOOKS: u32 = 4;
 /// Stop of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Stop {
-    /// Time in the plan \[s\]: as stated, or else the earliest at which the plan is about as near to where the arm stands as it ever is.
-    /// `None` where the arm is far from the plan.
+    /// Time in the plan \[s\]: as stated, or else the nearest moment at which as few plates were washed as at the first that fits. `None`
+    /// where the arm is far from the plan.
     pub time_s: Option<f64>,
     /// True where the time was stated.
     pub is_stated: bool,
@@ -52,22 +52,26 @@ impl Stop {
             pieces.flat_map(move |ends| (0..LOOKS).map(move |k| within(ends, k)))
         };
         let nearest_rad = moments().map(off_rad).fold(off_rad(duration_s), f64::min);
-        let fits = |t_s: &f64| off_rad(*t_s) <= nearest_rad + AS_NEAR_RAD;
-        match moments().find(fits).filter(|_| nearest_rad <= ON_PLAN_RAD) {
-            Some(t_s) => Ok(Self::at_time(plan, t_s, off_rad(t_s), false)),
-            None => Ok(Self {
-                time_s: None,
-                is_stated: false,
-                off_rad: nearest_rad,
-                washed: Vec::new(),
-                at_plate: None,
-            }),
+        let unknown = Self {
+            time_s: None,
+            is_stated: false,
+            off_rad: nearest_rad,
+            washed: Vec::new(),
+            at_plate: None,
+        };
+        if nearest_rad > ON_PLAN_RAD {
+            return Ok(unknown);
         }
+        let first = moments().find(|t_s| off_rad(*t_s) <= nearest_rad + AS_NEAR_RAD);
+        let next_ends = first.and_then(|first| washes(plan).map(|wash| wash.t_end_s).find(|end| *end > first));
+        let until = next_ends.unwrap_or(f64::INFINITY);
+        let since = moments().filter(|t_s| first.is_some_and(|first| *t_s >= first) && *t_s < until);
+        let nearest = since.map(|t_s| (off_rad(t_s), t_s)).min_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(nearest.map_or(unknown, |(off_rad, t_s)| Self::at_time(plan, t_s, off_rad, false)))
     }
 
     fn at_time(plan: &Plan, time_s: f64, off_rad: f64, is_stated: bool) -> Self {
-        let washes = plan.segments.iter().filter(|segment| segment.kind == SegmentKind::Wash);
-        let ended = washes.filter(|wash| wash.t_end_s <= time_s);
+        let ended = washes(plan).filter(|wash| wash.t_end_s <= time_s);
         let here = plan
             .segments
             .iter()
@@ -82,4 +86,8 @@ impl Stop {
                 .map(|segment| segment.plate),
         }
     }
+}
+
+fn washes(plan: &Plan) -> impl Iterator<Item = &PlanSegment> {
+    plan.segments.iter().filter(|segment| segment.kind == SegmentKind::Wash)
 }

@@ -4,8 +4,8 @@ use crate::arrays;
 use crate::errors::{FileKind, SystemWord, any, input, keyed, named, raise, simulation, system_file};
 use platewash::paper::PaperError;
 use platewash::paper::tracking::TrackingError;
-use platewash::planner::UnwashablePlate;
 use platewash::planner::transit::TransitError;
+use platewash::planner::{RecoveryError, UnwashablePlate};
 use platewash::scenario::Problem;
 use platewash::workcell::dry_run::DryRunError;
 use platewash::workcell::job::JobError;
@@ -72,6 +72,22 @@ pub fn dry_run(py: Python<'_>, error: &DryRunError) -> PyErr {
         DryRunError::Job(error) => job(py, error, &message),
         _ => no_dry_run(py, &message),
     }
+}
+
+/// A stop from which there is no recovery.
+pub fn recovery(py: Python<'_>, error: RecoveryError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        RecoveryError::Time { .. } => input(py, "stopped_s", &message),
+        RecoveryError::NotFinite => input(py, "stands_rad", &message),
+        RecoveryError::Plan(error) => failure(py, &error.into()),
+        _ => no_recovery(py, &message),
+    }
+}
+
+/// A plan from which there is no recovery at all.
+pub fn no_recovery(py: Python<'_>, message: &str) -> PyErr {
+    staged(py, "recovery", message, Vec::new())
 }
 
 /// A plan that has no dry run at all.

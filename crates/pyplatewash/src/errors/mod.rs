@@ -8,7 +8,7 @@
 
 mod job;
 
-pub use crate::errors::job::{arm_needed, dry_run, failure, no_dry_run, scenario};
+pub use crate::errors::job::{arm_needed, dry_run, failure, no_dry_run, no_recovery, recovery, scenario};
 
 use crate::arrays;
 use platewash::kinematics::ik::{IkCause, IkPathError, PathBreak};

@@ -9,7 +9,7 @@ use crate::simulate::text::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::Treatment;
+use platewash_workcell::job::{Recovery, Treatment};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{ControlLawName, PlantSettings, SimulationSettings};
 use platewash_workcell::words::part_of;
@@ -161,9 +161,21 @@ impl SimulationReport {
             Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
             Seal::Whole => SimulationVerdict::new(treatment, done == plan.job.plates_to_wash().count()),
         };
-        let before = dry_run
-            .as_ref()
-            .map_or_else(String::new, |dry_run| dry_run.words() + "; ");
+        let recovery = plan.job.recovery.iter().map(Recovery::words);
+        let before: String = dry_run
+            .iter()
+            .map(DryRun::words)
+            .chain(recovery)
+            .map(|words| words + "; ")
+            .collect();
+        let done_words = match plan.job.is_motion_home() {
+            true => "the motion home".to_owned(),
+            false => format!(
+                "{} {}",
+                part_of(done, plan.job.plates_to_wash().count(), "plate"),
+                treatment.participle()
+            ),
+        };
         let tracking = measures::tracking(&execution.samples, &tip_errors);
         Ok(Self {
             scenario: plan.provenance.scenario.clone(),
@@ -173,10 +185,8 @@ impl SimulationReport {
             law: settings.law,
             verdict,
             headline: format!(
-                "{before}{}{} {} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                "{before}{}{done_words} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
                 payload.overload().map_or_else(String::new, |words| words + "; "),
-                part_of(done, plan.job.plates_to_wash().count(), "plate"),
-                treatment.participle(),
                 settings.law.name(),
                 1e3 * tracking.tip_m.rms,
                 1e3 * tracking.tip_m.max

@@ -58,7 +58,7 @@ pub enum Treatment {
     Washed,
     /// The sponge's face passes over the plates; contact is not required.
     Swept,
-    /// A dry run: no plates are there.
+    /// A dry run, where no plates are there; or a motion home after a stop, which goes over none.
     SweptInAir,
 }
 

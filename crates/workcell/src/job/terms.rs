@@ -73,6 +73,7 @@ impl JobTerms {
     #[must_use]
     pub fn treatment(&self) -> Treatment {
         match (&self.dry_run, &self.requirements.contact) {
+            _ if self.is_motion_home() => Treatment::SweptInAir,
             (Some(_), _) => Treatment::SweptInAir,
             (None, Some(_)) => Treatment::Washed,
             (None, None) => Treatment::Swept,
