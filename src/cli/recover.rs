@@ -11,7 +11,7 @@ use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::kinematics::AXES;
 use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, Watch, recover};
-use platewash::workcell::words::{count_with_noun, pair_text, plate_name};
+use platewash::workcell::words::{count_with_noun, pair_text};
 use platewash::{Certificate, Failure, PairClearance, Plan};
 use serde::Serialize;
 use std::fmt;
@@ -176,43 +176,12 @@ impl Report {
         self.headline = format!("{verdict}: home in {:.2} s{rest}", self.home.duration_s);
         self.proved = proved;
     }
-
-    fn stop_words(&self) -> String {
-        let Stop {
-            time_s,
-            is_stated,
-            off_rad,
-            washed,
-            at_plate,
-        } = &self.stop;
-        let off_deg = off_rad.to_degrees();
-        let Some(time_s) = time_s else {
-            return format!(
-                "the arm is nowhere near the plan (a joint is off by {off_deg:.1}°): no plate counts as washed; --stopped-s says when it was stopped"
-            );
-        };
-        let how = if *is_stated {
-            "as stated"
-        } else {
-            "by the joints; the earliest where several moments fit"
-        };
-        let at = at_plate.map_or_else(String::new, |plate| format!(", at {}", plate_name(plate)));
-        let washed = match &washed[..] {
-            [] => "none".to_owned(),
-            some => some
-                .iter()
-                .map(|plate| plate_name(*plate))
-                .collect::<Vec<_>>()
-                .join(", "),
-        };
-        format!("at {time_s:.2} s of the plan ({how}; joints off by up to {off_deg:.2}°){at}; washed by then: {washed}")
-    }
 }
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.headline)?;
-        writeln!(f, "  stop  {}", self.stop_words())?;
+        writeln!(f, "  stop  {}", self.stop)?;
         for PairClearance { a, b, distance_m, .. } in &self.near {
             let pair = pair_text(&[a.clone(), b.clone()]);
             writeln!(

@@ -4,7 +4,8 @@ use crate::answer_writer::AnswerWriter;
 use crate::cell;
 use crate::host::Host;
 use crate::keep::{DiskContents, Keeper, SavedFile};
-use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, LastStage, MapQuestion, SaveQuestion};
+use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, LastStage, MapQuestion, RecoveryQuestion, SaveQuestion};
+use crate::recovery;
 use crate::sessions::{Lane, Sessions, Turn, is_name};
 use crate::subject::{LONGEST, LONGEST_MAP, LastResult, Subject, accepted, may_name_its_files, stated};
 use platewash_kinematics::JointVector;
@@ -176,7 +177,7 @@ impl Editor {
         Ok(view)
     }
 
-    /// Answers a question: `/cell`, `/map`, and where it is kept `/save`, `/disk`, `/hello`. Each line of JSON goes to `tell` as soon as it
+    /// Answers a question: `/cell`, `/map`, `/recover`, and where it is kept `/save`, `/disk`, `/hello`. Each line of JSON goes to `tell` as soon as it
     /// is known. The work stops where `tell` returns that the client has left, or `gone` is cancelled.
     pub fn answer(&self, path: &str, question: &[u8], tell: &mut dyn FnMut(String) -> bool, gone: &CancelToken) {
         let mut told = AnswerWriter::new(tell, gone, self.clock);
@@ -213,6 +214,12 @@ impl Editor {
                 let _turn = self.turn(&question.session, Lane::Map, gone)?;
                 answer.end_within(LONGEST_MAP);
                 cell::map(&self.subject, &question, answer);
+            }
+            ("/recover", _) => {
+                let question: RecoveryQuestion = read(question)?;
+                let _turn = self.turn(&question.session, Lane::Map, gone)?;
+                answer.end_within(LONGEST);
+                recovery::answer(&self.subject, &question, answer);
             }
             ("/save", Some(kept)) => {
                 let question: SaveQuestion = read(question)?;

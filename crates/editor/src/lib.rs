@@ -12,6 +12,7 @@
 //! | a new question ends those before it | `sessions.rs` |
 //! | the subject: the scenario, changed; its arm and its job; the limit on work | `subject.rs` |
 //! | from the scenario to the proof, or the reason that there is none; places at which plates could lie | `cell.rs` |
+//! | the way on after a stop | `recovery.rs` |
 //! | the things that a user can move | `moves.rs` |
 //! | the reasons that a scenario is refused | `refusal.rs` |
 //! | lines on their way to the page, their time, the reasons that an answer ends | `answer_writer.rs` |
@@ -24,6 +25,7 @@ mod host;
 mod keep;
 mod moves;
 pub mod protocol;
+mod recovery;
 mod refusal;
 mod sessions;
 mod subject;

@@ -63,6 +63,20 @@ pub struct MapQuestion {
     pub plate: usize,
 }
 
+/// Question for the way on after a stop of the scenario's plan.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecoveryQuestion {
+    /// The page that asks.
+    pub session: String,
+    /// The scenario.
+    pub text: String,
+    /// Time in the plan at which it was stopped \[s\]; `None` where that is not known.
+    pub stopped_s: Option<f64>,
+    /// Where the arm stands \[deg\]; `None` for where the plan has it then.
+    pub at_deg: Option<[f64; 6]>,
+}
+
 /// Request to write the scenario, and its results beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -354,6 +368,25 @@ pub enum MapLine<'a> {
     MapDone {
         /// Meaning of the map, in words.
         words: &'a str,
+        /// Time that it took.
+        ms: Milliseconds,
+    },
+}
+
+/// The answer to a [`RecoveryQuestion`].
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum RecoveryLine {
+    /// The way home, and what is left.
+    Recovery {
+        /// True where both are proved.
+        proved: bool,
+        /// The stop, in words.
+        stop: String,
+        /// First line on the plates that are left; `None` where all were washed.
+        rest: Option<String>,
+        /// The motion home, with its proof.
+        view: Box<view::View>,
         /// Time that it took.
         ms: Milliseconds,
     },

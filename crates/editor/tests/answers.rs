@@ -536,3 +536,64 @@ fn answers_a_scenario_with_a_table_of_plates_and_soils() {
     let moves = told["moves"].to_string() + &lines[0].to_string();
     assert!(moves.contains("change their places in that file"), "{moves}");
 }
+
+fn recovery(stopped_s: Value, at_deg: Value) -> Value {
+    json!({"session": "sessionofthistest", "text": KITCHEN, "stopped_s": stopped_s, "at_deg": at_deg})
+}
+
+#[test]
+fn a_stop_is_answered_with_the_motion_home_and_what_is_left() {
+    let editor = kitchen();
+    let lines = ask(&editor, "/recover", &recovery(json!(14.0), Value::Null));
+    let found = line(&lines, "recovery");
+    assert_eq!((kinds(&lines), &found["proved"]), (vec!["recovery"], &json!(true)));
+    assert!(
+        found["stop"]
+            .as_str()
+            .unwrap()
+            .starts_with("at 14.00 s of the plan (as stated; "),
+        "{}",
+        found["stop"]
+    );
+    assert!(
+        found["rest"]
+            .as_str()
+            .unwrap()
+            .starts_with("REST of a stopped plan, without plate "),
+        "{}",
+        found["rest"]
+    );
+    let view = &found["view"];
+    assert!(
+        view["certificate"]["headline"]
+            .as_str()
+            .unwrap()
+            .starts_with("RECOVERY: from the stop home")
+    );
+    assert_eq!(view["segments"].as_array().unwrap().last().unwrap()["kind"], "return");
+    // From joints alone.
+    let lines = ask(&editor, "/recover", &recovery(Value::Null, json!([0, 0, 0, 0, 60, 0])));
+    assert_eq!(line(&lines, "recovery")["proved"], true);
+}
+
+#[test]
+fn what_is_no_stop_is_refused_in_words() {
+    let editor = kitchen();
+    for (question, words) in [
+        (recovery(Value::Null, Value::Null), "where the arm stands"),
+        (recovery(json!(-1), Value::Null), "the time of the stop"),
+        (recovery(json!(1e9), json!([0, 0, 0, 0, 60, 0])), "the time of the stop"),
+        (recovery(Value::Null, json!([999, 0, 0, 0, 0, 0])), "joint 1"),
+    ] {
+        let lines = ask(&editor, "/recover", &question);
+        let said = line(&lines, "refused")["words"].as_str().unwrap();
+        assert!(said.contains(words), "{said}");
+    }
+    let six = recovery(Value::Null, json!([1, 2, 3]));
+    assert!(
+        line(&ask(&editor, "/recover", &six), "failed")["words"]
+            .as_str()
+            .unwrap()
+            .contains("question")
+    );
+}

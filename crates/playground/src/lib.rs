@@ -4,7 +4,7 @@
 //!
 //! | question | answer |
 //! | --- | --- |
-//! | `/cell`, `/map` | those of [`platewash_editor::protocol`] |
+//! | `/cell`, `/map`, `/recover` | those of [`platewash_editor::protocol`] |
 //! | `/open` | the first contents of the page of a scenario |
 //! | `/shipped` | the scenarios that come with the program |
 //! | `/file` | a file, byte for byte as the command writes it of the same scenario |

@@ -40,7 +40,7 @@ impl Service for CellService {
     fn knows(&self, path: &str) -> Option<QuestionLimits> {
         let asked = |is_work, most_bytes| Some(QuestionLimits { is_work, most_bytes });
         match path {
-            "/cell" | "/map" | "/save" => asked(true, MOST_QUESTION_BYTES),
+            "/cell" | "/map" | "/recover" | "/save" => asked(true, MOST_QUESTION_BYTES),
             "/disk" | "/hello" => asked(false, MOST_SHORT_BYTES),
             _ => None,
         }

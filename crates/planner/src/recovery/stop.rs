@@ -4,7 +4,9 @@ use crate::recovery::RecoveryError;
 use platewash_kinematics::JointVector;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
+use platewash_workcell::words::plate_name;
 use serde::Serialize;
+use std::fmt;
 
 /// Distance beyond that of the nearest moment up to which a moment fits \[rad\]: the joints may be off by as much.
 const AS_NEAR_RAD: f64 = 0.035;
@@ -90,4 +92,34 @@ impl Stop {
 
 fn washes(plan: &Plan) -> impl Iterator<Item = &PlanSegment> {
     plan.segments.iter().filter(|segment| segment.kind == SegmentKind::Wash)
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let off_deg = self.off_rad.to_degrees();
+        let Some(time_s) = self.time_s else {
+            return write!(
+                f,
+                "the arm is nowhere near the plan (a joint is off by {off_deg:.1}°), so no plate counts as washed; state the time of the stop \
+                 to change that"
+            );
+        };
+        let how = match self.is_stated {
+            true => "as stated",
+            false => "by the joints; the earliest where several moments fit",
+        };
+        let at = self
+            .at_plate
+            .map_or_else(String::new, |plate| format!(", at {}", plate_name(plate)));
+        let names: Vec<_> = self.washed.iter().map(|plate| plate_name(*plate)).collect();
+        let washed = if names.is_empty() {
+            "none".to_owned()
+        } else {
+            names.join(", ")
+        };
+        write!(
+            f,
+            "at {time_s:.2} s of the plan ({how}; joints off by up to {off_deg:.2}°){at}; washed by then: {washed}"
+        )
+    }
 }

@@ -159,6 +159,7 @@ export class App {
         this.#hold(stale);
       },
       link: (entries) => this.#address.keep(entries),
+      time: () => this.#player.time,
     }, playground);
   }
 

@@ -14,6 +14,9 @@ export interface PanelActions {
   /** Shows where a plate could be washed. */
   map(plate: number): void;
   clearMap(): void;
+  /** Shows the way on after a stop with the joints as typed, or else at the moment shown. */
+  recover(joints: string): void;
+  clearRecovery(): void;
   /** A key on a row; whether it was of use. */
   key(event: KeyboardEvent): boolean;
 }
@@ -149,6 +152,8 @@ export class CellPanel {
   readonly #findings = el("ul", { class: "plain findings" });
   readonly #mapWords = el("span", { set: { role: "status" } });
   readonly #map: HTMLElement;
+  readonly #recoveryWords = el("span", { set: { role: "status" } });
+  readonly #recovery: HTMLElement;
   readonly #hint = el("p", { class: "summary" });
   #shown: unknown[] = [];
 
@@ -164,12 +169,21 @@ export class CellPanel {
     const hide = button({ class: "button text-button", title: "Hide the map (Escape)" }, () => actions.clearMap(), "Hide the map");
     this.#map = el("div", { class: "map-words" }, this.#mapWords, hide);
     this.#map.hidden = true;
-    this.element = el("div", { class: "cell-panel" }, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, obstacle, this.#all), this.#hint);
+    const joints = el("input", { class: "joints", set: { type: "text", autocomplete: "off", spellcheck: "false", placeholder: "joints now, six numbers", "aria-label": "Joint positions where the arm stands, in degrees; empty for the moment shown" } });
+    joints.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") actions.recover(joints.value);
+    });
+    const recover = button({ class: "button text-button", title: "After a stop: a proved motion home from these joints, or from the moment shown, and what is left to wash" }, () => actions.recover(joints.value), "Recover");
+    const back = button({ class: "button text-button", title: "Show the plan again (Escape)" }, () => actions.clearRecovery(), "Back to the plan");
+    this.#recovery = el("div", { class: "map-words" }, this.#recoveryWords, back);
+    this.#recovery.hidden = true;
+    const stop = el("div", { class: "row-places", set: { role: "group", "aria-label": "After a stop" } }, "After a stop", joints, el("span", { class: "unit" }, "°"), recover);
+    this.element = el("div", { class: "cell-panel" }, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, obstacle, this.#all), this.#hint, stop, this.#recovery);
   }
 
-  show(cell: Cell, selected: Selection, mapWords: string | null): void {
+  show(cell: Cell, selected: Selection, mapWords: string | null, recoveryWords: string | null): void {
     const { seen, answers, centres } = cell;
-    const now = [seen.drawn, cell.standing.words, answers, centres, selected, mapWords, seen.preview];
+    const now = [seen.drawn, cell.standing.words, answers, centres, selected, mapWords, recoveryWords, seen.preview];
     if (now.every((one, k) => one === this.#shown[k])) return;
     this.#shown = now;
     this.#showRows(centres.map((centre, k) => ({ name: plateName(seen.drawn?.plates, k), centre, state: plateState(answers, k) })), selected);
@@ -177,6 +191,8 @@ export class CellPanel {
     this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, "Note: ", isolated(words))));
     this.#map.hidden = mapWords === null;
     if (this.#mapWords.textContent !== mapWords) this.#mapWords.textContent = mapWords;
+    this.#recovery.hidden = recoveryWords === null;
+    if (this.#recoveryWords.textContent !== recoveryWords) this.#recoveryWords.textContent = recoveryWords;
     const stuck = cell.unmoved();
     const drag = "Drag plates in the scene, or choose one with N and move it with the arrow keys; an obstacle once it is clicked.";
     const hint = stuck ?? (seen.drawn?.listed === false ? `${drag} The seed draws these plates from the region: moving one lists them all where they are.` : drag);

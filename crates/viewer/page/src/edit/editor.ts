@@ -2,7 +2,7 @@
 import type { EditActions, Editing } from "../scene/editing.ts";
 import { announce, byId } from "../shell/dom.ts";
 import type { Panel } from "../shell/panels.ts";
-import type { Verdict } from "../verdict.ts";
+import { type Verdict, verdict } from "../verdict.ts";
 import type { View } from "../view.ts";
 import { editVerdict, isStale, NOT_APPLIED } from "./answers.ts";
 import { BROWSER_TIME } from "./asker.ts";
@@ -15,6 +15,7 @@ import { Form, TextPanel } from "./form.ts";
 import { type Edit, Keeper, tabStore } from "./history.ts";
 import { MapAsker } from "./map.ts";
 import type { EditDocument } from "./protocol.ts";
+import { readJoints, RecoveryAsker } from "./recovery.ts";
 import { CellShown } from "./shown.ts";
 import { ConflictBar, Toolbar } from "./toolbar.ts";
 
@@ -55,6 +56,8 @@ export interface EditorHost {
   say(verdict: Verdict, stale: boolean): void;
   /** Writes further entries into the page's address. */
   link(entries: Readonly<Record<string, string>>): void;
+  /** Time of the film that is shown [s]. */
+  time(): number;
 }
 
 /** What tools of the playground do with the cell. */
@@ -96,6 +99,9 @@ export class Editor {
   readonly #shown: CellShown;
   readonly #commands: Commands;
   readonly #map: MapAsker;
+  readonly #recovery: RecoveryAsker;
+  /** The recovery that stands in the place of the plan. */
+  #recovered: View | null = null;
   #scene: Editing | null = null;
   readonly #drawings: Drawings;
   readonly #toolbar: Toolbar;
@@ -136,12 +142,15 @@ export class Editor {
     this.#shown = new CellShown(view, () => this.#scene, (next) => host.replace(next));
     this.#commands = new Commands(this.#cell, () => this.#shown.view, () => this.#scene, () => host.size(), touch, (words) => this.#say(words));
     this.#map = new MapAsker(channel, session, () => this.#scene, touch);
+    this.#recovery = new RecoveryAsker(channel, session, touch);
     this.#drawings = new Drawings(this.#cell);
     const tools = playground?.begin(this.#forPlayground()) ?? [];
     this.#toolbar = new Toolbar({ undo: () => this.#travel("Undone"), redo: () => this.#travel("Done again"), save: () => this.#save() }, tools);
     this.#cellPanel = new CellPanel(this.#commands, {
       map: (plate) => this.#map.ask(this.#cell.text, plate, this.#cell.seen.drawn?.plates[plate]?.name ?? "the plate"),
       clearMap: () => this.#map.clear(),
+      recover: (joints) => this.#recover(joints),
+      clearRecovery: () => this.#recovery.clear(),
       key: (event) => this.#key(event),
     });
     this.#form = new Form(edit.keys, (key, value) => this.#cell.change([{ key, value }], value === null ? `Reset ${key}` : `Change ${key}`, key));
@@ -182,7 +191,10 @@ export class Editor {
     if (!this.#changed) return;
     this.#changed = false;
     if (this.#saveSoon && (this.#cell.version.edits.length === 0 || this.#cell.settled)) this.#save();
-    this.#map.follow(this.#cell.text, this.#cell.version.edits.length > 0);
+    const changing = this.#cell.version.edits.length > 0;
+    this.#map.follow(this.#cell.text, changing);
+    this.#recovery.follow(this.#cell.text, changing);
+    this.#showRecovery();
     this.#keep();
     this.#show();
   }
@@ -213,11 +225,30 @@ export class Editor {
       selected: () => this.#commands.selected,
       /** Where plates that stand in the way could lie [m]. */
       ghosts: () => cell.answers.places.flatMap(({ plate, nearest_m }) => (nearest_m === null ? [] : [{ plate, centre_m: nearest_m }])),
+      /** What is said about a recovery; null for none. */
+      recovery: () => this.#recovery.words,
       /** The last questions. */
       timings: () => cell.timings,
       /** Everything was answered and drawn. */
       settled: () => this.#drawings.settled(),
     };
+  }
+
+  /** Asks for the way on from the joints that are typed, or from where the plan has the arm at the moment shown. */
+  #recover(joints: string): void {
+    const at_deg = readJoints(joints);
+    if (at_deg === "not six") return this.#recovery.refuse("Joints: expected six numbers in degrees, or nothing for the moment shown.");
+    if (this.#cell.standing.kind !== "proved") return this.#recovery.refuse("A recovery is one of a proved plan; this one is not proved.");
+    if (at_deg === null && this.#recovered !== null) return this.#recovery.refuse("The plan is shown again: choose its moment, and press Recover.");
+    this.#recovery.ask(this.#cell.text, at_deg === null ? this.#host.time() : null, at_deg);
+  }
+
+  /** Puts the motion home in the place of the plan, or the plan back. */
+  #showRecovery(): void {
+    const { view } = this.#recovery;
+    if (view === this.#recovered) return;
+    this.#recovered = view;
+    this.#host.replace(view ?? this.#shown.view);
   }
 
   #forPlayground(): PlaygroundCell {
@@ -244,7 +275,10 @@ export class Editor {
 
   #key(event: KeyboardEvent): boolean {
     const used = plateKey(event, this.#commands, () => this.#cancel());
-    if (!used && event.key === "Escape") this.#map.clear();
+    if (!used && event.key === "Escape") {
+      this.#map.clear();
+      this.#recovery.clear();
+    }
     return used;
   }
 
@@ -301,10 +335,11 @@ export class Editor {
     const { answers, standing, seen } = cell;
     const unsaved = this.#file !== null && disk.unsaved;
     const typing = byId("panels").querySelector('[data-dirty="true"]') !== null;
-    this.#host.say(typing ? NOT_APPLIED : editVerdict(standing, answers, this.#shown.view), typing || isStale(standing));
+    const said = this.#recovered === null ? editVerdict(standing, answers, this.#shown.view) : verdict(this.#recovered);
+    this.#host.say(typing ? NOT_APPLIED : said, typing || isStale(standing));
     const { undoes, redoes } = cell.history;
     this.#toolbar.show({ undoes, redoes, activity: cell.state, file: this.#file, unsaved, saving: disk.saving, notice: this.#notice.words });
-    this.#cellPanel.show(cell, this.#commands.selected, this.#map.words);
+    this.#cellPanel.show(cell, this.#commands.selected, this.#map.words, this.#recovery.words);
     const { refused } = answers;
     const key = refused?.key ?? null;
     this.#form.show({ stated: seen.scenario?.stated ?? NO_VALUES, values: seen.scenario?.values ?? NO_VALUES, refused: key === null ? null : { key, words: refused!.words } });

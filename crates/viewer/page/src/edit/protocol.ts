@@ -181,6 +181,21 @@ export type MapLine =
   | { kind: "map"; step_m: number; washable_m: [number, number][]; unwashable_m: [number, number][]; done: number; of: number }
   | { kind: "map_done"; words: string; ms: Milliseconds };
 
+/** `POST /recover`: the way on after a stop of the scenario's plan. One line. */
+export interface RecoveryQuestion {
+  session: string;
+  text: string;
+  /** Time in the plan [s]; null where it is not known. */
+  stopped_s: number | null;
+  /** Where the arm stands [deg]; null for where the plan has it then. */
+  at_deg: number[] | null;
+}
+
+export type RecoveryLine =
+  | LastLine
+  /** `view`: the motion home, with its proof. `rest`: first line on the plates that are left; null where all were washed. */
+  | { kind: "recovery"; proved: boolean; stop: string; rest: string | null; view: View; ms: Milliseconds };
+
 /** `POST /save`: writes the scenario, and plan, report and page beside it. */
 export interface SaveQuestion {
   session: string;

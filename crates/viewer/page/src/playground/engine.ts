@@ -58,6 +58,7 @@ const FAULT = "a fault of the program: the console of the browser says more";
 /** Questions that wait for each other share a lane: all that come before the first proof are asked on its worker. */
 function laneOf(path: string, question: object): string {
   if (path === "/cell") return (question as CellQuestion).want;
+  if (path === "/recover") return "/map";
   return path === "/map" || path === "/file" ? path : "proof";
 }
 
