@@ -210,3 +210,36 @@ test("a map shows where a plate could lie, and goes when the cell changes", asyn
   assert.equal(await words.isVisible(), false);
   quiet();
 });
+
+test("after a stop the page shows the proved way home and what is left, and the plan again", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  const plan = await page.evaluate(() => {
+    const { segments, heading } = window.platewash.view;
+    const wash = segments.filter((segment) => segment.kind === "wash")[1];
+    window.platewash.pause();
+    window.platewash.seek(0.5 * (wash.t_start_s + wash.t_end_s));
+    return { hash: heading.hash, plate: wash.plate };
+  });
+  const said = () => page.evaluate(() => window.platewash.edit.recovery());
+  const wait = (words) => page.waitForFunction((words) => window.platewash.edit.recovery()?.includes(words), words);
+  await page.getByRole("tab", { name: "Cell" }).click();
+  await page.getByRole("button", { name: "Recover", exact: true }).click();
+  await wait("Shown: the motion home");
+  assert.match(await said(), /as stated.*washed by then: plate \d+\. Shown: the motion home\. Then the rest: REST of a stopped plan, without plate \d+; PROVED/);
+  await page.waitForFunction(() => window.platewash.view.segments.length === 2);
+  assert.match(await text(page), /RECOVERY: from the stop home/);
+  const segments = await page.evaluate(() => window.platewash.view.segments.map(({ kind, plate }) => [kind, plate]));
+  assert.deepEqual(segments, [["retreat", plan.plate], ["return", plan.plate]]);
+  await page.getByRole("button", { name: "Back to the plan" }).click();
+  await page.waitForFunction((hash) => window.platewash.view.heading.hash === hash, plan.hash);
+  // Joints as they are typed; what is none is refused, and so is what touches.
+  const joints = page.getByRole("textbox", { name: /^Joint positions where the arm stands/ });
+  await joints.fill("0 0 0");
+  await joints.press("Enter");
+  await wait("expected six numbers");
+  await joints.fill("0 80 0 0 30 0");
+  await joints.press("Enter");
+  await wait("touch");
+  assert.equal(await page.evaluate(() => window.platewash.view.heading.hash), plan.hash);
+  quiet();
+});
