@@ -218,7 +218,7 @@ test("after a stop the page shows the proved way home and what is left, and the 
     const wash = segments.filter((segment) => segment.kind === "wash")[1];
     window.platewash.pause();
     window.platewash.seek(0.5 * (wash.t_start_s + wash.t_end_s));
-    return { hash: heading.hash, plate: wash.plate };
+    return { hash: heading.hash, plate: wash.plate, time: 0.5 * (wash.t_start_s + wash.t_end_s) };
   });
   const said = () => page.evaluate(() => window.platewash.edit.recovery());
   const wait = (words) => page.waitForFunction((words) => window.platewash.edit.recovery()?.includes(words), words);
@@ -230,8 +230,10 @@ test("after a stop the page shows the proved way home and what is left, and the 
   assert.match(await text(page), /RECOVERY: from the stop home/);
   const segments = await page.evaluate(() => window.platewash.view.segments.map(({ kind, plate }) => [kind, plate]));
   assert.deepEqual(segments, [["retreat", plan.plate], ["return", plan.plate]]);
+  assert.equal(await page.evaluate(() => window.platewash.time()), 0);
   await page.getByRole("button", { name: "Back to the plan" }).click();
   await page.waitForFunction((hash) => window.platewash.view.heading.hash === hash, plan.hash);
+  assert.ok(Math.abs((await page.evaluate(() => window.platewash.time())) - plan.time) < 1e-3);
   // Joints as they are typed; what is none is refused, and so is what touches.
   const joints = page.getByRole("textbox", { name: /^Joint positions where the arm stands/ });
   await joints.fill("0 0 0");

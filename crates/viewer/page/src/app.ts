@@ -160,6 +160,7 @@ export class App {
       },
       link: (entries) => this.#address.keep(entries),
       time: () => this.#player.time,
+      seek: (t) => this.#controls.seek(t),
     }, playground);
   }
 

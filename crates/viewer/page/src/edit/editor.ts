@@ -58,6 +58,8 @@ export interface EditorHost {
   link(entries: Readonly<Record<string, string>>): void;
   /** Time of the film that is shown [s]. */
   time(): number;
+  /** Goes to a time of the film [s]. */
+  seek(t: number): void;
 }
 
 /** What tools of the playground do with the cell. */
@@ -102,6 +104,8 @@ export class Editor {
   readonly #recovery: RecoveryAsker;
   /** The recovery that stands in the place of the plan. */
   #recovered: View | null = null;
+  /** Time of the plan's film before that [s]. */
+  #stoppedAt = 0;
   #scene: Editing | null = null;
   readonly #drawings: Drawings;
   readonly #toolbar: Toolbar;
@@ -247,8 +251,12 @@ export class Editor {
   #showRecovery(): void {
     const { view } = this.#recovery;
     if (view === this.#recovered) return;
+    // From the plan to the beginning of the way home, and back to the moment of before.
+    const t = this.#recovered === null ? 0 : this.#stoppedAt;
+    if (this.#recovered === null) this.#stoppedAt = this.#host.time();
     this.#recovered = view;
     this.#host.replace(view ?? this.#shown.view);
+    this.#host.seek(t);
   }
 
   #forPlayground(): PlaygroundCell {
