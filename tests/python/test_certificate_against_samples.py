@@ -17,6 +17,7 @@ from clearance_reference import Plates, Reference, Tool, bodies
 
 SAMPLES = 6000
 CLEARANCE_SAMPLES = 250
+STOPS = 4
 COAL_M = 5e-5  # what coal's iteration and ours may differ by
 
 
@@ -148,7 +149,8 @@ def test_the_tip_follows_the_wash_curve(plan, checks, motion, tip):
     assert worst <= checks["path_deviation"]["measure"]["limit"] == 2e-4
 
 
-def test_no_sample_is_closer_than_proved(run, plan, checks, motion, irb120_urdf):
+def check_clearances(plan, certificate, motion, irb120_urdf, samples):
+    """No sampled distance of a pair is less than the certificate proves; the number of pairs."""
     held, lying = plan["job"]["workcell"]["tool"], plan["job"]["plates"]
     handle = held["bodies"][0]["shape"]["cylinder"]["radius_m"]
     sponge = held["sponge"]
@@ -158,16 +160,32 @@ def test_no_sample_is_closer_than_proved(run, plan, checks, motion, irb120_urdf)
     reference, tree = Reference(bodies(irb120_urdf, tool, plates)), urdf_reader.Tree(irb120_urdf)
     joints = [joint.name for joint in tree.chain("link_6")]
     names, _ = kinds(plan, motion[0])
-    rules = {}
-    for row in run[1]["clearance"]:
-        if row["rule"] == "clearance":
-            rules[tuple(row["pair"])] = row["at_least_m"]
-    assert len(rules) > 40
-    picked = np.linspace(0, len(motion[0]) - 1, CLEARANCE_SAMPLES).astype(int)
-    for k in picked:
+    rules = {tuple(row["pair"]): row["at_least_m"] for row in certificate["clearance"] if row["rule"] in ("clearance", "reduced")}
+    for k in np.linspace(0, len(motion[0]) - 1, samples).astype(int):
         reference.move(tree.poses(dict(zip(joints, motion[1][k]))))
         for (a, b), proved in rules.items():
             sponge_on_plate = a == "sponge" and b.startswith("plate") and names[k] in ("approach", "wash", "retreat")
             if not sponge_on_plate:
                 assert reference.distance(a, b) >= proved - COAL_M, f"{a} and {b} at {motion[0][k]:.3f} s"
+    return len(rules)
+
+
+def test_no_sample_is_closer_than_proved(run, plan, checks, motion, irb120_urdf):
+    assert check_clearances(plan, run[1], motion, irb120_urdf, CLEARANCE_SAMPLES) > 40
     assert bound(checks, "clearance") >= 0.01
+
+
+def test_no_way_home_after_a_stop_is_closer_than_proved(platewash, run, plan, motion, irb120_urdf, tmp_path):
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    rng = np.random.default_rng(69)
+    for k in rng.integers(0, len(motion[0]), STOPS):
+        stands = np.degrees(motion[1][k]) + rng.uniform(-2.0, 2.0, 6)
+        asked = [platewash, "recover", "plan.json", "--stopped-s", str(motion[0][k]), "--at-deg", *map(str, stands), "--quiet"]
+        subprocess.run(asked, check=True, capture_output=True, cwd=tmp_path)
+        home, certificate = [json.loads((tmp_path / "out" / "recovery" / f"home{end}.json").read_text()) for end in ("", ".certificate")]
+        assert certificate["verdict"] == "pass"
+        knots = home["knots"]
+        spline = CubicHermiteSpline(*(np.array(knots[key]) for key in ("t_s", "q_rad", "qd_rad_s")))
+        assert np.abs(np.degrees(spline(0.0)) - stands).max() < 1e-9
+        times = np.linspace(0, knots["t_s"][-1], 2 * CLEARANCE_SAMPLES)
+        assert check_clearances(home, certificate, (times, spline(times)), irb120_urdf, 60) > 40

@@ -454,3 +454,48 @@ def test_states_why_there_is_no_dry_run(kitchen: pw.Planned, run: pw.PaperRun) -
     with pytest.raises(pw.PlanError) as caught:
         plan.dry_run(height_m=0.0103)
     assert (caught.value.stage, caught.value.plate) == ("plan", plan.order[0])
+
+
+def in_wash(plan: pw.Plan, turn: int) -> tuple[float, np.ndarray]:
+    """Time in the middle of a wash [s], and where the plan has the arm then [rad]."""
+    wash = [segment for segment in plan.segments if segment.kind == "wash"][turn]
+    time_s = 0.5 * (wash.t_start_s + wash.t_end_s)
+    return time_s, plan.trajectory.at(time_s)[0]
+
+
+def test_a_recovery_equals_that_of_the_command(platewash: Path, tmp_path: Path, kitchen: pw.Planned) -> None:
+    plan = kitchen.plan
+    time_s, q = in_wash(plan, 2)
+    degrees = [f"{angle:.2f}" for angle in np.degrees(q) + 1.0]
+    recovery = plan.recover(np.radians([float(angle) for angle in degrees]), time_s)
+    (tmp_path / "plan.json").write_text(plan.to_json(), encoding="utf-8", newline="")
+    asked = ["recover", "plan.json", "--at-deg", *degrees, "--stopped-s", str(time_s), "--quiet"]
+    subprocess.run([platewash, *asked], cwd=tmp_path, check=True, capture_output=True)
+    home, rest, stop, near = recovery
+    assert rest is not None
+    for made, name in ((home, "home"), (rest, "rest")):
+        assert made.to_json() == (tmp_path / "out" / "recovery" / f"{name}.json").read_text(encoding="utf-8")
+        assert made.job.recovery.parent == plan.hash and pw.prove(made).proved
+    assert (stop.time_s, stop.is_stated, stop.washed, stop.at_plate) == (time_s, True, plan.order[:2], plan.order[2])
+    assert rest.order == plan.order[2:] and near == []
+    assert pw.prove(rest).plates_washed == 2 and pw.prove(home).plates_washed == 0
+    assert pickle.loads(pickle.dumps(home)) == home
+    # By the joints alone, and at the end, where all were washed.
+    assert plan.recover(q).rest == rest
+    assert plan.recover(plan.job.home_rad[1], plan.duration_s).rest is None
+
+
+def test_states_why_there_is_no_recovery(kitchen: pw.Planned, run: pw.PaperRun) -> None:
+    plan = kitchen.plan
+    _, q = in_wash(plan, 0)
+    for stopped_s in (-1.0, 1e9, math.nan, math.inf):
+        with pytest.raises(pw.InputError) as refused:
+            plan.recover(q, stopped_s)
+        assert refused.value.argument == "stopped_s"
+    deep = q + np.array([0.0, 0.15, 0.0, 0.0, 0.0, 0.0])
+    edited = pw.Plan.from_json(plan.to_json().replace('"coverage":0.995', '"coverage":0.5'))
+    home = plan.recover(q).home
+    cases = [(plan, deep, "touch"), (plan, q + 9.0, "joint"), (run.plan(), q, "paper's program"), (edited, q, "changed after"), (home, q, "stopped first")]
+    for stopped, at, words in cases:
+        with pytest.raises((pw.PlanError, pw.ProveError), match=words):
+            stopped.recover(at)
