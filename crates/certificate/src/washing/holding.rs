@@ -3,8 +3,10 @@
 //! Requirement 33, formulas (33.1) to (33.5) in `docs/contact.md`.
 //!
 //! **Load.** Every column presses on the plate with a force p along the normal, N all together, and drags along the face with no more than
-//! μ p. Across the plate's axis that is at most (|sin β| + μ) p, β the slope of the face. The normals of a face of revolution meet its axis:
-//! about it turns only the friction, with the distance ρ from the axis as its lever.
+//! μ p. With β the slope of the face, across the plate's axis that is at most h(|sin β|) p: with friction straight up or down the slope
+//! |sin β| + μ cos β, the greatest where μ |sin β| ≤ cos β, and √(1 + μ²) of both together elsewhere. h is concave, so that its mean over the
+//! columns is at most that at the mean of |sin β|. The normals of a face of revolution meet its axis: about it turns only the friction, with
+//! the distance ρ from the axis as its lever.
 //!
 //! **Ring.** A plate that stands on a ring of the radius R about its axis is pressed onto it with P, whose centre is c from the axis, and is
 //! pushed across the axis with F and turned about c with T. How P is spread over the ring is not known. Friction of A p + B ẑ × (r − c) p,
@@ -15,10 +17,10 @@
 //! of the plate over its ring:
 //!
 //! - P ≥ W + (√(1 − S²) − μ S) N, and of each column at most k p, k = min(1 + μ S, √(1 + μ²));
-//! - F ≤ f + G, f ≤ (S + μ) N, and f is no more than the load above;
+//! - F ≤ f + G, f ≤ h(S) N, and f is no more than the load above;
 //! - |c| P ≤ M = min(ρ k N, d k N + O) + z F, with ρ the greatest distance from the axis that the sponge reaches on the plate and O the moment
 //!   of what is pressed about the tip, at most s k N;
-//! - |tip − c| P ≤ W d + O + z F, so that T P ≤ (W d + O + z F) f + M G + t P, with t the torque about the tip, at most s (S + μ) N.
+//! - |tip − c| P ≤ W d + O + z F, so that T P ≤ (W d + O + z F) f + M G + t P, with t the torque about the tip, at most s h(S) N.
 //!
 //! Where a second bound of f, O or t holds for every N, the lesser one counts: each is a line over some intervals of N. P, F and M are lines
 //! there, too, and the friction suffices where (u μ′ P − F)(R P − M) ≥ T P (u = 1, μ′ the coefficient): a parabola in N, which is not below 0
@@ -109,7 +111,8 @@ impl HolderInputs<'_> {
         let [least, assumed] = FRICTION;
         let most = terms.map_or(assumed, |terms| terms.sponge_friction);
         let sponge_friction = [least.min(most), most];
-        let lateral_n = sponge_friction.map(|friction| stiffest * (volumes.slope_m3 + friction * volumes.normal_m3));
+        let slope = volumes.slope_m3 / volumes.normal_m3;
+        let lateral_n = sponge_friction.map(|friction| stiffest * volumes.normal_m3 * across(slope, friction));
         let torque_nm = sponge_friction.map(|friction| stiffest * friction * volumes.turn_m4);
         let is_known = lateral_n.iter().chain(&torque_nm).all(|bound| bound.is_finite());
         let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
@@ -179,6 +182,16 @@ pub(crate) struct RingLoad {
     pub lateral_n: f64,
     pub lean_nm: f64,
     pub twist_nm: f64,
+}
+
+/// Greatest force across the plate's axis of what is pressed along a normal, h(|sin β|).
+fn across(sine: f64, friction: f64) -> f64 {
+    let cosine = (1.0 - sine * sine).sqrt();
+    if friction * sine <= cosine {
+        sine + friction * cosine
+    } else {
+        friction.hypot(1.0)
+    }
 }
 
 /// A line over N: its value at 0 and its slope.
@@ -267,7 +280,7 @@ impl RingLoad {
     fn stretches(&self) -> Vec<Stretch> {
         let [down_n, across_n] = self.weight_n;
         let (sine, friction, most) = (self.sine, self.friction, self.pressed_n);
-        let dragged = sine + friction;
+        let dragged = across(sine, friction);
         let least = (1.0 - sine * sine).max(0.0).sqrt() - friction * sine;
         let greatest = (1.0 + friction * sine).min(friction.hypot(1.0));
         let (d, s, z) = (self.tip_m, self.reach_m, self.height_m);

@@ -235,7 +235,7 @@ const LONGEST: usize = 64;
 
 /// Relative gap allowed between the bounds and the values at single moments, per quantity: least and greatest volume, compression, twist; of
 /// the holder, pressed along normals, across the axis, and about it.
-const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02, 0.05, 0.05, 0.05];
+const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02, 0.02, 0.02, 0.02];
 
 /// Loss of compression between moments above which a stretch is halved instead of given more columns \[m\].
 const MOST_SAG_M: f64 = 1e-4;
