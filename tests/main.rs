@@ -23,6 +23,7 @@ mod random_scenarios;
 mod reachable_points;
 mod simulation;
 mod spiral_knots;
+mod stays;
 mod transit_gain;
 mod turned_tool;
 mod turned_world;
