@@ -16,10 +16,10 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 /// Columns across the sponge.
-const ACROSS: i32 = 36;
+const ACROSS: i32 = 28;
 
 /// Samples between two that are looked at.
-const EVERY: usize = 5;
+const EVERY: usize = 8;
 
 fn any(random: &mut Pcg64, [least, most]: [f64; 2]) -> f64 {
     least + (most - least) * random.random::<f64>()
@@ -104,7 +104,7 @@ fn load(plan: &Plan, raised_m: f64, robot: &RobotModel, q: [&platewash::JointVec
             if over(far) >= 0.0 {
                 continue;
             }
-            for _ in 0..40 {
+            for _ in 0..26 {
                 let middle = 0.5 * (near + far);
                 if over(middle) > 0.0 {
                     near = middle
@@ -156,15 +156,16 @@ fn shares(seed: u64) -> Option<[f64; 2]> {
     // As far as the arm strays from its plan, the plate lies lower than it may.
     let frame = plan.job.workcell.tool.tip_frame(&arm);
     let tip = |q: &platewash::JointVector| arm.pose(q, &frame).translation.vector;
+    let over = |q: &platewash::JointVector| {
+        let near = plan.job.plates[0].local(&tip(q));
+        near.z - face(&plan.job.plates[0], near.xy().norm())[0]
+    };
     let at_plate: Vec<_> = (0..execution.samples.len() - 1)
-        .filter(|i| {
-            let near = plan.job.plates[0].local(&tip(&execution.samples[*i].state.q));
-            near.z - face(&plan.job.plates[0], near.xy().norm())[0] < 0.015
-        })
+        .filter(|i| over(&execution.samples[*i].state.q) < 0.01)
         .collect();
     let strays = at_plate.iter().map(|i| {
         let sample = &execution.samples[*i];
-        (tip(&sample.state.q) - tip(&sample.commanded)).norm()
+        (over(&sample.state.q) - over(&sample.commanded)).abs()
     });
     let error_m = plan.job.contact_of(&plan.job.plates[0]).unwrap().height_error_m;
     let raised_m = (error_m - 2.0 * strays.fold(0.0, f64::max)).max(0.0);
