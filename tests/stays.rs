@@ -194,7 +194,7 @@ fn shares(seed: u64) -> Option<[f64; 2]> {
 
 #[test]
 fn simulated_washes_load_the_holder_no_more_than_proved() {
-    let wanted = if is_thorough() { 100 } else { 8 };
+    let wanted = if is_thorough() { 100 } else { 12 };
     let (mut found, mut seed) = (Vec::new(), 0);
     while found.len() < wanted {
         let seeds = seed..seed + (wanted - found.len()) as u64;
@@ -212,5 +212,5 @@ fn simulated_washes_load_the_holder_no_more_than_proved() {
         most[1]
     );
     // So that a bound too small would be noticed.
-    assert!(most.iter().all(|most| *most > 0.8), "{most:?}");
+    assert!(most.iter().all(|most| *most > 0.7), "{most:?}");
 }
