@@ -24,6 +24,7 @@ mod reachable_points;
 mod recovery;
 mod simulation;
 mod spiral_knots;
+mod stays;
 mod transit_gain;
 mod turned_tool;
 mod turned_world;

@@ -4,11 +4,13 @@
 use crate::mutation::edit::scenario;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{
-    self, ContactDose, ContactForce, ContactHeight, ContactSpeed, ContactTime, PathDeviation, Plates, Pressed, Strain,
-    Swept, Tilt, Tool, WashPaths, WashSpeed, Wrist,
+    self, ContactDose, ContactForce, ContactHeight, ContactSpeed, ContactTime, PathDeviation, PlateStays, Plates,
+    Pressed, Strain, Swept, Tilt, Tool, WashPaths, WashSpeed, Wrist,
 };
 use platewash::certificate::{Certificate, Status, prove};
-use platewash::workcell::job::{ContactRequirements, PatternName, Planner, PlannerSettings};
+use platewash::workcell::job::{
+    ContactRequirements, FixtureTerms, HolderTerms, PatternName, Planner, PlannerSettings, RingTerms,
+};
 use platewash::workcell::plate::Foot;
 use platewash::workcell::simulation::FoamContact;
 use platewash::workcell::surface::Knot;
@@ -42,7 +44,7 @@ const PLANNED: &str = "it says how was planned, and no requirement rests on it";
 const SIMULATED: &str = "no proof rests on a simulation";
 
 /// Edits of `kitchen`, seed 1, with one plate: flat, rings, contact promised.
-const KITCHEN: [Case; 66] = [
+const KITCHEN: [Case; 74] = [
     Case("job.requirements.contact", Kept(LESS), |p| {
         p.job.requirements.contact = None
     }),
@@ -145,6 +147,35 @@ const KITCHEN: [Case; 66] = [
     }),
     Case("job.requirements.wrist_rad", NoPlan("wrist_rad"), |p| {
         p.job.requirements.wrist_rad = Some(2.0)
+    }),
+    Case(
+        "job.requirements.holder",
+        Kept("what holds the plate takes the load"),
+        |p| holder(p, Some([21.0, 2.7]), None),
+    ),
+    Case("job.requirements.holder.fixture.force_n", Refused(&[PlateStays]), |p| {
+        holder(p, Some([20.0, 2.7]), None)
+    }),
+    Case(
+        "job.requirements.holder.fixture.torque_nm",
+        Refused(&[PlateStays]),
+        |p| holder(p, Some([21.0, 2.3]), None),
+    ),
+    Case("job.requirements.holder.fixture.force_n", NoPlan("force_n"), |p| {
+        holder(p, Some([f64::NAN, 2.7]), None)
+    }),
+    Case("job.requirements.holder.ring", Refused(&[PlateStays]), |p| {
+        holder(p, None, Some([0.5, 0.1]))
+    }),
+    Case("job.requirements.holder.ring.radius_m", NoPlan("radius_m"), |p| {
+        holder(p, None, Some([0.5, 0.2]))
+    }),
+    Case("job.requirements.holder.ring", NoPlan("not both"), |p| {
+        holder(p, Some([21.0, 2.7]), Some([0.5, 0.1]))
+    }),
+    Case("job.requirements.holder", NoPlan("needs requirements.contact"), |p| {
+        holder(p, Some([21.0, 2.7]), None);
+        p.job.requirements.contact = None;
     }),
     // Foam as stiff as that presses with more than 40 N; as soft, with less than 1 N and with half the dose.
     Case("job.workcell.tool.sponge.stiffness_pa", Refused(&[ContactForce]), |p| {
@@ -308,6 +339,16 @@ const FOOT: Foot = Foot {
 
 fn wanted(plan: &mut Plan) -> &mut ContactRequirements {
     plan.job.requirements.contact.as_mut().unwrap()
+}
+
+/// States a fixture by its force and torque, or a ring by its friction and radius.
+fn holder(plan: &mut Plan, fixture: Option<[f64; 2]>, ring: Option<[f64; 2]>) {
+    plan.job.requirements.holder = Some(HolderTerms {
+        sponge_friction: 1.0,
+        plate_mass_kg: Some(0.6),
+        fixture: fixture.map(|[force_n, torque_nm]| FixtureTerms { force_n, torque_nm }),
+        ring: ring.map(|[friction, radius_m]| RingTerms { friction, radius_m }),
+    });
 }
 
 fn sponge(plan: &mut Plan) -> &mut Sponge {

@@ -180,6 +180,21 @@ def test_a_certificate_says_what_is_proved_of_contact() -> None:
     assert pw.prove(pw.plan(spiral.job()).plan).contact == []
 
 
+def test_what_holds_a_plate_is_stated_and_judged() -> None:
+    kitchen = pw.Scenario.load("kitchen")
+    assert kitchen.holder.to_dict() == {} and "holder" not in kitchen.job().requirements.to_dict()
+    held = kitchen.replace(holder={"force_n": 20.0, "torque_nm": 3.0})
+    assert held.holder.force_n == 20.0
+    job = held.job()
+    assert job.requirements.holder.to_dict() == {"sponge_friction": 1.0, "fixture": {"force_n": 20.0, "torque_nm": 3.0}}
+    certificate = pw.prove(pw.plan(job).plan)
+    assert [check.requirement for check in certificate.broken] == ["plate_stays"]
+    load = certificate.contact[0].holder_load
+    assert load.sponge_friction == [0.3, 1.0] and load.lateral_n[1] > 20.0 and load.torque_nm[1] < 3.0
+    with pytest.raises(pw.ScenarioError, match="holder.force_n: give both force_n and torque_nm, or neither"):
+        kitchen.replace(holder={"force_n": 20.0})
+
+
 def test_refuses_a_plan_that_presses_too_little() -> None:
     plan = pw.plan(pw.Scenario.load("kitchen").job()).plan
     table = plan.to_dict()

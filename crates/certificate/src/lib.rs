@@ -49,5 +49,6 @@ pub use crate::report::table::MeasureWords;
 pub use crate::report::verdict_basis::VerdictBasis;
 pub use crate::washing::contact::{PlateContact, ProvedExtreme, ProvedShare};
 pub use crate::washing::coverage::PlateCoverage;
+pub use crate::washing::holding::{HolderLoad, RingShares};
 pub use crate::washing::reach::ReachedNeighbour;
 pub use platewash_workcell::differences::{Difference, differences};

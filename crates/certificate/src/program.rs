@@ -1,6 +1,6 @@
 //! Judgement of the motion that a controller is assumed to make of a certified plan.
 //!
-//! Requirement 33, formula (33.1) in `docs/certificate.md`.
+//! Requirement 34, formula (34.1) in `docs/certificate.md`.
 //!
 //! Such a motion is near the plan and not the plan: it is straight between points, its corners are rounded, its speed may jump. What is
 //! proved of it, at every moment: where the tip is, against the plan; joint positions and speeds; clearance of every pair; contact with

@@ -18,7 +18,7 @@ use crate::statements::{dry_run, plates, wash_paths};
 use crate::subject::{self, Subject};
 use crate::washing::contact::{self, PlateContact};
 use crate::washing::coverage::{self, PlateCoverage, Wash};
-use crate::washing::{following, landing, reach};
+use crate::washing::{following, holding, landing, reach};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, Recovery};
@@ -60,7 +60,9 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     check_job(&plan.job)?;
     // Judged in the frame of the arm's base, told in the world.
     let seen = &*plan.seen_from_base();
-    let subject = Subject::new(&seen.job, arm, wash_paths::by_plate(seen));
+    let mut subject = Subject::new(&seen.job, arm, wash_paths::by_plate(seen));
+    let up = plan.job.workcell.mount.rotation.inverse() * subject.up;
+    subject.up = up;
     let pieces = read(&seen.knots)?;
     let timeline = timeline(&pieces, seen.knots.t_s.len())?;
     let (schedule, gaps) = match Schedule::new(seen, &pieces) {
@@ -197,6 +199,7 @@ impl PlanUnderProof<'_> {
         checks.push(coverage::check(subject, &swept)); // 26
         checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: share, time, dose, strain, force
         checks.extend(wrist::check(subject, pieces, schedule)); // 32
+        checks.extend(holding::check(subject, &contact)); // 33: plate stays
         Ok(Proof {
             checks,
             swept,

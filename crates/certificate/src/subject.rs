@@ -5,7 +5,7 @@
 //! The bodies that a job adds to the arm are checked here: distances to them must be computable.
 
 use crate::error::ProveError;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::job::JobTerms;
@@ -19,6 +19,8 @@ pub(crate) struct Subject<'a> {
     pub job: &'a JobTerms,
     pub robot: &'a RobotModel,
     pub limits: Limits,
+    /// Upwards, in the frame of the arm's base. [`Subject::new`] takes it for that of the world.
+    pub up: Vector3<f64>,
     paths: Vec<Option<WashPath>>,
 }
 
@@ -33,6 +35,7 @@ impl<'a> Subject<'a> {
             job,
             robot,
             limits,
+            up: Vector3::z(),
             paths,
         }
     }

@@ -245,7 +245,8 @@ pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
         (promised.wrist_rad, "side of the wrist"),
     ];
     let others = others.into_iter().filter_map(|(asked, words)| asked.map(|_| words));
-    let all: Vec<_> = contact.into_iter().chain(others).collect();
+    let stays = promised.holder.map(|_| "that plates stay");
+    let all: Vec<_> = contact.into_iter().chain(others).chain(stays).collect();
     (!all.is_empty()).then(|| all.join(", "))
 }
 

@@ -66,6 +66,7 @@ impl PaperJob {
                 lifting_m_s: None,
                 wrist_rad: None,
                 contact: None,
+                holder: None,
             },
             limits: Limits {
                 joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],

@@ -121,7 +121,8 @@ impl CertificateObject {
 
     /// Contact, plate by plate in the order of washing, where the job asks for it: `plate`; `pressed`, `time` and `dose`, each with what
     /// is proved (`at_least`), `required`, `threshold` and, where they fall short, the worst place; `strain`, `least_force_n` and
-    /// `greatest_force_n`, each with `bound`, `seen`, `time_s` and `place_m`; `friction_torque_nm`. Empty where it does not.
+    /// `greatest_force_n`, each with `bound`, `seen`, `time_s` and `place_m`; `friction_torque_nm`; `holder_load`, what holds the plate takes.
+    /// Empty where it does not.
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.contact)

@@ -287,6 +287,12 @@ impl ScenarioObject {
         self.section(py, "wash")
     }
 
+    /// What holds the plates.
+    #[getter]
+    fn holder<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.section(py, "holder")
+    }
+
     /// Inverse kinematics along the path.
     #[getter]
     fn ik<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -49,6 +49,7 @@ pub use crate::resolve::plate_files::PlateFiles;
 pub use crate::resolve::solids::Solids;
 pub use crate::scenario::{Scenario, check_seed};
 pub use crate::sections::body_shape::{BodyShape, StatedShape};
+pub use crate::sections::holder::HolderSection;
 pub use crate::sections::layout::{Faces, LayoutSection, PlateSection, RegionName};
 pub use crate::sections::motion::{IkSection, JobSection, LimitsSection, OnFailure, Program, TransitionSection};
 pub use crate::sections::obstacle::{HeldPlates, MeshPartsName, ObstacleSection};

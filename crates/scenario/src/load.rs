@@ -157,6 +157,7 @@ impl Scenario {
         self.check_control()?;
         self.check_certified()?;
         self.check_contact()?;
+        self.holder.check(self.wash.contact)?;
         self.check_waypoints()
     }
 }

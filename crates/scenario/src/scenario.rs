@@ -5,6 +5,7 @@
 use crate::error::Problem;
 use crate::resolve::plate_files::PlateFiles;
 use crate::resolve::solids::Solids;
+use crate::sections::holder::HolderSection;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, Program, TransitionSection};
 use crate::sections::obstacle::ObstacleSection;
@@ -54,6 +55,8 @@ pub struct Scenario {
     pub plate: Vec<PlateSection>,
     /// The path on a plate.
     pub wash: WashSection,
+    /// What holds the plates.
+    pub holder: HolderSection,
     /// Inverse kinematics along the path.
     pub ik: IkSection,
     /// The way between plates.
@@ -117,6 +120,7 @@ impl Default for Scenario {
             layout: LayoutSection::default(),
             plate: Vec::new(),
             wash: WashSection::default(),
+            holder: HolderSection::default(),
             ik: IkSection::default(),
             transition: TransitionSection::default(),
             limits: LimitsSection::default(),

@@ -72,6 +72,7 @@ pub fn kitchen_terms(robot: &RobotModel, plates: Vec<Plate>) -> JobTerms {
             lifting_m_s: None,
             wrist_rad: None,
             contact: None,
+            holder: None,
         },
         limits: Limits {
             joint_acceleration_rad_s2: [4.0, 4.0, 4.0, 5.0, 5.0, 6.0],

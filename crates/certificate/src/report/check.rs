@@ -51,6 +51,9 @@ pub enum Unit {
     /// Newtons.
     #[serde(rename = "N")]
     Newton,
+    /// Newton metres.
+    #[serde(rename = "N m")]
+    NewtonMetre,
     /// Share of one.
     #[serde(rename = "1")]
     Share,

@@ -97,6 +97,8 @@ requirements! {
     ContactForce = "contact_force",
     /// Distance of joint 5 from 0, on the same side from an approach to the retreat after it.
     Wrist = "wrist",
+    /// Each plate stays where it is while the sponge presses it. For jobs that state what holds the plates.
+    PlateStays = "plate_stays",
     /// Distance of the tip from its position in the plan at the same time. For programs only.
     PlanDeviation = "plan_deviation",
 }

@@ -7,6 +7,7 @@ use crate::report::requirement::Requirement;
 use crate::report::words::{decimals, number, rounded_bound};
 use crate::washing::contact::{PlateContact, ProvedShare};
 use crate::washing::coverage::PlateCoverage;
+use crate::washing::holding::HolderLoad;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::{decimals_down, decimals_up, distinct_decimals, percent};
 use platewash_workcell::words::{plate_name, printable, quoted};
@@ -234,6 +235,35 @@ fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
         )),
         force([contact.least_force_n.bound, contact.greatest_force_n.bound]),
         up(contact.friction_torque_nm.map(|[_, most]| most), " N·m"),
+    )?;
+    let held = contact.holder_load.as_ref().map_or("not bounded".to_owned(), held);
+    writeln!(f, "             holder takes: {held}")
+}
+
+/// Formats what holds a plate takes, for the greatest friction of the sponge, and whether the plate stays on its ring.
+fn held(load: &HolderLoad) -> String {
+    let [_, friction] = load.sponge_friction;
+    let weight = load.weight_n.map_or(String::new(), |[_, across_n]| {
+        format!(", with {} N of the plate's weight", decimals_up(across_n, 2))
+    });
+    let ring = load.ring.map_or(String::new(), |ring| {
+        let percent = |share: Option<f64>| {
+            share.map_or("not bounded".to_owned(), |s| {
+                format!("up to {} %", decimals_up(100.0 * s, 1))
+            })
+        };
+        format!(
+            "; on its ring: pressed down off the axis by {} of the radius, friction needed {}{}",
+            percent(ring.tipping),
+            percent(ring.friction),
+            ring.fault().map_or(String::new(), |fault| format!(": {fault}"))
+        )
+    });
+    format!(
+        "across the plate's axis up to {} N{weight}, about it up to {} N·m (friction coefficient of the sponge up to {}, assumed){ring}",
+        decimals_up(load.lateral_n[1], 2),
+        decimals_up(load.torque_nm[1], 2),
+        number(friction)
     )
 }
 

@@ -49,6 +49,12 @@ const MESHED: &str = "plates out of meshes are as their meshes; these lie within
                       the fitted face";
 const PROBED: &str = "plates out of touched points have the fitted profile within the stated deviation between the points, too, where nobody measured";
 
+/// Assumptions added where the job states what holds the plates: a fixture, and below a ring on which they stand.
+const IN_FIXTURE: &str = "what holds a plate takes the stated force and torque at once; the friction of the sponge is at most the stated one";
+const ON_RING: &str = "a plate on its ring is rigid and moves slowly if at all, stands on the whole ring, has its centre of mass on its axis, and is \
+                       held by Coulomb friction of at least the stated coefficient; gravity is 9.81 m/s² along −z of the world; the friction of the \
+                       sponge is at most the stated one";
+
 /// Assumption added for a dry run.
 const PARENT: &str =
     "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
@@ -139,6 +145,11 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
         (None, false) => TOUCHES,
     });
     all.extend(job.requirements.contact.map(|_| ERROR_OF_HEIGHT));
+    all.extend(
+        job.requirements
+            .holder
+            .map(|holder| if holder.ring.is_some() { ON_RING } else { IN_FIXTURE }),
+    );
     let is_measured = |probed: bool| job.measured.iter().any(|shape| shape.is_probed == probed);
     all.extend(is_measured(false).then_some(MESHED));
     all.extend(is_measured(true).then_some(PROBED));
@@ -522,11 +533,35 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
             number(stiffest_n)
         )
     });
+    let held = wanted.holder.map(|holder| {
+        let by = match (holder.fixture, holder.ring) {
+            (Some(fixture), _) => format!(
+                "a fixture that takes {} N across its axis and {} N·m about it",
+                number(fixture.force_n),
+                number(fixture.torque_nm)
+            ),
+            (_, Some(ring)) => format!(
+                "friction of {} or more alone, on a ring of radius {} mm",
+                number(ring.friction),
+                mm(ring.radius_m)
+            ),
+            _ => "nothing".to_owned(),
+        };
+        let mass = holder
+            .plate_mass_kg
+            .map(|mass_kg| format!(" with a mass of {} kg", number(mass_kg)));
+        format!(
+            "each plate{} stays, held by {by}, with a friction of the sponge of at most {} (assumed)",
+            mass.unwrap_or_default(),
+            number(holder.sponge_friction)
+        )
+    });
     let parts = [
         promise.or_else(|| dry_run.is_none().then(|| NOT_ASKED.to_owned())),
         speed("the free sponge lands with", wanted.landing_m_s),
         speed("it lifts off with", wanted.lifting_m_s),
         wrist,
+        held,
     ];
     let told: Vec<_> = parts.into_iter().flatten().collect();
     (!told.is_empty()).then(|| told.join("; "))

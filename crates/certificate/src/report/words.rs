@@ -48,6 +48,7 @@ impl Unit {
             Self::MetrePerSecond => (1.0, "m/s"),
             Self::MetrePerSecondSquared => (1.0, "m/s²"),
             Self::Newton => (1.0, "N"),
+            Self::NewtonMetre => (1.0, "N·m"),
             Self::Share => (100.0, "%"),
         }
     }

@@ -126,6 +126,19 @@ fn compare(name: &str, recipe: &Recipe) {
         "{name}: {high} {}",
         seen.torque_nm
     );
+    let held = found.holder_load.unwrap();
+    for (proved, seen) in held.lateral_n.into_iter().zip(seen.lateral_n) {
+        assert!(
+            proved >= 0.995 * seen && proved <= 1.3 * seen,
+            "{name}: {proved} N {seen} N"
+        );
+    }
+    let [low, high] = held.torque_nm;
+    assert!(
+        (low - 0.3 * high).abs() < 1e-12 && high >= 0.995 * seen.turning_nm && high <= 1.2 * seen.turning_nm,
+        "{name}: {high} {}",
+        seen.turning_nm
+    );
     for requirement in [
         Requirement::Tilt,
         Requirement::PathDeviation,

@@ -26,6 +26,10 @@ pub struct RasterResult {
     pub force_n: [f64; 2],
     /// The greatest torque of a friction of 1.
     pub torque_nm: f64,
+    /// Force across the plate's axis, with a friction of 0.3 and of 1 that drags outwards.
+    pub lateral_n: [f64; 2],
+    /// Torque about the plate's axis, with a friction of 1 that drags about it.
+    pub turning_nm: f64,
 }
 
 /// A moment: where the tip is, its axis, and both a step later.
@@ -130,7 +134,7 @@ pub fn raster(plan: &Plan) -> RasterResult {
         let first = band * rows;
         let count = rows.min(size - first);
         let mut cells = vec![[0.0_f64; 7]; count * size];
-        let mut loads = vec![[0.0_f64; 4]; moments.len()];
+        let mut loads = vec![[0.0_f64; 7]; moments.len()];
         let points: Vec<_> = (0..count * size)
             .map(|i| {
                 let (row, column) = (first + i / size, i % size);
@@ -192,7 +196,17 @@ pub fn raster(plan: &Plan) -> RasterResult {
                         if k == 1 {
                             let r = (d.norm_squared() - along * along).max(0.0).sqrt();
                             loads[m][2] = loads[m][2].max(w);
-                            loads[m][3] += w * part * r * (1.0 + slope * slope).sqrt() / -(a.x * nx + a.y * ny + a.z);
+                            // Along the normal it presses with w on the area of the face.
+                            let long = (1.0 + slope * slope).sqrt();
+                            let pressed = w * CELL_M * CELL_M * long;
+                            loads[m][3] += pressed * r;
+                            // Outwards where the tip is, with friction that way along the face.
+                            let out = moment.tip.xy().normalize();
+                            let along = (nx * out.x + ny * out.y) / long;
+                            for (k, friction) in [(4, 0.3), (5, 1.0)] {
+                                loads[m][k] += pressed * (friction * (1.0 - along * along).sqrt() - along);
+                            }
+                            loads[m][6] += pressed * rho;
                         }
                     }
                 }
@@ -214,11 +228,11 @@ pub fn raster(plan: &Plan) -> RasterResult {
     };
     let found: Vec<_> = bands.par_iter().map(band).collect();
     let mut sums = [0.0; 5];
-    let mut loads = vec![[0.0_f64; 4]; moments.len()];
+    let mut loads = vec![[0.0_f64; 7]; moments.len()];
     for (part, load) in found {
         (0..5).for_each(|i| sums[i] += part[i]);
         for (all, one) in loads.iter_mut().zip(load) {
-            (0..4).for_each(|i| all[i] = if i == 2 { all[i].max(one[i]) } else { all[i] + one[i] });
+            (0..7).for_each(|i| all[i] = if i == 2 { all[i].max(one[i]) } else { all[i] + one[i] });
         }
     }
     let most = |i: usize| loads.iter().map(|l| l[i]).fold(0.0, f64::max);
@@ -231,6 +245,8 @@ pub fn raster(plan: &Plan) -> RasterResult {
         strain: most(2) / high,
         force_n: [stiffness[0] / high * least, stiffness[1] / high * most(1)],
         torque_nm: stiffness[1] / high * most(3),
+        lateral_n: [4, 5].map(|i| stiffness[1] / high * most(i)),
+        turning_nm: stiffness[1] / high * most(6),
     }
 }
 

@@ -10,6 +10,7 @@ mod contact_spares;
 mod contact_untouched;
 mod differential;
 mod foundation;
+mod holding;
 mod maker;
 mod mutations;
 mod obstacles;

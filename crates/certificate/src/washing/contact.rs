@@ -8,6 +8,7 @@ use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
+use crate::washing::holding::{HolderInputs, HolderLoad};
 use crate::washing::instants::Instants;
 use crate::washing::pressing::{self, DiscWashBounds, Extreme, FRICTION, Pressing};
 use crate::washing::shares::{Fineness, Share, Shares, shares};
@@ -15,7 +16,7 @@ use nalgebra::Vector3;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::reaches;
-use platewash_workcell::job::ContactRequirements;
+use platewash_workcell::job::{ContactRequirements, HolderTerms};
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +81,9 @@ pub struct PlateContact {
     /// proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_torque_nm: Option<[f64; 2]>,
+    /// What holds the plate takes, from approach to retreat; `None` where nothing is proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holder_load: Option<HolderLoad>,
 }
 
 impl PlateContact {
@@ -114,6 +118,12 @@ pub(crate) struct ContactInputs<'a> {
     pub meets: bool,
     /// Same as `meets`, from approach to retreat.
     pub around_meets: bool,
+    /// Least cosine of the angle between the tool and the plate's axis from approach to retreat.
+    pub cosine: f64,
+    /// What holds the plate, where the job states it.
+    pub holder: Option<&'a HolderTerms>,
+    /// Upwards, in the frame of the plate's pose.
+    pub up: &'a Vector3<f64>,
     pub cancel: &'a CancelToken,
 }
 
@@ -161,6 +171,18 @@ impl ContactInputs<'_> {
             }
         };
         let torque = FRICTION.map(|friction| friction * stiffest * pressing.twist_m4);
+        let holder_load = HolderInputs {
+            plate: self.plate,
+            foundation,
+            pressing: &pressing,
+            tip_m: std::iter::once(self.instants)
+                .chain(self.around)
+                .map(Instants::tip_within_m)
+                .fold(0.0, f64::max),
+            cosine: self.cosine,
+            terms: self.holder,
+            up: self.up,
+        };
         Ok(PlateContact {
             plate: self.index,
             pressed: share(|s| s.contact, wanted.share, wanted.compression_m),
@@ -170,6 +192,7 @@ impl ContactInputs<'_> {
             least_force_n: extreme(&pressing.volume[0], softest),
             greatest_force_n: extreme(&pressing.volume[1], stiffest),
             friction_torque_nm: Some(torque).filter(|t| t.iter().all(|t| t.is_finite())),
+            holder_load: holder_load.load(),
         })
     }
 

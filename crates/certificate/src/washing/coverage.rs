@@ -232,6 +232,9 @@ impl Washing<'_> {
             },
             meets: self.meets_from_above(),
             around_meets: self.meets_at(self.around_cosine),
+            cosine: self.around_cosine.min(self.tips.least_upright_cosine_of(self.span)),
+            holder: job.requirements.holder.as_ref(),
+            up: &self.subject.up,
             cancel: self.cancel,
         };
         Ok(Some(pressed.judge()?))

@@ -115,6 +115,14 @@ impl Instants {
         self.see(inputs.plate, stretch, 1);
     }
 
+    /// Upper bound on the distance of the tip from the plate's axis \[m\]: the chord bound between moments; infinite where it is not known.
+    pub fn tip_within_m(&self) -> f64 {
+        let distances = self.moments.iter().map(|moment| moment.pose.tip.xy().norm());
+        let sags = self.drifts.iter().map(|d| 0.125 * d.length_s * d.length_s * d.tip_m_s2);
+        let greatest = |all: f64, next: f64| if next.is_nan() { f64::INFINITY } else { all.max(next) };
+        distances.fold(0.0, greatest) + sags.fold(0.0, greatest)
+    }
+
     fn see(&mut self, plate: &Plate, stretch: &Stretch<'_>, end: usize) {
         let there = stretch.ends[end];
         let local = |v| plate.pose.inverse_transform_vector(v);

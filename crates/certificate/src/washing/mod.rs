@@ -8,12 +8,14 @@
 //! | how far the sponge reaches beyond the rim, and which neighbours it may touch | `reach` |
 //! | how fast the sponge lands and lifts off | `landing` |
 //! | contact: how long, how hard, which share of a plate | `contact`, `shares` |
+//! | what holds a plate: what it takes, and whether the plate stays | `holding` |
 //! | the moments of a wash; the strain of the foam; a frame that turns with the sponge | `instants`, `pressing`, `turning_frame` |
 
 pub(crate) mod contact;
 pub(crate) mod coverage;
 pub(crate) mod face;
 pub(crate) mod following;
+pub(crate) mod holding;
 pub(crate) mod instants;
 pub(crate) mod landing;
 pub(crate) mod pressing;

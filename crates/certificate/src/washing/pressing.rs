@@ -3,7 +3,7 @@
 //! The foam presses with E w / H over a column of the cross-section dA, along the sponge's axis: with the volume V = ∫ max(w, 0) dA the
 //! force along the axis is E V / H, whatever way the surface faces, as long as there is no friction. Friction μ acts on what the plate
 //! presses along its normal, which is 1/cos γ as much, at a lever of at most r: its torque about the axis is no more than
-//! μ E/H ∫ max(w, 0) r / cos γ dA.
+//! μ E/H ∫ max(w, 0) r / cos γ dA. What the plate's holder takes across the plate's axis and about it is bounded alike (`holding.rs`).
 //!
 //! The strain, the greatest force and the torque are those from approach to retreat: coming and leaving, the tip may be deeper than in the
 //! wash. The least force is that of the wash, as the sponge meets the plate and leaves it with none.
@@ -20,7 +20,9 @@
 
 use crate::washing::instants::Instants;
 use crate::washing::turning_frame::TurningFrame;
-use platewash_workcell::contact::{Bends, Columns, Foundation, Level, Moment, PlateLoad, Press, SpongeState};
+use platewash_workcell::contact::{
+    Bends, Columns, Foundation, HolderVolumes, Level, Moment, PlateLoad, Press, SpongeState,
+};
 use platewash_workcell::plate::Plate;
 
 /// Friction between a wet sponge and a plate, least and greatest: an assumption.
@@ -61,6 +63,8 @@ pub(crate) struct Pressing {
     pub volume: [Extreme; 2],
     /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\].
     pub twist_m4: f64,
+    /// Upper bounds of what the plate's holder takes.
+    pub holder: HolderVolumes,
 }
 
 impl Pressing {
@@ -77,6 +81,7 @@ impl Pressing {
             deepest: most,
             volume: [least, most],
             twist_m4: 0.0,
+            holder: HolderVolumes::default(),
         }
     }
 
@@ -86,6 +91,7 @@ impl Pressing {
         all.deepest.bound = f64::INFINITY;
         (all.volume[0].bound, all.volume[1].bound) = (0.0, f64::INFINITY);
         all.twist_m4 = f64::INFINITY;
+        all.holder = HolderVolumes::UNKNOWN;
         all
     }
 
@@ -120,6 +126,7 @@ impl Pressing {
                 volume_m3: level.volume_m3,
                 deepest_m: level.deepest_m[1],
                 twist_m4: level.twist_m4,
+                holder: level.holder,
                 sag_m: 0.0,
             });
         } else {
@@ -127,6 +134,7 @@ impl Pressing {
             all.deepest.bound = unknown.deepest.bound;
             (all.volume[0].bound, all.volume[1].bound) = (0.0, f64::INFINITY);
             all.twist_m4 = unknown.twist_m4;
+            all.holder = unknown.holder;
         }
         all
     }
@@ -166,12 +174,13 @@ impl Pressing {
             if !(low_m.is_finite() && cosine > 0.0) {
                 return Self::unknown();
             }
-            // The distance from the axis matters only for the least volume.
-            let most = press(low_m, cosine, 0.0);
+            let distance_m = -lower(|moment| -moment.pose.tip.xy().norm()) + sag_m;
+            let most = press(low_m, cosine, distance_m);
             all.take(&Press {
                 volume_m3: most.volume_m3,
                 deepest_m: most.deepest_m[1],
                 twist_m4: most.twist_m4,
+                holder: most.holder,
                 sag_m: 0.0,
             });
         }
@@ -190,6 +199,7 @@ impl Pressing {
         greater(&mut self.deepest, &around.deepest);
         greater(&mut self.volume[1], &around.volume[1]);
         self.twist_m4 = self.twist_m4.max(around.twist_m4);
+        self.holder = self.holder.or_greater(&around.holder);
     }
 
     /// Updates the attained values with those of one moment.
@@ -212,6 +222,7 @@ impl Pressing {
         let greater = |most: f64, found: f64| if found.is_nan() { f64::INFINITY } else { most.max(found) };
         self.deepest.bound = greater(self.deepest.bound, press.deepest_m);
         self.twist_m4 = greater(self.twist_m4, press.twist_m4);
+        self.holder = self.holder.or_greater(&press.holder);
         let [least, most] = &mut self.volume;
         let [low, high] = press.volume_m3;
         least.bound = if low.is_nan() { 0.0 } else { least.bound.min(low) };
@@ -222,8 +233,9 @@ impl Pressing {
 /// Number of moments in a stretch at the start of the search.
 const LONGEST: usize = 64;
 
-/// Relative gap allowed between the bounds and the values at single moments, per quantity: least and greatest volume, compression, twist.
-const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02];
+/// Relative gap allowed between the bounds and the values at single moments, per quantity: least and greatest volume, compression, twist; of
+/// the holder, pressed along normals, across the axis, and about it.
+const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02, 0.02, 0.02, 0.02];
 
 /// Loss of compression between moments above which a stretch is halved instead of given more columns \[m\].
 const MOST_SAG_M: f64 = 1e-4;
@@ -231,8 +243,10 @@ const MOST_SAG_M: f64 = 1e-4;
 /// Number of column grids: a coarse one and a fine one.
 const LOOKS: usize = 2;
 
-/// Number of bounded quantities. Each is expressed so that greater is worse, see [`severities`].
-const QUANTITIES: usize = 4;
+/// Number of bounded quantities, and of those on the sponge, which come first. Each is expressed so that greater is worse, see
+/// [`severities`].
+const QUANTITIES: usize = 7;
+const ON_SPONGE: usize = 4;
 
 /// Stretch between two moments, given by their indices, with the bounds over it.
 struct Span {
@@ -274,7 +288,16 @@ pub(crate) fn around_face(
     wash: &Pressing,
     error_m: f64,
 ) -> Pressing {
-    let enough = [f64::INFINITY, wash.volume[1].bound, wash.deepest.bound, wash.twist_m4];
+    let (holder, most_m3) = (&wash.holder, wash.volume[1].bound);
+    let enough = [
+        f64::INFINITY,
+        most_m3,
+        wash.deepest.bound,
+        wash.twist_m4,
+        holder.normal_m3,
+        holder.slope_m3,
+        holder.turn_m4,
+    ];
     search(plate, error_m, foundation, instants, enough)
 }
 
@@ -307,18 +330,34 @@ fn search(
         let span = search.bound_stretch(from, to, 0);
         search.spans.push(span);
     }
-    for quantity in 0..QUANTITIES {
+    for quantity in 0..ON_SPONGE {
         search.refine_worst(quantity);
     }
+    let mut found = search.found;
     for span in &search.spans {
-        search.found.take(&span.press);
+        found.take(&span.press);
     }
-    search.found
+    // What is looked at for the holder changes no bound on the sponge.
+    for quantity in ON_SPONGE..QUANTITIES {
+        search.refine_worst(quantity);
+    }
+    let all = search.spans.iter().map(|span| span.press.holder);
+    found.holder = all.fold(HolderVolumes::default(), |most, next| most.or_greater(&next));
+    found
 }
 
 /// Returns the quantities of a press, each expressed so that greater is worse. NaN counts as infinite.
 fn severities(press: &Press) -> [f64; QUANTITIES] {
-    let all = [-press.volume_m3[0], press.volume_m3[1], press.deepest_m, press.twist_m4];
+    let (holder, [least_m3, most_m3]) = (&press.holder, press.volume_m3);
+    let all = [
+        -least_m3,
+        most_m3,
+        press.deepest_m,
+        press.twist_m4,
+        holder.normal_m3,
+        holder.slope_m3,
+        holder.turn_m4,
+    ];
     all.map(|bad| if bad.is_nan() { f64::INFINITY } else { bad })
 }
 

@@ -231,6 +231,7 @@ fn motion_home(
         home_rad: [*at, plan.job.home_rad[0]],
         requirements: Requirements {
             contact: None,
+            holder: None,
             landing_m_s: None,
             lifting_m_s: Some(wanted.lifting_m_s.map_or(RETREAT_M_S, |asked| asked.min(RETREAT_M_S))),
             wrist_rad: None,

@@ -11,6 +11,7 @@ pub use crate::keys::key::{Domain, Key};
 
 use crate::keys::key::Domain::{Integer, Text};
 use crate::keys::key::key;
+use crate::sections::holder::HolderSection;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, TransitionSection};
 use crate::sections::obstacle::OBSTACLE_KEYS;
@@ -32,6 +33,7 @@ pub static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
         ToolSection::KEYS,
         LayoutSection::KEYS,
         WashSection::KEYS,
+        HolderSection::KEYS,
         FloorSection::KEYS,
         TableSection::KEYS,
         IkSection::KEYS,

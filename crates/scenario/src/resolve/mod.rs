@@ -303,6 +303,7 @@ impl Scenario {
             lifting_m_s,
             wrist_rad: wash.wrist_rad(),
             contact: wash.contact_requirements(),
+            holder: self.holder.terms(),
         }
     }
 

@@ -7,11 +7,13 @@
 //! | `[layout]`, `[[plate]]` | `layout` |
 //! | `[floor]`, `[table]`; `[[obstacle]]` | `room`; `obstacle` |
 //! | `[wash]` | `wash` |
+//! | `[holder]` | `holder` |
 //! | `[ik]`, `[transition]`, `[limits]`, `[job]` | `motion` |
 //! | `[control]`, `[plant]` | `simulation` |
 //! | shapes of bodies, in several sections | `body_shape` |
 
 pub(crate) mod body_shape;
+pub(crate) mod holder;
 pub(crate) mod layout;
 pub(crate) mod motion;
 pub(crate) mod obstacle;

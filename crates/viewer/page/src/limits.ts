@@ -7,7 +7,7 @@ export type GroupName = "Washed" | "Safe" | "Within limits";
 
 /** Requirements by group, those that people look at first in front. What is not listed is within limits, before the joints. */
 const GROUPS: Readonly<Record<GroupName, readonly string[]>> = {
-  Washed: ["pressed", "swept", "contact_time", "contact_dose", "contact_force", "contact_height", "path_deviation", "wash_paths", "every_plate_once"],
+  Washed: ["pressed", "swept", "contact_time", "contact_dose", "contact_force", "plate_stays", "contact_height", "path_deviation", "wash_paths", "every_plate_once"],
   Safe: ["clearance", "reduced_clearance", "contact_speed", "strain", "tilt", "reach", "line_deviation", "wrist", "rest_at_wash_ends", "plates_apart", "plates", "exclusions", "tool", "arm", "dry_run"],
   "Within limits": ["wash_speed", "wash_acceleration", "tip_speed", "tip_acceleration", "plan_deviation", "segments", "home_to_home"],
 };
@@ -52,7 +52,7 @@ export function shareOf({ bound, limit, sense, unit }: Measure): number | null {
 }
 
 /** Factor and sign of a unit for people. */
-const UNITS: Readonly<Record<string, [number, string]>> = { "1": [100, "%"], m: [1000, "mm"], rad: [180 / Math.PI, "°"], "rad/s^2": [1, "rad/s²"], "m/s^2": [1, "m/s²"] };
+const UNITS: Readonly<Record<string, [number, string]>> = { "1": [100, "%"], m: [1000, "mm"], rad: [180 / Math.PI, "°"], "rad/s^2": [1, "rad/s²"], "m/s^2": [1, "m/s²"], "N m": [1, "N·m"] };
 const SIGNS = { at_most: "≤", at_least: "≥", above: ">" } as const;
 
 /** Two decimals, or two digits of what is smaller than 1, rounded towards the limit. */

@@ -4,8 +4,14 @@
 //! m = c − z / cos τ, and at the rim it is m ± k, k = s tan τ. The mean of max(w, 0) over the whole face of the sponge is at least m and,
 //! being convex, at most m where m ≥ k, and at most (m + k)/2, half its greatest value, elsewhere; it grows with m and with k. Seen along
 //! the sponge's axis, what is beyond the plate's rim is no more than what of a disc of radius s / cos τ is beyond it.
+//!
+//! With x across the sponge, max(w, 0) at x and at −x differ by 2 k x/s at most, so that ∫ max(w, 0) x dA ≤ π s³ k / 4; and together they are
+//! no more than twice the mean above. Along its axis the sponge's face is seen on the plate stretched by 1 / cos τ at most, about a point at
+//! the distance d from the plate's axis: of the distance ρ from that axis, by Cauchy and Schwarz, (∫ W ρ dA)² ≤ V ∫ W ρ² dA, and
+//! ∫ W ρ² dA ≤ V d² + 2 d π s³ k / (4 cos τ) + V s² / (2 cos² τ). Columns beyond the rim press nothing: of ∫ max(w, 0) x dA they take no more
+//! than their area times m + k and s.
 
-use crate::contact::Foundation;
+use crate::contact::{Foundation, HolderVolumes};
 use crate::trig::acos;
 use std::f64::consts::PI;
 
@@ -29,6 +35,8 @@ pub struct LevelPress {
     pub deepest_m: [f64; 2],
     /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis.
     pub twist_m4: f64,
+    /// Upper bounds of what the plate's holder takes.
+    pub holder: HolderVolumes,
 }
 
 impl Foundation {
@@ -54,11 +62,20 @@ impl Foundation {
         let beyond_m2 = beyond_rim_m2(self.radius_m / cosine, distance_m + aside_m, rim_m).min(area_m2);
         let least_m3 = area_m2 * least.max(0.0) - beyond_m2 * (least + k).max(0.0);
         let most_m3 = area_m2 * if most >= k { most } else { 0.5 * (most + k).max(0.0) };
+        let (d_m, s_m) = (distance_m + aside_m, self.radius_m / cosine);
+        let around_m5 = most_m3 * (d_m * d_m + 0.5 * s_m * s_m) + 0.5 * d_m * area_m2 * s_m * k;
+        let turn_m4 = (most_m3 * around_m5).sqrt().min(most_m3 * rim_m);
         LevelPress {
             volume_m3: [least_m3.max(0.0), most_m3],
             deepest_m: [most, most + k],
             // A linear compression has no first moment about the axis: ∫ r dA = 2/3 s A, and the same of half a cone's greatest value.
             twist_m4: 2.0 / 3.0 * self.radius_m * most_m3 / cosine,
+            holder: HolderVolumes {
+                normal_m3: most_m3 / cosine,
+                slope_m3: 0.0,
+                turn_m4: turn_m4 / cosine,
+                lean_m4: (0.25 * area_m2 * k + beyond_m2 * (most + k).max(0.0)) * self.radius_m / cosine,
+            },
         }
     }
 }
@@ -120,7 +137,7 @@ mod tests {
             let press = foundation.level_press(&level, 0.145);
             let (z, t, d) = (height_m[0] + (height_m[1] - height_m[0]) * share[0], tilt * share[1], far * share[2]);
             let n = 200;
-            let (mut volume, mut twist, mut deepest) = (0.0, 0.0, f64::NEG_INFINITY);
+            let (mut volume, mut twist, mut turn, mut deepest) = (0.0, 0.0, 0.0, f64::NEG_INFINITY);
             let ds = 2.0 * 0.025 / f64::from(n);
             for i in 0..n {
                 for j in 0..n {
@@ -134,12 +151,15 @@ mod tests {
                     deepest = f64::max(deepest, w);
                     volume += w.max(0.0) * ds * ds;
                     twist += w.max(0.0) * (x * x + y * y).sqrt() * ds * ds / t.cos();
+                    turn += w.max(0.0) * (meets[0] * meets[0] + meets[1] * meets[1]).sqrt() * ds * ds / t.cos();
                 }
             }
             let [least, most] = press.volume_m3;
             prop_assert!(volume >= least * (1.0 - 2e-3) - 1e-9 && volume <= most * (1.0 + 2e-3) + 1e-9, "{volume} {press:?}");
             prop_assert!(deepest <= press.deepest_m[1] + 1e-12);
             prop_assert!(twist <= press.twist_m4 * (1.0 + 3e-3) + 1e-12);
+            prop_assert!(turn <= press.holder.turn_m4 * (1.0 + 3e-3) + 1e-12);
+            prop_assert!(volume / t.cos() <= press.holder.normal_m3 * (1.0 + 2e-3) + 1e-9);
         }
     }
 }

@@ -29,7 +29,7 @@ pub use crate::contact::columns::{Column, Columns, Load};
 pub use crate::contact::level::{Level, LevelPress};
 pub use crate::contact::moment::{ContactSampler, ContactThresholds, Drift, Dwell, Moment, at_least_0, both};
 pub use crate::contact::parts::Bends;
-pub use crate::contact::plate_load::{PlateLoad, Press, SpongeState, TouchRegion};
+pub use crate::contact::plate_load::{HolderVolumes, PlateLoad, Press, SpongeState, TouchRegion};
 
 use crate::plate::Plate;
 use crate::tool::{Sponge, Tool};

@@ -265,6 +265,8 @@ pub struct Bends<'a> {
     settled_m: f64,
     /// Least and greatest curvature of runs of 1, 2, 4 … rings from each ring on \[1/m\]; empty for a flat face.
     levels: Vec<Vec<[f64; 2]>>,
+    /// Greatest |sin β| of each ring; empty for a flat face.
+    sines: Vec<f64>,
 }
 
 impl<'a> Bends<'a> {
@@ -276,13 +278,16 @@ impl<'a> Bends<'a> {
         // Wider than the ring by more than what is rounded where a distance finds its ring.
         let ring = |k: usize| {
             let [from, to] = [k as f64 - 0.001, k as f64 + 1.001].map(|k| (k * width_m).max(0.0));
-            surface.patch([from, to]).curvature
+            surface.patch([from, to])
         };
         let [least, most] = surface.curvature_bounds();
         let greatest = most.max(-least).max(f64::MIN_POSITIVE);
         let mut levels = Vec::new();
+        let mut sines = Vec::new();
         if !surface.is_flat() {
-            levels.push((0..ALL).map(ring).collect());
+            let rings: Vec<_> = (0..ALL).map(ring).collect();
+            levels.push(rings.iter().map(|ring| ring.curvature).collect());
+            sines = rings.iter().map(|ring| ring.sine[1].max(-ring.sine[0])).collect();
         }
         while let Some(rings) = levels
             .last()
@@ -299,6 +304,7 @@ impl<'a> Bends<'a> {
             per_m: 1.0 / width_m,
             settled_m: (MEETS_WITHIN_M / (NEWTON * greatest)).sqrt().min(1e-6),
             levels,
+            sines,
         }
     }
 
@@ -335,6 +341,17 @@ impl<'a> Bends<'a> {
             Some(both(*runs.get(first)?, *runs.get(last + 1 - (1 << level))?))
         });
         known.unwrap_or_else(|| self.surface.patch([near_m.max(0.0), far_m]).curvature)
+    }
+}
+
+impl Bends<'_> {
+    /// Greatest |sin β| between two distances from the axis, β the slope of the face. A negative distance stands for the same one on the other
+    /// side. Beyond the rim the face ends.
+    #[must_use]
+    pub fn steepest(&self, [near_m, far_m]: [f64; 2]) -> f64 {
+        let ring = |rho_m: f64| ((rho_m.min(self.rim_m) * self.per_m) as i32).max(0) as usize;
+        let rings = self.sines.get(ring(near_m)..=ring(far_m)).unwrap_or(&self.sines);
+        rings.iter().copied().fold(0.0, f64::max)
     }
 }
 

@@ -9,12 +9,51 @@
 //! Over a part W = max(w, 0), with r the distance from the sponge's axis, the mean of W r is that of W times that of r and what both vary
 //! together. The mean of r is at most the root of that of r², which is the square of the distance of the part's middle and the mean of the
 //! square of that from it; and r varies by no more than the root of the latter, W by half of what its extremes are apart.
+//!
+//! What holds the plate takes what the sponge pushes across the plate's axis and turns about it. A column presses with W / cos γ along the
+//! normal, whose share across the axis is |sin β|, β the slope of the face: at most the greatest one between the distances at which the part
+//! is met. The normals of a face of revolution meet its axis: what turns the plate about it is friction alone, with ρ as its lever.
 
 use crate::contact::SpongePose;
 use crate::contact::columns::{Columns, meet_from};
 use crate::contact::moment::Drift;
 use crate::contact::parts::{Bends, PartBounds, Size, Spread, SurfaceHit};
 use nalgebra::Vector3;
+
+/// Upper bounds of what the holder of a plate takes, as volumes of foam, with γ the angle between the sponge's axis and the normal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct HolderVolumes {
+    /// ∫ max(w, 0) / cos γ dA \[m³\]: what is pressed along normals.
+    pub normal_m3: f64,
+    /// ∫ max(w, 0) |sin β| / cos γ dA \[m³\], β the slope of the face: what of it pushes across the plate's axis.
+    pub slope_m3: f64,
+    /// ∫ max(w, 0) ρ / cos γ dA \[m⁴\], ρ the distance from the plate's axis.
+    pub turn_m4: f64,
+    /// ‖∫ max(w, 0) x / cos γ dA‖ \[m⁴\], x the place across the sponge from its axis; infinite where it is not bounded.
+    pub lean_m4: f64,
+}
+
+impl HolderVolumes {
+    /// Volumes of which nothing is known.
+    pub const UNKNOWN: Self = Self {
+        normal_m3: f64::INFINITY,
+        slope_m3: f64::INFINITY,
+        turn_m4: f64::INFINITY,
+        lean_m4: f64::INFINITY,
+    };
+
+    /// The greater of both, each by itself. NaN bounds nothing; it counts as infinite.
+    #[must_use]
+    pub fn or_greater(&self, other: &Self) -> Self {
+        let greater = |a: f64, b: f64| if b.is_nan() { f64::INFINITY } else { a.max(b) };
+        Self {
+            normal_m3: greater(self.normal_m3, other.normal_m3),
+            slope_m3: greater(self.slope_m3, other.slope_m3),
+            turn_m4: greater(self.turn_m4, other.turn_m4),
+            lean_m4: greater(self.lean_m4, other.lean_m4),
+        }
+    }
+}
 
 /// Load on the foam by a plate, for every height within its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +64,8 @@ pub struct Press {
     pub deepest_m: f64,
     /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis.
     pub twist_m4: f64,
+    /// Upper bounds of what the plate's holder takes.
+    pub holder: HolderVolumes,
     /// Part of a compression that comes from the bounds between the ends of a stretch \[m\].
     pub sag_m: f64,
 }
@@ -35,6 +76,7 @@ impl Press {
         volume_m3: [0.0, f64::INFINITY],
         deepest_m: f64::INFINITY,
         twist_m4: f64::INFINITY,
+        holder: HolderVolumes::UNKNOWN,
         sag_m: f64::INFINITY,
     };
 
@@ -43,11 +85,18 @@ impl Press {
         volume_m3: [0.0; 2],
         deepest_m: f64::NEG_INFINITY,
         twist_m4: 0.0,
+        holder: HolderVolumes {
+            normal_m3: 0.0,
+            slope_m3: 0.0,
+            turn_m4: 0.0,
+            lean_m4: f64::INFINITY,
+        },
         sag_m: 0.0,
     };
 
     /// Adds a part on a plate with the given rim.
-    fn add(&mut self, both: &PlatePartBounds, size: &Size, rim_m: f64) {
+    fn add(&mut self, both: &PlatePartBounds, size: &Size, bends: &Bends<'_>) {
+        let rim_m = bends.rim_m();
         let PlatePartBounds { low, high, .. } = both;
         let is_on = both.far_m < rim_m;
         self.sag_m = self.sag_m.max(low.sag_m).max(high.sag_m);
@@ -63,7 +112,12 @@ impl Press {
             let moment_m2 = mean_m * size.arm_m + half_range_m * size.spread_m;
             // A part that is nowhere pressed twists nothing, even where nothing is known of it with the plate at its lowest.
             if moment_m2 != 0.0 {
-                self.twist_m4 += moment_m2 * size.area_m2 / low.cosine.min(high.cosine);
+                let seen_m2 = size.area_m2 / low.cosine.min(high.cosine);
+                self.twist_m4 += moment_m2 * seen_m2;
+                let (normal_m3, holder) = (mean_m * seen_m2, &mut self.holder);
+                holder.normal_m3 += normal_m3;
+                holder.slope_m3 += normal_m3 * bends.steepest([both.near_m, both.far_m]);
+                holder.turn_m4 += normal_m3 * both.far_m.min(rim_m);
             }
         }
     }
@@ -156,7 +210,7 @@ impl Columns {
     pub fn bound_load(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Press {
         let mut press = Press::NONE;
         for (both, size) in self.over(bends, ends, drift).zip(self.sizes()) {
-            press.add(&both, size, bends.rim_m());
+            press.add(&both, size, bends);
         }
         press
     }
@@ -172,7 +226,7 @@ impl Columns {
             deepest_at_m: at.deepest_at_m,
         };
         for (both, size) in self.over(bends, [at; 2], &Drift::NONE).zip(self.sizes()) {
-            press.add(&both, size, rim_m);
+            press.add(&both, size, bends);
             if both.near_m <= rim_m {
                 seen.volume_m3[0] += both.low.most_mean_m() * size.area_m2;
             }

@@ -18,6 +18,9 @@ pub enum JobError {
         "workcell.tool.sponge.stiffness_pa is missing; a promise about contact needs the least and the greatest stiffness of the sponge"
     )]
     NoStiffness,
+    /// The holder of the plates contradicts the rest of the job, or says too little.
+    #[error("job: requirements.holder {0}")]
+    Holder(&'static str),
     /// A number is out of range.
     #[error("job: {name} must be {expected}; found {found}")]
     Number {

@@ -23,8 +23,8 @@ pub use crate::job::error::{End, JobError};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
 pub use crate::job::recovery::{RETREAT_M_S, Recovery, RecoveryPart, RetreatLine};
 pub use crate::job::requirements::{
-    ContactRequirements, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M, PatternName, Planner,
-    PlannerSettings, ReachBorders, Requirements, Treatment,
+    ContactRequirements, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M,
+    PatternName, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
 };
 pub use crate::job::soil::{MOST_PASSES, Soil};
 pub use crate::job::terms::{JobTerms, MAX_SEED, PlateOverlap, check_workcell};

@@ -48,6 +48,9 @@ pub struct Requirements {
     /// Requirements of the contact; `None` if the sponge counts as touching with its whole face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactRequirements>,
+    /// What holds the plates, which must stay where they are; `None` if that is assumed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holder: Option<HolderTerms>,
 }
 
 /// Treatment of the plates by a job, as every report names it.
@@ -132,6 +135,43 @@ impl ContactRequirements {
             dose_pa_m: self.dose_pa_m,
         }
     }
+}
+
+/// What holds the plates of a job while the sponge presses them, and the friction of the sponge: assumptions.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HolderTerms {
+    /// Greatest friction coefficient of the sponge on a plate.
+    pub sponge_friction: f64,
+    /// Mass of a plate \[kg\]; `None` if it is not stated, with a fixture alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plate_mass_kg: Option<f64>,
+    /// Fixture that holds each plate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixture: Option<FixtureTerms>,
+    /// Ring on which each plate stands, held by its friction alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ring: Option<RingTerms>,
+}
+
+/// Strength of a fixture that holds a plate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FixtureTerms {
+    /// Force that it takes in any direction across the plate's axis \[N\].
+    pub force_n: f64,
+    /// Torque about the plate's axis that it takes at the same time \[N·m\].
+    pub torque_nm: f64,
+}
+
+/// Ring about its axis on which a plate stands.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RingTerms {
+    /// Least friction coefficient of the plate on what it stands on.
+    pub friction: f64,
+    /// Radius \[m\].
+    pub radius_m: f64,
 }
 
 /// Planner of a job, with its settings.

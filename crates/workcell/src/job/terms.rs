@@ -9,10 +9,12 @@ use crate::dry_run::DryRun;
 use crate::job::error::JobError;
 use crate::job::measured_shape::MeasuredShape;
 use crate::job::recovery::Recovery;
-use crate::job::requirements::{Limits, Planner, PlannerSettings, Requirements, Treatment};
+use crate::job::requirements::{
+    FixtureTerms, HolderTerms, Limits, Planner, PlannerSettings, Requirements, RingTerms, Treatment,
+};
 use crate::job::soil::Soil;
 use crate::layout::{MAX_PLATES, base_footprint};
-use crate::plate::{GREATEST_M, Plate};
+use crate::plate::{GREATEST_M, LEAST_PLATE_M, Plate};
 use crate::pose;
 use crate::simulation::SimulationSettings;
 use crate::words::plate_name;
@@ -33,6 +35,9 @@ const STIFFEST_PA: f64 = 1e9;
 
 /// Greatest force that a job may state \[N\].
 const GREATEST_N: f64 = 1e6;
+
+/// Greatest mass of a plate \[kg\].
+const GREATEST_KG: f64 = 1e3;
 
 /// The terms of a job: everything about it but the arm itself, as a plan file states it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -148,6 +153,7 @@ impl JobTerms {
         positive("requirements.wash_speed_m_s", wanted.wash_speed_m_s)?;
         positive("requirements.wash_acceleration_m_s2", wanted.wash_acceleration_m_s2)?;
         self.check_contact()?;
+        self.check_holder()?;
         for joint in self.limits.joint_acceleration_rad_s2 {
             positive("limits.joint_acceleration_rad_s2", joint)?;
         }
@@ -261,6 +267,48 @@ impl JobTerms {
         within("requirements.contact.force_n", most, [least, GREATEST_N])?;
         within("requirements.contact.time_s", contact.time_s, [0.0, 1e6])?;
         within("requirements.contact.dose_pa_m", contact.dose_pa_m, [0.0, 1e9])
+    }
+
+    fn check_holder(&self) -> Result<(), JobError> {
+        let Some(holder) = &self.requirements.holder else {
+            return Ok(());
+        };
+        let HolderTerms {
+            sponge_friction,
+            plate_mass_kg,
+            fixture,
+            ring,
+        } = *holder;
+        let fault = match (fixture, ring) {
+            _ if self.requirements.contact.is_none() => "needs requirements.contact: without it no force is proved",
+            (Some(_), Some(_)) => "is a fixture or a ring, not both",
+            (None, None) => "states neither a fixture nor a ring",
+            (None, Some(_)) if plate_mass_kg.is_none() => {
+                "needs plate_mass_kg: the weight presses a plate onto its ring"
+            }
+            _ => "",
+        };
+        if !fault.is_empty() {
+            return Err(JobError::Holder(fault));
+        }
+        within("requirements.holder.sponge_friction", sponge_friction, [0.0, 10.0])?;
+        within(
+            "requirements.holder.plate_mass_kg",
+            plate_mass_kg.unwrap_or(0.0),
+            [0.0, GREATEST_KG],
+        )?;
+        if let Some(FixtureTerms { force_n, torque_nm }) = fixture {
+            within("requirements.holder.fixture.force_n", force_n, [0.0, GREATEST_N])?;
+            within("requirements.holder.fixture.torque_nm", torque_nm, [0.0, GREATEST_N])?;
+        }
+        if let Some(RingTerms { friction, radius_m }) = ring {
+            within("requirements.holder.ring.friction", friction, [0.0, 10.0])?;
+            // No wider than any plate, nor than the foot of one that has a foot.
+            let outer = |plate: &Plate| plate.foot.map_or(plate.rim_m(), |foot| foot.radius_m);
+            let most_m = self.plates.iter().map(outer).fold(GREATEST_M, f64::min);
+            within("requirements.holder.ring.radius_m", radius_m, [LEAST_PLATE_M, most_m])?;
+        }
+        Ok(())
     }
 
     fn check_dry_run(&self) -> Result<(), JobError> {
