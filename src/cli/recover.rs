@@ -32,7 +32,7 @@ const NAMES: [&str; 6] = [
 pub struct RecoverArguments {
     /// Plan file that was stopped; it must be proved
     plan: PathBuf,
-    /// Where the arm stands: its six joint positions [deg]
+    /// Six joint positions of the arm where it stands [deg]
     #[arg(long, value_name = "Q", num_args = AXES, required = true, allow_negative_numbers = true)]
     at_deg: Vec<f64>,
     /// Time in the plan at which it was stopped [s] [default: the earliest at which the plan is about there]

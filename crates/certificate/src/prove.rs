@@ -175,12 +175,7 @@ impl PlanUnderProof<'_> {
         let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         let upright_cosine = |plate| schedule.map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate));
 
-        let mut checks = vec![
-            plates::arm(subject),    // 1
-            plates::tool(subject),   // 2
-            plates::plates(subject), // 3
-        ];
-        checks.extend(dry_run::check(subject)?); // 4
+        let mut checks = self.first_statements()?; // 1–4
         checks.extend([
             exclusions.check(subject, &model, &clearance),           // 5
             wash_paths,                                              // 6
@@ -209,6 +204,13 @@ impl PlanUnderProof<'_> {
         })
     }
 
+    /// Checks the plan's statements about arm, tool and plates, and of a dry run: requirements 1 to 4.
+    fn first_statements(&self) -> Result<Vec<Check>, ProveError> {
+        let subject = self.subject;
+        let own = [plates::arm(subject), plates::tool(subject), plates::plates(subject)];
+        Ok(own.into_iter().chain(dry_run::check(subject)?).collect())
+    }
+
     /// Checks the requirements of a motion from a stop home, which washes nothing. While the sponge leaves a plate it may touch that plate;
     /// how, only the speed and the line of its tip say.
     fn proof_of_motion_home(&self, segments: Check) -> Result<Proof, ProveError> {
@@ -226,8 +228,7 @@ impl PlanUnderProof<'_> {
         let tips = Tips::new(&arm, subject, &along, schedule);
         let waived = exclusions.waived_in(&model);
         let clearance = pairs::judge(subject, &model, &waived, self.timeline, schedule, self.cancel)?;
-        let mut checks = vec![plates::arm(subject), plates::tool(subject), plates::plates(subject)];
-        checks.extend(dry_run::check(subject)?);
+        let mut checks = self.first_statements()?;
         checks.extend([
             exclusions.check(subject, &model, &clearance),
             segments,

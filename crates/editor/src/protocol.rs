@@ -73,7 +73,7 @@ pub struct RecoveryQuestion {
     pub text: String,
     /// Time in the plan at which it was stopped \[s\]; `None` where that is not known.
     pub stopped_s: Option<f64>,
-    /// Where the arm stands \[deg\]; `None` for where the plan has it then.
+    /// Joint positions of the arm \[deg\]; `None` for those of the plan then.
     pub at_deg: Option<[f64; 6]>,
 }
 

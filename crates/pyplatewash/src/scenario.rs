@@ -287,7 +287,7 @@ impl ScenarioObject {
         self.section(py, "wash")
     }
 
-    /// What holds the plates.
+    /// Holder of the plates.
     #[getter]
     fn holder<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.section(py, "holder")

@@ -55,7 +55,7 @@ pub struct Scenario {
     pub plate: Vec<PlateSection>,
     /// The path on a plate.
     pub wash: WashSection,
-    /// What holds the plates.
+    /// Holder of the plates.
     pub holder: HolderSection,
     /// Inverse kinematics along the path.
     pub ik: IkSection,

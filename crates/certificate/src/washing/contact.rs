@@ -81,7 +81,7 @@ pub struct PlateContact {
     /// proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_torque_nm: Option<[f64; 2]>,
-    /// What holds the plate takes, from approach to retreat; `None` where nothing is proved.
+    /// Load that the plate's holder takes, from approach to retreat; `None` where nothing is proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holder_load: Option<HolderLoad>,
 }
@@ -120,7 +120,7 @@ pub(crate) struct ContactInputs<'a> {
     pub around_meets: bool,
     /// Least cosine of the angle between the tool and the plate's axis from approach to retreat.
     pub cosine: f64,
-    /// What holds the plate, where the job states it.
+    /// Holder of the plate, where the job states it.
     pub holder: Option<&'a HolderTerms>,
     /// Upwards, in the frame of the plate's pose.
     pub up: &'a Vector3<f64>,

@@ -84,7 +84,7 @@ pub enum JobError {
     /// The statement about a recovery does not fit the job.
     #[error("job: recovery: {fault}")]
     Recovery {
-        /// What is wrong.
+        /// Fault, in words.
         fault: &'static str,
     },
     /// The terms are for another arm.

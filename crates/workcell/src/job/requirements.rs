@@ -48,7 +48,7 @@ pub struct Requirements {
     /// Requirements of the contact; `None` if the sponge counts as touching with its whole face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactRequirements>,
-    /// What holds the plates, which must stay where they are; `None` if that is assumed.
+    /// Holder of the plates, which must stay where they are; `None` if that is assumed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holder: Option<HolderTerms>,
 }
@@ -137,7 +137,7 @@ impl ContactRequirements {
     }
 }
 
-/// What holds the plates of a job while the sponge presses them, and the friction of the sponge: assumptions.
+/// Holder of the plates of a job while the sponge presses them, and the friction of the sponge: assumptions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HolderTerms {
