@@ -7,10 +7,11 @@ use crate::report::certificate::{Certificate, Verdict};
 use crate::report::check::{Check, Measure, Sense, Status, Unit};
 use crate::report::requirement::Requirement;
 use crate::report::words::{number, rounded_bound};
+use crate::washing::contact::PlateContact;
 use platewash_kinematics::words::distinct_decimals;
 use platewash_workcell::job::{ContactRequirements, Recovery, Requirements};
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::{count_with_noun, pair_text};
+use platewash_workcell::words::{count_with_noun, pair_text, plate_name};
 
 /// Number of broken requirements that are shown with their numbers.
 const MOST_NUMBERS: usize = 3;
@@ -147,7 +148,7 @@ fn broken(certificate: &Certificate) -> String {
         let each: Vec<_> = told
             .iter()
             .filter(|check| check.status == status)
-            .map(|check| shortfall(check))
+            .map(|check| shortfall(check) + &ring_fault(certificate, check))
             .collect();
         (!each.is_empty()).then(|| format!("{words}: {}", each.join(", ")))
     };
@@ -161,6 +162,18 @@ fn broken(certificate: &Certificate) -> String {
         hash,
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the way in which a plate may leave its ring, for the check that plates stay; empty for others.
+fn ring_fault(certificate: &Certificate, check: &Check) -> String {
+    let is_worst = |contact: &&PlateContact| {
+        check.requirement == Requirement::PlateStays && Some(contact.plate) == check.worst.plate
+    };
+    let worst = certificate.contact.iter().find(is_worst);
+    let fault = worst.and_then(|contact| contact.holder_load?.ring?.fault().map(|fault| (contact.plate, fault)));
+    fault.map_or_else(String::new, |(plate, fault)| {
+        format!(": {}, {fault}", plate_name(plate))
+    })
 }
 
 /// Formats a requirement that is not kept, with the value found or shown and the required one.

@@ -444,4 +444,6 @@ fn a_plate_with_a_profile_stays_on_a_wide_ring_and_tips_on_a_narrow_one() {
     assert_eq!(contact.holder_load.unwrap().ring.unwrap().fault(), Some("it may tip"));
     let check = narrow.check(Requirement::PlateStays).unwrap();
     assert_eq!((check.status, check.measure.unwrap().bound), (Status::NotProved, None));
+    let words = "plate stays (at most 100 % required): plate 1, it may tip";
+    assert!(narrow.headline.contains(words), "{}", narrow.headline);
 }
