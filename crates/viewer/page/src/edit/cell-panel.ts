@@ -175,7 +175,7 @@ export class CellPanel {
     });
     const recover = button({ class: "button text-button", title: "After a stop: a proved motion home from these joints, or from the moment shown, and what is left to wash" }, () => actions.recover(joints.value), "Recover");
     const back = button({ class: "button text-button", title: "Show the plan again (Escape)" }, () => actions.clearRecovery(), "Back to the plan");
-    this.#recovery = el("div", { class: "map-words" }, this.#recoveryWords, back);
+    this.#recovery = el("div", { class: "recovery-words" }, this.#recoveryWords, back);
     this.#recovery.hidden = true;
     const stop = el("div", { class: "row-places", set: { role: "group", "aria-label": "After a stop" } }, "After a stop", joints, el("span", { class: "unit" }, "°"), recover);
     this.element = el("div", { class: "cell-panel" }, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, obstacle, this.#all), this.#hint, stop, this.#recovery);
