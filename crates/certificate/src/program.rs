@@ -125,22 +125,23 @@ pub fn prove_program(
     let waived = exclusions.waived_in(&model);
     let mut clearance = pairs::judge(&subject, &model, &waived, &timeline, Some(&schedule), cancel)?;
     let judged = check(&tip, &pieces, &schedule, &planned, limits.deviation_m);
-    let mut checks = vec![position, in_program_time(speed, limits.speed_share)];
-    let washes = !plan.job.is_motion_home();
-    checks.extend(washes.then(|| contact(&tips, &pieces, &schedule, limits.deviation_m)));
-    checks.push(judged);
+    let mut checks = vec![
+        position,
+        in_program_time(speed, limits.speed_share),
+        contact(&tips, &pieces, &schedule, limits.deviation_m),
+        judged,
+    ];
     checks.extend(pairs::checks(subject.limits.clearance_m, &clearance));
-    if washes {
-        checks.push(coverage::check(&subject, &swept));
-        // A tip is where it should be at any tilt, and the sponge is not.
-        checks.extend(tilt);
-    }
+    checks.push(coverage::check(&subject, &swept));
+    // A tip is where it should be at any tilt, and the sponge is not.
+    checks.extend(tilt);
+    checks.retain(|check| subject.asks_for(check.requirement));
     cancel.check()?;
     world.checks_to_world(&mut checks);
     world.pairs_to_world(&mut clearance);
-    let is_implied = |check: &Check| match check.requirement {
-        Requirement::WashSpeed => washes,
-        requirement => requirement == Requirement::TipSpeed,
+    let is_implied = |check: &Check| {
+        let is_of_tip = matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
+        is_of_tip && subject.asks_for(check.requirement)
     };
     Ok(ProgramProof {
         checks,

@@ -21,7 +21,7 @@ use crate::washing::coverage::{self, PlateCoverage, Wash};
 use crate::washing::{following, holding, landing, reach};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{JobTerms, Recovery};
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::{Knots, Plan, Process};
 
 /// Greatest joint position for which sines are accurate (see [`platewash_kinematics::trig`]) \[rad\].
@@ -138,9 +138,6 @@ impl PlanUnderProof<'_> {
     /// Checks every requirement, in the order of the report and by its number in `docs/certificate.md`. `segments` is the check that was
     /// made before.
     fn proof(&self, segments: Check) -> Result<Proof, ProveError> {
-        if self.plan.job.is_motion_home() {
-            return self.proof_of_motion_home(segments);
-        }
         let Self {
             plan,
             subject,
@@ -175,7 +172,12 @@ impl PlanUnderProof<'_> {
         let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
         let upright_cosine = |plate| schedule.map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate));
 
-        let mut checks = self.first_statements()?; // 1–4
+        let mut checks = vec![
+            plates::arm(subject),    // 1
+            plates::tool(subject),   // 2
+            plates::plates(subject), // 3
+        ];
+        checks.extend(dry_run::check(subject)?); // 4
         checks.extend([
             exclusions.check(subject, &model, &clearance),           // 5
             wash_paths,                                              // 6
@@ -195,58 +197,11 @@ impl PlanUnderProof<'_> {
         checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: share, time, dose, strain, force
         checks.extend(wrist::check(subject, pieces, schedule)); // 32
         checks.extend(holding::check(subject, &contact)); // 33: plate stays
+        checks.retain(|check| subject.asks_for(check.requirement));
         Ok(Proof {
             checks,
             swept,
             contact,
-            clearance,
-            exclusions,
-        })
-    }
-
-    /// Checks the plan's statements about arm, tool and plates, and of a dry run: requirements 1 to 4.
-    fn first_statements(&self) -> Result<Vec<Check>, ProveError> {
-        let subject = self.subject;
-        let own = [plates::arm(subject), plates::tool(subject), plates::plates(subject)];
-        Ok(own.into_iter().chain(dry_run::check(subject)?).collect())
-    }
-
-    /// Checks the requirements of a motion from a stop home, which washes nothing. While the sponge leaves a plate it may touch that plate;
-    /// how, only the speed and the line of its tip say.
-    fn proof_of_motion_home(&self, segments: Check) -> Result<Proof, ProveError> {
-        let Self {
-            plan,
-            subject,
-            pieces,
-            schedule,
-            ..
-        } = *self;
-        let exclusions = Exclusions::of(subject)?;
-        let model = exclusions.model(subject)?;
-        let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
-        let along = arm.along(pieces);
-        let tips = Tips::new(&arm, subject, &along, schedule);
-        let waived = exclusions.waived_in(&model);
-        let clearance = pairs::judge(subject, &model, &waived, self.timeline, schedule, self.cancel)?;
-        let mut checks = self.first_statements()?;
-        checks.extend([
-            exclusions.check(subject, &model, &clearance),
-            segments,
-            schedule::home_to_home(plan),
-            plates::plates_apart(subject)?,
-        ]);
-        checks.extend(joints::checks(pieces, &subject.limits.joints, schedule));
-        checks.extend(tips.moving_checks(subject, pieces, schedule));
-        if plan.job.recovery.as_ref().and_then(Recovery::retreat).is_some() {
-            checks.push(landing::check(&arm, subject, (pieces, &along), schedule, &tips));
-            let [_, line] = following::checks(&arm, subject, (pieces, &along), schedule);
-            checks.push(line);
-        }
-        checks.extend(pairs::checks(subject.limits.clearance_m, &clearance));
-        Ok(Proof {
-            checks,
-            swept: Vec::new(),
-            contact: Vec::new(),
             clearance,
             exclusions,
         })

@@ -5,6 +5,7 @@
 //! The bodies that a job adds to the arm are checked here: distances to them must be computable.
 
 use crate::error::ProveError;
+use crate::report::requirement::Requirement;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
@@ -55,6 +56,20 @@ impl<'a> Subject<'a> {
         let surface = &self.plates().get(plate)?.surface;
         let curve = self.path_of(plate)?.curve;
         Some(surface.at_arc(curve.radius_m).radius_m)
+    }
+
+    /// Returns true where a requirement applies to the job. A motion home washes nothing; of the sponge at a plate it asks how that is left.
+    pub fn asks_for(&self, requirement: Requirement) -> bool {
+        use Requirement as R;
+        let Some(recovery) = self.job.recovery.as_ref().filter(|recovery| recovery.is_motion_home()) else {
+            return true;
+        };
+        match requirement {
+            R::ContactSpeed | R::LineDeviation => recovery.retreat().is_some(),
+            R::WashPaths | R::EveryPlateOnce | R::RestAtWashEnds | R::WashSpeed | R::WashAcceleration => false,
+            R::Tilt | R::ContactHeight | R::PathDeviation | R::Reach | R::Swept => false,
+            _ => true,
+        }
     }
 
     /// Radius of the sponge \[m\].

@@ -18,18 +18,15 @@ use crate::pipeline::motion::{WholeMotion, one_after_the_other};
 use crate::pipeline::plan_in_order;
 use crate::pipeline::shared::Pipeline;
 use crate::recovery::retreat::{NEARER_M, Start, Way};
-use crate::scene::{Scene, Stretch};
-use crate::transit::{self, LiftLine, Transit, TransitError};
+use crate::transit::{self, LiftLine, Transit};
 use crate::watch::{Activity, Watch};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{JointVector, LimitViolation, RobotModel};
 use platewash_workcell::clearance::PairClearance;
-use platewash_workcell::job::{
-    JobError, JobTerms, RETREAT_M_S, Recovery, RecoveryPart, Requirements, RetreatLine, WashJob,
-};
-use platewash_workcell::plan::{Knots, Plan, PlanFileError, PlanParts, Process, Provenance};
+use platewash_workcell::job::{JobTerms, Recovery, RecoveryPart, Requirements, RetreatLine, WashJob};
+use platewash_workcell::plan::{Knots, Plan, PlanParts, Process, Provenance};
 use platewash_workcell::random;
-use platewash_workcell::trajectory::{KnotError, SegmentKind};
+use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::{plate_name, printable};
 use platewash_workcell::workcell::{ReducedClearance, Workcell, is_pair};
 use std::sync::Arc;
@@ -118,24 +115,6 @@ fn nearest(plate: &Option<usize>, pair: Option<&PairClearance>) -> String {
     }
 }
 
-impl From<JobError> for RecoveryError {
-    fn from(error: JobError) -> Self {
-        Self::Plan(error.into())
-    }
-}
-
-impl From<PlanFileError> for RecoveryError {
-    fn from(error: PlanFileError) -> Self {
-        Self::Plan(error.into())
-    }
-}
-
-impl From<KnotError> for RecoveryError {
-    fn from(error: KnotError) -> Self {
-        Self::Plan(error.into())
-    }
-}
-
 /// Plans the way home from where the arm stands, `at` \[rad\], and the washing of the plates that are left.
 ///
 /// `time_s` is the time in the plan at which it was stopped \[s\], where that is known. Otherwise the joints tell, and the earliest moment
@@ -151,13 +130,27 @@ pub fn recover(
     watch: &Watch<'_>,
 ) -> Result<Recovered, RecoveryError> {
     check(plan, arm, at)?;
-    let stop = Stop::new(plan, &plan.knots.motion()?, at, time_s)?;
-    let job = WashJob::new(arm.clone(), plan.job.clone())?.named(&plan.provenance.scenario);
+    let motion = plan.knots.motion().map_err(PlanError::from)?;
+    let stop = Stop::new(plan, &motion, at, time_s)?;
+    let job = WashJob::new(arm.clone(), plan.job.clone()).map_err(PlanError::from)?;
     let pipeline = Pipeline::here(&job, watch)?;
+    let scene = pipeline.scene()?;
     (watch.tell)(&Activity::Transit { turn: 1, of: 1 });
-    let (home, near) = motion_home(plan, &pipeline, &stop, at)?;
-    let rest = rest(plan, arm, &stop, watch)?;
-    Ok(Recovered { stop, near, home, rest })
+    let about = |after_s: &f64| Some(motion.at(stop.time_s? + after_s)?.q);
+    let on_plan = ABOUT_S.iter().filter_map(about).collect();
+    let start = Start::new(&pipeline, &scene, at, stop.at_plate, on_plan);
+    let near = start.too_near();
+    if let Some(pair) = near.iter().find(|pair| pair.distance_m <= NEARER_M) {
+        let pair = Box::new(pair.clone());
+        return Err(RecoveryError::Touching { pair });
+    }
+    let (way, transit) = way_home(&start)?;
+    Ok(Recovered {
+        home: motion_home(plan, &start, way, &transit)?,
+        rest: rest(plan, arm, &stop, watch)?,
+        stop,
+        near,
+    })
 }
 
 fn check(plan: &Plan, arm: &RobotModel, at: &JointVector) -> Result<(), RecoveryError> {
@@ -178,43 +171,13 @@ fn check(plan: &Plan, arm: &RobotModel, at: &JointVector) -> Result<(), Recovery
         .map_or(Ok(()), |violation| Err(RecoveryError::Limit(violation)))
 }
 
-/// The motion from the stop to the start of a plan, and the pairs that are near at the stop.
-fn motion_home(
-    plan: &Plan,
-    pipeline: &Pipeline<'_>,
-    stop: &Stop,
-    at: &JointVector,
-) -> Result<(Plan, Vec<PairClearance>), RecoveryError> {
-    let scene = pipeline.scene()?;
-    let clearance_m = pipeline.clearance_m();
-    let motion = plan.knots.motion()?;
-    let about = |after_s: &f64| Some(motion.at(stop.time_s? + after_s)?.q);
-    let plate = plate_at(pipeline, stop, at);
-    let required_m = clearance_m + Stretch::Free.reserve_m();
-    let start = Start {
-        near: pipeline.clearance.too_near(at, plate.as_slice(), required_m),
-        on_plan: ABOUT_S.iter().filter_map(about).collect(),
-        pipeline,
-        scene: &scene,
-        at: *at,
-        plate,
-    };
-    let near: Vec<_> = start
-        .near
-        .iter()
-        .filter(|pair| !pair.is_clear(clearance_m))
-        .cloned()
-        .collect();
-    if let Some(pair) = near.iter().find(|pair| pair.distance_m <= NEARER_M) {
-        let pair = Box::new(pair.clone());
-        return Err(RecoveryError::Touching { pair });
-    }
-    let (way, transit) = way_home(&start)?;
-    let retreat = plate.zip(way.as_ref()).map(|(plate, way)| RetreatLine {
+/// The plan of the motion from the stop to the start of a plan.
+fn motion_home(plan: &Plan, start: &Start<'_>, way: Option<Way>, transit: &Transit) -> Result<Plan, PlanError> {
+    let retreat = start.plate.zip(way.as_ref()).map(|(plate, way)| RetreatLine {
         plate,
         length_m: way.whole_m(),
     });
-    let up = way.map(|way| way.timed(&start)).transpose()?;
+    let up = way.map(|way| way.timed(start)).transpose()?;
     let of = retreat.map_or(0, |line| line.plate);
     let kind = if retreat.is_some() {
         SegmentKind::Retreat
@@ -226,18 +189,17 @@ fn motion_home(
         .map(|up| (kind, up))
         .chain([(SegmentKind::Return, &transit.timed)]);
     let WholeMotion { motion, segments } = one_after_the_other(parts, of)?;
-    let wanted = &plan.job.requirements;
     let terms = JobTerms {
-        home_rad: [*at, plan.job.home_rad[0]],
+        home_rad: [start.at, plan.job.home_rad[0]],
         requirements: Requirements {
             contact: None,
             holder: None,
             landing_m_s: None,
-            lifting_m_s: Some(wanted.lifting_m_s.map_or(RETREAT_M_S, |asked| asked.min(RETREAT_M_S))),
+            lifting_m_s: Some(start.speed_m_s()),
             wrist_rad: None,
-            ..*wanted
+            ..plan.job.requirements
         },
-        workcell: with_near_pairs(&plan.job.workcell, &start.near, clearance_m),
+        workcell: with_near_pairs(&plan.job.workcell, &start.near, plan.job.requirements.clearance_m),
         recovery: Some(Recovery {
             parent: plan.hash.clone().unwrap_or_default(),
             left_out: (0..plan.job.plates.len()).collect(),
@@ -253,25 +215,7 @@ fn motion_home(
         segments,
         knots: Knots::from(&motion),
     };
-    Ok((Plan::sealed(terms, parts)?, near))
-}
-
-/// The plate that the sponge is at: nearer than a free motion allows, and the nearest of several.
-fn plate_at(pipeline: &Pipeline<'_>, stop: &Stop, at: &JointVector) -> Option<usize> {
-    let required_m = pipeline.clearance_m() + Stretch::Free.reserve_m();
-    let near = pipeline.clearance.too_near(at, &[], required_m);
-    let of = |plate: usize| {
-        let is_it = |pair: &&PairClearance| {
-            let (a, b) = (&pair.a, &pair.b);
-            is_pair(&["sponge".to_owned(), plate_name(plate)], (a, b))
-        };
-        near.iter().find(is_it).map(|pair| (plate, pair.distance_m))
-    };
-    let all = (0..pipeline.plates.len()).filter_map(of);
-    // Of two that touch, the one that was under way.
-    let rank = |(plate, distance_m): &(usize, f64)| (*distance_m, Some(*plate) != stop.at_plate);
-    let found = all.min_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal));
-    found.map(|(plate, _)| plate)
+    Ok(Plan::sealed(terms, parts)?)
 }
 
 /// The way to a clear place, if the start is not clear, and the free motion home from there.
@@ -286,19 +230,19 @@ fn way_home(start: &Start<'_>) -> Result<(Option<Way>, Transit), RecoveryError> 
     for way in start.ways() {
         match transit_home(start, &way.top()) {
             Ok(transit) => return Ok((Some(way), transit)),
-            Err(error @ RecoveryError::Plan(PlanError::Cancelled(_))) => return Err(error),
-            Err(error) => last = error,
+            Err(error @ PlanError::Cancelled(_)) => return Err(error.into()),
+            Err(error) => last = error.into(),
         }
     }
     Err(last)
 }
 
-fn transit_home(start: &Start<'_>, from: &JointVector) -> Result<Transit, RecoveryError> {
-    let (pipeline, scene): (_, &Scene<'_>) = (start.pipeline, start.scene);
-    let mut rng = random::stream(pipeline.terms.seed, "recovery");
-    let [from, to] = [*from, pipeline.terms.home_rad[0]].map(LiftLine::home);
-    let found = transit::plan(&pipeline.transit_rules(scene), &from, &to, &mut rng);
-    found.map_err(|error: TransitError| RecoveryError::Plan(error.into()))
+fn transit_home(start: &Start<'_>, from: &JointVector) -> Result<Transit, PlanError> {
+    let terms = start.pipeline.terms;
+    let mut rng = random::stream(terms.seed, "recovery");
+    let [from, to] = [*from, terms.home_rad[0]].map(LiftLine::home);
+    let rules = start.pipeline.transit_rules(start.scene);
+    Ok(transit::plan(&rules, &from, &to, &mut rng)?)
 }
 
 /// The workcell in which the pairs that are near at the start keep what they have.
@@ -322,7 +266,7 @@ fn with_near_pairs(workcell: &Workcell, near: &[PairClearance], clearance_m: f64
 }
 
 /// The plan of the plates that are left, in the order and along the paths of the stopped one.
-fn rest(plan: &Plan, arm: &Arc<RobotModel>, stop: &Stop, watch: &Watch<'_>) -> Result<Option<Plan>, RecoveryError> {
+fn rest(plan: &Plan, arm: &Arc<RobotModel>, stop: &Stop, watch: &Watch<'_>) -> Result<Option<Plan>, PlanError> {
     let is_left = |plate: &usize| !stop.washed.contains(plate);
     let order: Vec<usize> = plan.order.iter().copied().filter(is_left).collect();
     if order.is_empty() {

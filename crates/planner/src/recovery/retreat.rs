@@ -4,15 +4,17 @@
 //! the nearest body, or along the normal of the nearest plate; or the joints go back to where the plan has them. Pairs that are too near
 //! at the start come no nearer.
 
-use crate::joint_path::{Ends, JointPath, JointPathError};
+use crate::error::PlanError;
+use crate::joint_path::{Ends, JointPath};
 use crate::pipeline::shared::Pipeline;
-use crate::recovery::RecoveryError;
 use crate::scene::{Scene, Stretch};
 use crate::timing::{self, SlowStretch, TimedPath};
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use platewash_workcell::job::RETREAT_M_S;
+use platewash_workcell::words::plate_name;
+use platewash_workcell::workcell::is_pair;
 
 /// Longest way along a line \[m\].
 const LONGEST_M: f64 = 0.15;
@@ -48,6 +50,11 @@ pub(crate) struct Start<'a> {
     pub on_plan: Vec<JointVector>,
 }
 
+/// Clearance that a free motion keeps \[m\].
+fn free_m(pipeline: &Pipeline<'_>) -> f64 {
+    pipeline.clearance_m() + Stretch::Free.reserve_m()
+}
+
 /// A way out.
 pub(crate) struct Way {
     /// Configurations from the start to a place that is clear \[rad\].
@@ -66,23 +73,66 @@ impl Way {
     }
 
     /// The way in time, slowly, from rest to rest.
-    pub fn timed(&self, start: &Start<'_>) -> Result<TimedPath, RecoveryError> {
+    pub fn timed(&self, start: &Start<'_>) -> Result<TimedPath, PlanError> {
         let (pipeline, scene) = (start.pipeline, start.scene);
-        let path = JointPath::through(self.length_m.clone(), self.q.clone(), Ends::NotAKnot).map_err(path_error)?;
+        let path = JointPath::through(self.length_m.clone(), self.q.clone(), Ends::NotAKnot)?;
         let slow = SlowStretch {
             u: [0.0, self.whole_m()],
-            most: PACE * RETREAT_M_S.min(pipeline.terms.requirements.lifting_m_s.unwrap_or(RETREAT_M_S)),
+            most: PACE * start.speed_m_s(),
         };
-        let timed = timing::time_optimal_slowed(&path, scene.robot, &scene.tip, &pipeline.transit, &[slow]);
-        timed.map_err(|error| RecoveryError::Plan(error.into()))
+        let (tip, limits) = (&scene.tip, &pipeline.transit);
+        Ok(timing::time_optimal_slowed(&path, scene.robot, tip, limits, &[slow])?)
     }
 }
 
-fn path_error(error: JointPathError) -> RecoveryError {
-    RecoveryError::Plan(error.into())
-}
+impl<'a> Start<'a> {
+    /// The arm at a configuration \[rad\]. Of two plates that the sponge touches it is at the one under way.
+    pub fn new(
+        pipeline: &'a Pipeline<'a>,
+        scene: &'a Scene<'a>,
+        at: &JointVector,
+        under_way: Option<usize>,
+        on_plan: Vec<JointVector>,
+    ) -> Self {
+        let mut near = pipeline.clearance.too_near(at, &[], free_m(pipeline));
+        let under_sponge =
+            |pair: &PairClearance, plate| is_pair(&["sponge".to_owned(), plate_name(plate)], (&pair.a, &pair.b));
+        let under = |pair: &PairClearance| {
+            let plate = (0..pipeline.plates.len()).find(|plate| under_sponge(pair, *plate))?;
+            Some((plate, pair.distance_m))
+        };
+        let nearer = |a: &(usize, f64), b: &(usize, f64)| {
+            let other = |plate| Some(plate) != under_way;
+            a.1.total_cmp(&b.1).then(other(a.0).cmp(&other(b.0)))
+        };
+        let plate = near.iter().filter_map(under).min_by(nearer).map(|(plate, _)| plate);
+        near.retain(|pair| !plate.is_some_and(|plate| under_sponge(pair, plate)));
+        Self {
+            pipeline,
+            scene,
+            at: *at,
+            plate,
+            near,
+            on_plan,
+        }
+    }
 
-impl Start<'_> {
+    /// The pairs that are nearer than the job asks.
+    pub fn too_near(&self) -> Vec<PairClearance> {
+        let clearance_m = self.pipeline.clearance_m();
+        self.near
+            .iter()
+            .filter(|pair| !pair.is_clear(clearance_m))
+            .cloned()
+            .collect()
+    }
+
+    /// Greatest speed of the sponge where it leaves a plate \[m/s\].
+    pub fn speed_m_s(&self) -> f64 {
+        let asked = self.pipeline.terms.requirements.lifting_m_s;
+        asked.map_or(RETREAT_M_S, |asked| asked.min(RETREAT_M_S))
+    }
+
     fn model(&self) -> &ClearanceModel {
         &self.pipeline.clearance
     }
@@ -93,8 +143,7 @@ impl Start<'_> {
 
     /// True if every pair keeps the clearance of a free motion.
     fn is_free(&self, q: &JointVector) -> bool {
-        let required_m = self.pipeline.clearance_m() + Stretch::Free.reserve_m();
-        self.model().too_near(q, &[], required_m).is_empty()
+        self.model().too_near(q, &[], free_m(self.pipeline)).is_empty()
     }
 
     /// True if no pair is too near but those at the start, and those are no nearer.
