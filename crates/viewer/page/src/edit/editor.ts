@@ -240,11 +240,12 @@ export class Editor {
 
   /** Asks for the way on from the joints that are typed, or from where the plan has the arm at the moment shown. */
   #recover(joints: string): void {
-    const at_deg = readJoints(joints);
-    if (at_deg === "not six") return this.#recovery.refuse("Joints: expected six numbers in degrees, or nothing for the moment shown.");
-    if (this.#cell.standing.kind !== "proved") return this.#recovery.refuse("A recovery is one of a proved plan; this one is not proved.");
-    if (at_deg === null && this.#recovered !== null) return this.#recovery.refuse("The plan is shown again: choose its moment, and press Recover.");
-    this.#recovery.ask(this.#cell.text, at_deg === null ? this.#host.time() : null, at_deg);
+    const [at_deg, { text }] = [readJoints(joints), this.#cell];
+    const refuse = (words: string): void => this.#recovery.refuse(text, words);
+    if (at_deg === "not six") return refuse("Joints: expected six numbers in degrees, or nothing for the moment shown.");
+    if (this.#cell.standing.kind !== "proved") return refuse("A recovery is one of a proved plan; this one is not proved.");
+    if (at_deg === null && this.#recovered !== null) return refuse("The plan is shown again: choose its moment, and press Recover.");
+    this.#recovery.ask(text, at_deg === null ? this.#host.time() : null, at_deg);
   }
 
   /** Puts the motion home in the place of the plan, or the plan back. */
