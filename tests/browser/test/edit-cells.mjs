@@ -5,12 +5,14 @@ import { centres, edit, onScreen, scenario, settled, verdict } from "../lib/cell
 import { folder } from "../lib/command.mjs";
 import { text } from "../lib/watched.mjs";
 
-/** Drags from place to place of the world, at one height. */
-async function dragged(page, from_m, to_m) {
+/** Drags from place to place of the world, at one height; `there` is done before the button is let go, told where the place was. */
+async function dragged(page, from_m, to_m, there = async () => {}) {
   const [[x0, y0], [x1, y1]] = [await onScreen(page, from_m), await onScreen(page, to_m)];
   await page.mouse.move(x0, y0);
   await page.mouse.down();
+  const held = await onScreen(page, from_m);
   for (let step = 1; step <= 8; step++) await page.mouse.move(x0 + ((x1 - x0) * step) / 8, y0 + ((y1 - y0) * step) / 8);
+  await there(held);
   await page.mouse.up();
   await settled(page);
 }
@@ -94,7 +96,12 @@ test("an obstacle is moved once it is clicked, and refused where it stands in a 
   await dragged(page, at, to);
   assert.equal(await scenario(page), before);
   await page.mouse.click(...(await onScreen(page, at)));
-  await dragged(page, at, to);
+  await dragged(page, at, to, async (held) => {
+    // A longer verdict and a film that goes do not move the scene under the pointer.
+    await page.waitForFunction(() => /reaches.*reaches.*reaches/.test(window.platewash.edit.verdict().words));
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+    assert.deepEqual(await onScreen(page, at), held);
+  });
   const [line, ...more] = changedLines(before, await scenario(page));
   assert.deepEqual(more, []);
   assert.match(line, /^at_m = \[0\.2\d*, -?0(\.0\d*)?, 0\.05\]/);

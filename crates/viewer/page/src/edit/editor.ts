@@ -340,7 +340,7 @@ export class Editor {
 
   #show(): void {
     const [cell, disk] = [this.#cell, this.#disk];
-    document.documentElement.toggleAttribute("data-dragging", cell.dragging);
+    this.#steady(cell.dragging);
     const { answers, standing, seen } = cell;
     const unsaved = this.#file !== null && disk.unsaved;
     const typing = byId("panels").querySelector('[data-dirty="true"]') !== null;
@@ -356,6 +356,15 @@ export class Editor {
     this.#bar.show(disk.conflict);
     const title = document.title.replace(/^• /, "");
     if (document.title.startsWith("• ") !== unsaved) document.title = unsaved ? `• ${title}` : title;
+  }
+
+  /** Keeps the scene where it is while something is dragged: the header keeps its height, however long a verdict is. */
+  #steady(dragging: boolean): void {
+    const root = document.documentElement;
+    if (root.hasAttribute("data-dragging") === dragging) return;
+    const header = byId("header");
+    header.style.height = dragging ? `${header.getBoundingClientRect().height}px` : "";
+    root.toggleAttribute("data-dragging", dragging);
   }
 
   /** Says a verdict once it stands. */

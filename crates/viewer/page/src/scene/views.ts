@@ -212,6 +212,8 @@ export class Views {
   #start_s: number | null = null;
   /** Whether the camera stands still whatever happens. */
   #held = false;
+  /** Fits the camera to a size and room that came while it was held. */
+  #owed: (() => void) | null = null;
   #placing = false;
   #room: Room = { top: 0, bottom: 1 };
   readonly #tip = new Vector3();
@@ -239,8 +241,13 @@ export class Views {
     this.#fly(this.#standOf(preset), atOnce);
   }
 
-  /** The picture has another size or room, whose middle the camera looks at: shows all again, unless a reader has moved the camera. */
+  /**
+   * The picture has another size or room, whose middle the camera looks at: shows all again, unless a reader has moved the camera.
+   * While the camera is held, the room stays as it is.
+   */
   resize(width: number, height: number, room: Room): void {
+    this.#owed = this.#held ? () => this.resize(width, height, room) : null;
+    if (this.#held) room = this.#room;
     this.#room = room;
     this.#camera.aspect = width / height;
     this.#camera.setViewOffset(width, height, 0, (height * (1 - room.top - room.bottom)) / 2, width, height);
@@ -251,6 +258,7 @@ export class Views {
   hold(on: boolean): void {
     this.#held = on;
     if (on) this.#to = null;
+    else this.#owed?.();
   }
 
   /** There is something else to show. The camera moves only where it shows an overview, nobody has moved it, and not all is in it. */

@@ -63,7 +63,8 @@ export class Readout {
   replace(shareAt: (plate: number, t: number) => number | null): void {
     this.#shareAt = shareAt;
     this.#kinematics = new Kinematics(this.#player.view.arm, this.#player.view.tool);
-    this.element.hidden = this.#player.duration === 0;
+    // Its place stays free, so that the scene does not move when a film comes or goes.
+    this.element.classList.toggle("empty", this.#player.duration === 0);
   }
 
   /** Shows the moment; `anew` whatever time it is. */
