@@ -69,6 +69,23 @@ fn writes_a_dry_run_beside_a_proved_plan() {
     .done();
     assert_eq!(ran.json()["verdict"], "dry_run");
     assert_eq!(ran.json()["plates"][0]["verdict"], "swept_in_air");
+    platewash(
+        dir,
+        &[
+            "figures",
+            "out/dry-run/plan.json",
+            "--only",
+            "layout,coverage",
+            "--out",
+            "drawn",
+        ],
+    )
+    .done();
+    for name in ["layout", "coverage"] {
+        let figure = std::fs::read_to_string(dir.join(format!("drawn/{name}.svg"))).unwrap();
+        let words = "mm above the plates, nothing is washed; 1 plate, seed ";
+        assert!(figure.contains(words) && !figure.contains("pressed"), "{name}");
+    }
     // The defaults are the numbers above, and the same call gives the same bytes.
     let before = std::fs::read(dir.join("out/dry-run/plan.json")).unwrap();
     let answer = platewash(dir, &["dry-run", "out/plan.json", "--json", "--quiet"]).done();

@@ -79,6 +79,13 @@ fn writes_the_way_home_and_the_rest_beside_a_proved_plan() {
         platewash(dir, &["export", &file, "--to", "rapid", "--out", name]).done();
         let said = platewash(dir, &["simulate", &file]).done().stdout;
         assert!(said.contains(first), "{said}");
+        platewash(dir, &["figures", &file, "--out", "drawn"]).done();
+        let figure = std::fs::read_to_string(dir.join("drawn/layout.svg")).unwrap();
+        assert!(
+            figure.contains(first) && figure.contains("proved for every moment"),
+            "{figure}"
+        );
+        assert_eq!(figure.contains("the tip at the stop"), name == "home");
     }
     let program = std::fs::read_to_string(dir.join("home/kitchen_home.mod")).unwrap();
     assert!(

@@ -61,8 +61,7 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     // Judged in the frame of the arm's base, told in the world.
     let seen = &*plan.seen_from_base();
     let mut subject = Subject::new(&seen.job, arm, wash_paths::by_plate(seen));
-    let up = plan.job.workcell.mount.rotation.inverse() * subject.up;
-    subject.up = up;
+    subject.up = plan.job.workcell.mount.rotation.inverse() * subject.up;
     let pieces = read(&seen.knots)?;
     let timeline = timeline(&pieces, seen.knots.t_s.len())?;
     let (schedule, gaps) = match Schedule::new(seen, &pieces) {

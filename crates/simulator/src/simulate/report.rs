@@ -9,7 +9,7 @@ use crate::simulate::text::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::{Recovery, Treatment};
+use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{ControlLawName, PlantSettings, SimulationSettings};
 use platewash_workcell::words::part_of;
@@ -149,7 +149,6 @@ impl SimulationReport {
         let plan = &*plan.seen_from_base();
         let contact = Contact::new(plan, robot);
         let tip_errors = measures::tip_errors(execution, robot, contact.tip());
-        let dry_run = plan.job.dry_run.clone();
         let plates = washing::plates(plan, robot, settings, execution)?;
         let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
         let (treatment, done) = (
@@ -161,13 +160,6 @@ impl SimulationReport {
             Seal::Whole if payload.verdict == PayloadVerdict::Exceeded => SimulationVerdict::Overloaded,
             Seal::Whole => SimulationVerdict::new(treatment, done == plan.job.plates_to_wash().count()),
         };
-        let recovery = plan.job.recovery.iter().map(Recovery::words);
-        let before: String = dry_run
-            .iter()
-            .map(DryRun::words)
-            .chain(recovery)
-            .map(|words| words + "; ")
-            .collect();
         let done_words = match plan.job.is_motion_home() {
             true => "the motion home".to_owned(),
             false => format!(
@@ -180,12 +172,13 @@ impl SimulationReport {
         Ok(Self {
             scenario: plan.provenance.scenario.clone(),
             seed: plan.job.seed,
-            dry_run,
+            dry_run: plan.job.dry_run.clone(),
             robot: robot.name().to_owned(),
             law: settings.law,
             verdict,
             headline: format!(
-                "{before}{}{done_words} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                "{}{}{done_words} under {}; the tip is off by {:.3} mm rms, {:.3} mm at most",
+                plan.job.notices(),
                 payload.overload().map_or_else(String::new, |words| words + "; "),
                 settings.law.name(),
                 1e3 * tracking.tip_m.rms,

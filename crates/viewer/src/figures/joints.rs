@@ -237,10 +237,12 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     let field = |kind, words| Entry::new(Sign::Field, fill(colour(kind)), words);
     let mut all: Vec<Entry> = (0..AXES).map(joint).collect();
     all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DOTTED, "limit"));
-    all.push(field(SegmentKind::Wash, "washes"));
-    all.push(field(SegmentKind::Transit, "transits"));
+    if subject.has(SegmentKind::Wash) {
+        all.push(field(SegmentKind::Wash, "washes"));
+        all.push(field(SegmentKind::Transit, "transits"));
+    }
     all.push(field(SegmentKind::Depart, "from and to home"));
-    if subject.has(SegmentKind::Approach) {
+    if subject.has(SegmentKind::Approach) || subject.has(SegmentKind::Retreat) {
         all.push(field(SegmentKind::Approach, "down and up"));
     }
     all

@@ -16,6 +16,7 @@ use nalgebra::UnitQuaternion;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_simulator::SimulationReport;
+use platewash_workcell::job::Treatment;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::trajectory::SegmentKind;
@@ -66,7 +67,11 @@ fn caption(subject: &Subject<'_>) -> String {
     } else {
         "Seen from above: the room's x leads up the page, its y to the left."
     };
-    format!("{from} Numbers are the plates'; the table has them in the order of washing, along the arrows.")
+    let table = match subject.plan.order.is_empty() {
+        true => ".",
+        false => "; the table has them in the order of washing, along the arrows.",
+    };
+    format!("{from} Numbers are the plates'{table}")
 }
 
 /// Least and greatest x and y of everything that is drawn \[m\].
@@ -98,7 +103,7 @@ fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
     bounds(&all)
 }
 
-/// Draws the region of the plates, the circle about the base, the bodies around, the plates and the arm at home.
+/// Draws the region of the plates, the circle about the base, the bodies around, the plates and the arm at its start.
 fn ground(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     let (job, region) = (&subject.plan.job, &subject.region);
     if let Some(polygon) = &region.polygon_m {
@@ -129,7 +134,7 @@ fn ground(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
     map.arm(drawing, &arm(subject));
 }
 
-/// The arm at home.
+/// The arm at the start of the motion: at home, or at the stop of a recovery.
 fn arm(subject: &Subject<'_>) -> Vec<Outline> {
     let job = &subject.plan.job;
     arm_outlines(subject.arm, &job.workcell.tool, subject.mount(), &job.home_rad[0])
@@ -208,12 +213,15 @@ fn seen_apart<'s>(subject: &'s Subject<'_>) -> Option<(&'s Track, &'s Simulation
 /// The plates in their order, as many as there is room for.
 fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
     let order = &subject.plan.order;
+    if order.is_empty() {
+        return;
+    }
     let height = (room.size[1] / (order.len() + 1) as f64).clamp(26.0, ROW);
     let shown = (room.size[1] / height) as usize;
-    let has_contact = subject.plan.job.requirements.contact.is_some();
-    let share = match (subject.certificate, has_contact) {
-        (Some(_), true) => "pressed ≥",
-        (Some(_), false) => "proved ≥",
+    let share = match (subject.certificate, subject.plan.job.treatment()) {
+        (Some(_), Treatment::Washed) => "pressed ≥",
+        (Some(_), Treatment::Swept) => "proved ≥",
+        (Some(_), Treatment::SweptInAir) => "in the air ≥",
         (None, _) => "swept",
     };
     let mut row = |place: usize, cells: [String; 5], looks: [&str; 2]| {
@@ -249,10 +257,9 @@ fn share_of(subject: &Subject<'_>, plate: &Plate, index: usize) -> Option<f64> {
 fn entries(subject: &Subject<'_>) -> Vec<Entry> {
     let (job, region) = (&subject.plan.job, &subject.region);
     let transits = stroke(TRANSIT, 2.4) + DASHED;
-    let mut all = vec![
-        Entry::new(Sign::Line, stroke(WASH, 2.4), "the tip while it washes"),
-        Entry::new(Sign::Line, transits, "transits, and from and to home"),
-    ];
+    let wash = Entry::new(Sign::Line, stroke(WASH, 2.4), "the tip while it washes");
+    let mut all: Vec<_> = subject.has(SegmentKind::Wash).then_some(wash).into_iter().collect();
+    all.push(Entry::new(Sign::Line, transits, "transits, and from and to home"));
     if subject.has(SegmentKind::Approach) || subject.has(SegmentKind::Retreat) {
         all.push(Entry::new(Sign::Line, stroke(LIFT, 3.4), "down to a plate and up"));
     }
@@ -271,8 +278,14 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
             ),
         });
     }
-    all.push(Entry::new(Sign::Dot, outlined(PAPER, INK, 2.6), "the tip at home"));
-    all.push(Entry::new(Sign::Field, arm_look(), "the arm with its tool at home"));
+    let start = if job.is_motion_home() { "the stop" } else { "home" };
+    let tip = format!("the tip at {start}");
+    all.push(Entry::new(Sign::Dot, outlined(PAPER, INK, 2.6), tip));
+    all.push(Entry::new(
+        Sign::Field,
+        arm_look(),
+        format!("the arm with its tool at {start}"),
+    ));
     if !outline::obstacles(&job.workcell).is_empty() {
         all.push(Entry::new(
             Sign::Field,

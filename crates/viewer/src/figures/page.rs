@@ -9,6 +9,9 @@ pub const SIZE: [f64; 2] = [1280.0, 960.0];
 /// White around everything \[px\].
 const MARGIN: f64 = 40.0;
 
+/// From one line of the subtitle to the next \[px\].
+const SUBTITLE: f64 = 27.0;
+
 /// The words around a figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FigureTexts {
@@ -33,8 +36,11 @@ pub fn begin(texts: &FigureTexts) -> (Drawing, Rect) {
         &shortened(&texts.title, 49),
         &[&title, "font-weight=\"bold\""],
     );
-    drawing.text([MARGIN, 101.0], &shortened(&texts.subtitle, 84), &[&subtitle]);
     let right = SIZE[0] - MARGIN;
+    let below = lines(&texts.subtitle, 21.0, right - MARGIN);
+    for (k, line) in below.iter().enumerate() {
+        drawing.text([MARGIN, 101.0 + SUBTITLE * k as f64], line, &[&subtitle]);
+    }
     let words = format!("{} Source: {}.", texts.caption, texts.source);
     let words = lines(&words, 18.0, right - MARGIN);
     let foot = SIZE[1] - 26.0 - 23.0 * words.len() as f64;
@@ -42,7 +48,7 @@ pub fn begin(texts: &FigureTexts) -> (Drawing, Rect) {
     for (k, line) in words.iter().enumerate() {
         drawing.text([MARGIN, foot + 26.0 + 23.0 * k as f64], line, &[SMALL]);
     }
-    let top = 126.0;
+    let top = 126.0 + SUBTITLE * below.len().saturating_sub(1) as f64;
     (drawing, Rect::new(MARGIN, top, right - MARGIN, foot - 18.0 - top))
 }
 

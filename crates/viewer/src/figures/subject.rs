@@ -159,12 +159,16 @@ impl<'a> Subject<'a> {
     /// Describes the plan: number of plates, duration, verdict.
     fn about(&self) -> String {
         let job = &self.plan.job;
-        let dry_run = job.dry_run.as_ref();
-        let dry_run = dry_run.map_or_else(String::new, |dry_run| dry_run.words() + "; ");
-        let (count, seed, duration_s) = (job.plates.len(), job.seed, self.motion.duration_s());
-        let plates = if count == 1 { "plate" } else { "plates" };
+        let plates = match job.plates_to_wash().count() {
+            0 => String::new(),
+            1 => "1 plate, ".to_owned(),
+            count => format!("{count} plates, "),
+        };
         format!(
-            "{dry_run}{count} {plates}, seed {seed}, {duration_s:.2} s; {}",
+            "{}{plates}seed {}, {:.2} s; {}",
+            job.notices(),
+            job.seed,
+            self.motion.duration_s(),
             self.proof()
         )
     }

@@ -7,7 +7,7 @@ use super::raster::Raster;
 use super::tips::Tip;
 use nalgebra::Vector3;
 use platewash_workcell::contact::{ContactSampler, ContactThresholds, Foundation, Moment, SpongePose};
-use platewash_workcell::job::JobTerms;
+use platewash_workcell::job::{JobTerms, Treatment};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use serde::Serialize;
@@ -25,13 +25,14 @@ pub struct PressedRule {
 
 impl PressedRule {
     /// Contact that counts on a plate of a job; `None` where the sponge only has to be over a place: on a flat face without a
-    /// promise of contact, and without a tool.
+    /// promise of contact or in a dry run, and without a tool.
     #[must_use]
     pub fn on(plate: &Plate, job: &JobTerms) -> Option<Self> {
         if !job.workcell.tool.is_present() {
             return None;
         }
-        let promised = job.contact_of(plate).map(|contact| Self {
+        let contact = job.contact_of(plate).filter(|_| job.treatment() == Treatment::Washed);
+        let promised = contact.map(|contact| Self {
             compression_m: contact.compression_m,
             height_error_m: contact.height_error_m,
             is_promised: true,

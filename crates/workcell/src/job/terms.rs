@@ -98,6 +98,14 @@ impl JobTerms {
         self.recovery.as_ref().is_some_and(Recovery::is_motion_home)
     }
 
+    /// Notices of a dry run and of a recovery, which stand before every verdict and caption; each ends with "; ". Empty for other jobs.
+    #[must_use]
+    pub fn notices(&self) -> String {
+        let dry_run = self.dry_run.iter().map(DryRun::words);
+        let all = dry_run.chain(self.recovery.iter().map(Recovery::words));
+        all.map(|words| words + "; ").collect()
+    }
+
     /// Indices of the plates that are washed, ascending.
     pub fn plates_to_wash(&self) -> impl Iterator<Item = usize> {
         (0..self.plates.len()).filter(|plate| self.washes(*plate))
