@@ -1,5 +1,5 @@
-//! `platewash verify`: the certificate of a plan file, and whether it is a plan of the scenario, or a dry run of the plan, that it should
-//! be of.
+//! `platewash verify`: the certificate of a plan file, and whether it is a plan of the scenario, or a dry run or recovery of the plan, that
+//! it should be of.
 
 use super::export;
 use super::failure::{ExitCode, not_verified};
@@ -9,9 +9,10 @@ use super::plan_file::{self, PlanFile, refused};
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline};
-use platewash::planner::Watch;
+use platewash::planner::{RecoveryError, Watch};
 use platewash::scenario::Program;
-use platewash::workcell::dry_run::{DryRunError, dry_run_terms};
+use platewash::workcell::dry_run::{DryRun, DryRunError, dry_run_terms};
+use platewash::workcell::job::Recovery;
 use platewash::workcell::plan::Process;
 use platewash::workcell::words::{count_with_noun, quoted};
 use platewash::{Certificate, Failure, JobTerms, Plan, RobotModel, Scenario};
@@ -32,7 +33,7 @@ pub struct VerifyArguments {
     /// All files of a robot program exported from the plan and perhaps changed since: it is compared with a new export and judged
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["against", "parent"])]
     program: Vec<PathBuf>,
-    /// Plan file that this dry run should belong to: job, order and wash paths are compared
+    /// Plan file that this dry run or recovery should belong to: job, order and wash paths are compared
     #[arg(long, value_name = "PLAN")]
     parent: Option<PathBuf>,
     #[command(flatten)]
@@ -77,8 +78,15 @@ struct PlanComparison {
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum Other {
-    Scenario { scenario: String, seed: u64 },
-    Parent { hash: Option<String> },
+    Scenario {
+        scenario: String,
+        seed: u64,
+    },
+    Parent {
+        hash: Option<String>,
+        #[serde(skip)]
+        kind: &'static str,
+    },
 }
 
 /// Judges a plan file for the arm that it is for.
@@ -99,7 +107,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
             let name = arguments.plan.display();
             ensure!(
                 arguments.parent.is_none(),
-                "{name}: a run of the paper's program is not a dry run"
+                "{name}: a run of the paper's program is neither a dry run nor a recovery"
             );
             Judgement::of_paper(&plan)
         }
@@ -166,32 +174,66 @@ fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Resul
     }
 }
 
-/// Compares a dry run, field by field, with what a dry run of the plan at `path` would ask for, and its order and paths with those of
-/// that plan.
+/// Compares a dry run or a recovery, field by field, with what that of the plan at `path` has, and its order and paths with those of that
+/// plan.
 fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<PlanComparison> {
-    let Some(dry_run) = &file.plan.job.dry_run else {
-        return Err(file.refused("it is not a dry run; --parent is for plans of platewash dry-run"));
+    let (found, parent) = (&file.plan, plan_file::read(path)?);
+    let (kind, mut all) = match (&found.job.dry_run, &found.job.recovery) {
+        (Some(dry_run), _) => ("dry run", against_tried(file, dry_run, path, &parent)?),
+        (None, Some(recovery)) => ("recovery", against_stopped(found, recovery, path, &parent)?),
+        (None, None) => {
+            return Err(file.refused(
+                "it is neither a dry run nor a recovery; --parent is for plans of platewash dry-run and platewash recover",
+            ));
+        }
     };
-    let parent = plan_file::read(path)?;
-    let (found, speed_m_s) = (&file.plan, file.plan.job.limits.tip_speed_m_s);
-    let mut all = match dry_run_terms(&parent, &file.arm, dry_run.height_m, speed_m_s) {
-        Ok(expected) => differences(&found.job, &expected),
+    let washed = |plate: usize| found.job.washes(plate);
+    let order: Vec<_> = parent.order.iter().filter(|plate| washed(**plate)).collect();
+    let paths: Vec<_> = parent.wash_paths.iter().filter(|path| washed(path.plate)).collect();
+    all.extend(differences(
+        &json!({"order": found.order, "wash_paths": found.wash_paths}),
+        &json!({"order": order, "wash_paths": paths}),
+    ));
+    Ok(PlanComparison {
+        other: Other::Parent {
+            hash: parent.hash,
+            kind,
+        },
+        differences: all,
+    })
+}
+
+/// Compares the job of a dry run with that of a dry run of the plan at `path`, of the same height and speed.
+fn against_tried(file: &PlanFile<'_>, dry_run: &DryRun, path: &Path, parent: &Plan) -> Result<Vec<Difference>> {
+    let found = &file.plan.job;
+    match dry_run_terms(parent, &file.arm, dry_run.height_m, found.limits.tip_speed_m_s) {
+        Ok(expected) => Ok(differences(found, &expected)),
         Err(error @ (DryRunError::Height { .. } | DryRunError::TooLow { .. } | DryRunError::Speed { .. })) => {
-            vec![Difference {
+            Ok(vec![Difference {
                 key: "dry_run".to_owned(),
                 found: error.to_string(),
                 expected: "is one of the plan given".to_owned(),
-            }]
+            }])
         }
-        Err(DryRunError::NotSealed) => return Err(not_verified(refused(path, DryRunError::NotSealed))),
-        Err(error) => return Err(refused(path, error)),
+        Err(DryRunError::NotSealed) => Err(not_verified(refused(path, DryRunError::NotSealed))),
+        Err(error) => Err(refused(path, error)),
+    }
+}
+
+/// Compares the job of a recovery with that of the plan at `path`. The stop alone decides which plates are left, where the arm stands and
+/// which pairs are near there.
+fn against_stopped(found: &Plan, recovery: &Recovery, path: &Path, parent: &Plan) -> Result<Vec<Difference>> {
+    if !parent.is_sealed() {
+        return Err(not_verified(refused(path, RecoveryError::NotSealed)));
+    }
+    let recovery = Recovery {
+        parent: parent.hash.clone().unwrap_or_default(),
+        ..recovery.clone()
     };
-    let motion = |plan: &Plan| json!({"order": plan.order, "wash_paths": plan.wash_paths});
-    all.extend(differences(&motion(found), &motion(&parent)));
-    Ok(PlanComparison {
-        other: Other::Parent { hash: parent.hash },
-        differences: all,
-    })
+    let pairs = found.job.workcell.reduced_clearances.iter();
+    let at_stop = pairs.filter(|pair| pair.at_stop).cloned().collect();
+    let expected = recovery.terms(&parent.job, found.job.home_rad[0], at_stop);
+    Ok(differences(&found.job, &expected))
 }
 
 impl Answer {
@@ -246,7 +288,7 @@ impl PlanComparison {
         match &self.other {
             _ if self.agrees() => String::new(),
             Other::Scenario { .. } => format!("OTHER JOB than that of {}: {count}; ", self.other),
-            Other::Parent { .. } => format!("NO DRY RUN of the plan given: {count}; "),
+            Other::Parent { kind, .. } => format!("NO {} of the plan given: {count}; ", kind.to_uppercase()),
         }
     }
 }
@@ -255,7 +297,7 @@ impl fmt::Display for Other {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scenario { scenario, seed } => write!(f, "{}, seed {seed}", quoted(scenario)),
-            Self::Parent { hash } => f.write_str(hash.as_deref().unwrap_or("without a hash")),
+            Self::Parent { hash, .. } => f.write_str(hash.as_deref().unwrap_or("without a hash")),
         }
     }
 }
@@ -268,16 +310,16 @@ impl fmt::Display for PlanComparison {
                 writeln!(f, "against {other}: {count}")?;
                 "the scenario"
             }
-            Other::Parent { .. } => {
+            Other::Parent { kind, .. } => {
                 let from = match self.agrees() {
-                    true => " from what a dry run must have",
-                    false => "",
+                    true => format!(" from what a {kind} must have"),
+                    false => String::new(),
                 };
                 writeln!(
                     f,
-                    "dry run of {other}: {count}{from}; that plan itself is not proved here"
+                    "{kind} of {other}: {count}{from}; that plan itself is not proved here"
                 )?;
-                "a dry run"
+                &format!("a {kind}")
             }
         };
         self.differences

@@ -151,7 +151,8 @@ fn verify_compares_a_dry_run_with_its_parent() {
         .collect();
     assert!(keys.iter().any(|key| key.contains("wash_paths[0]")), "{keys:?}");
     // What is no dry run has no parent, and what cannot be a parent is none.
-    platewash(dir, &["verify", "out/plan.json", "--parent", "out/plan.json"]).refused(2, &["it is not a dry run"]);
+    platewash(dir, &["verify", "out/plan.json", "--parent", "out/plan.json"])
+        .refused(2, &["it is neither a dry run nor a recovery"]);
     verify(&["out/dry-run/plan.json"]).refused(2, &["is itself a dry run"]);
     verify(&["none.json"]).refused(2, &["none.json"]);
     edited(dir, "\"coverage\":0.995", "\"coverage\":0.5");

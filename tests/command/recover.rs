@@ -106,6 +106,43 @@ fn writes_the_way_home_and_the_rest_beside_a_proved_plan() {
     );
 }
 
+#[test]
+fn verify_compares_a_recovery_with_the_plan_that_was_stopped() {
+    let folder = folder();
+    let dir = folder.path();
+    platewash(dir, &["plan", "--quiet"]).done();
+    platewash(dir, &["plan", "--seed", "2", "--out", "other", "--quiet"]).done();
+    let (at, _) = in_wash(&dir.join("out/plan.json"), 1);
+    platewash(dir, &recover("out/plan.json", &at, &["--quiet"])).done();
+    let verify = |file: &str, parent: &str| platewash(dir, &["verify", file, "--parent", parent]);
+    for (name, assumed) in [
+        ("home", "the arm stands still where the motion begins"),
+        ("rest", "the plates that are left out were washed before"),
+    ] {
+        let file = format!("out/recovery/{name}.json");
+        let said = verify(&file, "out/plan.json").done().stdout;
+        let last = "no field differs from what a recovery must have; that plan itself is not proved here";
+        assert!(said.contains(last) && said.contains(assumed), "{said}");
+        let ran = verify(&file, "other/plan.json");
+        assert_eq!(ran.code, 4, "{}", ran.stderr);
+        assert!(
+            ran.stdout.starts_with("NO RECOVERY of the plan given: "),
+            "{}",
+            ran.stdout
+        );
+        assert!(ran.stdout.contains("  recovery.parent: "), "{}", ran.stdout);
+        verify("out/plan.json", &file).refused(2, &["it is neither a dry run nor a recovery"]);
+        // A pair for which somebody allows less clearance was not near at the stop.
+        let mut plan = read(&dir.join(&file));
+        plan["job"]["workcell"]["reduced_clearances"] =
+            serde_json::json!([{"pair": ["link_4", "sponge"], "by_m": 0.005}]);
+        std::fs::write(dir.join("edited.json"), plan.to_string()).unwrap();
+        let said = verify("edited.json", "out/plan.json").stdout;
+        assert!(said.contains("workcell.reduced_clearances"), "{said}");
+        verify(&file, "edited.json").refused(4, &["changed after it was written"]);
+    }
+}
+
 /// The earliest moment that fits counts: at home nothing is washed yet, unless a later time is stated.
 #[test]
 fn a_stop_at_home_is_at_the_start_unless_the_time_says_otherwise() {

@@ -59,6 +59,10 @@ const ON_RING: &str = "a plate on its ring is rigid and moves slowly if at all, 
 const PARENT: &str =
     "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
 
+/// Assumptions added for both parts of a recovery.
+const STANDS: &str = "the arm stands still where the motion begins, after a stop of the plan with the stated hash";
+const WASHED_BEFORE: &str = "the plates that are left out were washed before the plan with the stated hash was stopped";
+
 /// Basis of a verdict: the job as it was judged, and the assumptions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VerdictBasis {
@@ -154,6 +158,14 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     all.extend(is_measured(false).then_some(MESHED));
     all.extend(is_measured(true).then_some(PROBED));
     all.extend(job.dry_run.is_some().then_some(PARENT));
+    let of_recovery = |recovery: &Recovery| {
+        if recovery.is_motion_home() {
+            STANDS
+        } else {
+            WASHED_BEFORE
+        }
+    };
+    all.extend(job.recovery.as_ref().map(of_recovery));
     all
 }
 

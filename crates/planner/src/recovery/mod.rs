@@ -23,12 +23,12 @@ use crate::watch::{Activity, Watch};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{JointVector, LimitViolation, RobotModel};
 use platewash_workcell::clearance::PairClearance;
-use platewash_workcell::job::{JobTerms, Recovery, RecoveryPart, Requirements, RetreatLine, WashJob};
+use platewash_workcell::job::{Recovery, RecoveryPart, RetreatLine, WashJob};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Process, Provenance};
 use platewash_workcell::random;
 use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::{plate_name, printable};
-use platewash_workcell::workcell::{ReducedClearance, Workcell, is_pair};
+use platewash_workcell::workcell::ReducedClearance;
 use std::sync::Arc;
 
 pub use crate::recovery::stop::Stop;
@@ -189,24 +189,13 @@ fn motion_home(plan: &Plan, start: &Start<'_>, way: Option<Way>, transit: &Trans
         .map(|up| (kind, up))
         .chain([(SegmentKind::Return, &transit.timed)]);
     let WholeMotion { motion, segments } = one_after_the_other(parts, of)?;
-    let terms = JobTerms {
-        home_rad: [start.at, plan.job.home_rad[0]],
-        requirements: Requirements {
-            contact: None,
-            holder: None,
-            landing_m_s: None,
-            lifting_m_s: Some(start.speed_m_s()),
-            wrist_rad: None,
-            ..plan.job.requirements
-        },
-        workcell: with_near_pairs(&plan.job.workcell, &start.near, plan.job.requirements.clearance_m),
-        recovery: Some(Recovery {
-            parent: plan.hash.clone().unwrap_or_default(),
-            left_out: (0..plan.job.plates.len()).collect(),
-            part: RecoveryPart::Home { retreat },
-        }),
-        ..plan.job.clone()
+    let recovery = Recovery {
+        parent: plan.hash.clone().unwrap_or_default(),
+        left_out: (0..plan.job.plates.len()).collect(),
+        part: RecoveryPart::Home { retreat },
     };
+    let near = near_pairs(&start.near, plan.job.requirements.clearance_m);
+    let terms = recovery.terms(&plan.job, start.at, near);
     terms.validate()?;
     let parts = PlanParts {
         provenance: Provenance::of(&format!("{}-home", plan.provenance.scenario)),
@@ -245,24 +234,18 @@ fn transit_home(start: &Start<'_>, from: &JointVector) -> Result<Transit, PlanEr
     Ok(transit::plan(&rules, &from, &to, &mut rng)?)
 }
 
-/// The workcell in which the pairs that are near at the start keep what they have.
-fn with_near_pairs(workcell: &Workcell, near: &[PairClearance], clearance_m: f64) -> Workcell {
-    let mut workcell = workcell.clone();
-    for pair in near {
-        let by_m = clearance_m - (pair.distance_m - NEARER_M);
-        if by_m <= pair.reduced_by_m {
-            continue;
-        }
-        workcell
-            .reduced_clearances
-            .retain(|stated| !is_pair(&stated.pair, (&pair.a, &pair.b)));
-        workcell.reduced_clearances.push(ReducedClearance {
-            pair: [pair.a.clone(), pair.b.clone()],
-            by_m,
-            at_stop: true,
-        });
-    }
-    workcell
+/// Clearances of the pairs that are near at the start: they keep what they have.
+fn near_pairs(near: &[PairClearance], clearance_m: f64) -> Vec<ReducedClearance> {
+    let reduced = near
+        .iter()
+        .map(|pair| (pair, clearance_m - (pair.distance_m - NEARER_M)));
+    let nearer = reduced.filter(|(pair, by_m)| *by_m > pair.reduced_by_m);
+    let stated = nearer.map(|(pair, by_m)| ReducedClearance {
+        pair: [pair.a.clone(), pair.b.clone()],
+        by_m,
+        at_stop: true,
+    });
+    stated.collect()
 }
 
 /// The plan of the plates that are left, in the order and along the paths of the stopped one.
@@ -278,14 +261,12 @@ fn rest(plan: &Plan, arm: &Arc<RobotModel>, stop: &Stop, watch: &Watch<'_>) -> R
     let left_out = (0..plan.job.plates.len())
         .filter(|plate| !order.contains(plate))
         .collect();
-    let terms = JobTerms {
-        recovery: Some(Recovery {
-            parent: plan.hash.clone().unwrap_or_default(),
-            left_out,
-            part: RecoveryPart::Rest,
-        }),
-        ..plan.job.clone()
+    let recovery = Recovery {
+        parent: plan.hash.clone().unwrap_or_default(),
+        left_out,
+        part: RecoveryPart::Rest,
     };
+    let terms = recovery.terms(&plan.job, plan.job.home_rad[0], Vec::new());
     let job = WashJob::new(arm.clone(), terms)?.named(&format!("{}-rest", plan.provenance.scenario));
     let paths: Vec<_> = plan
         .wash_paths

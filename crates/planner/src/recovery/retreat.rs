@@ -12,7 +12,7 @@ use crate::timing::{self, SlowStretch, TimedPath};
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
-use platewash_workcell::job::RETREAT_M_S;
+use platewash_workcell::job::retreat_speed_m_s;
 use platewash_workcell::words::plate_name;
 use platewash_workcell::workcell::is_pair;
 
@@ -78,7 +78,7 @@ impl Way {
         let path = JointPath::through(self.length_m.clone(), self.q.clone(), Ends::NotAKnot)?;
         let slow = SlowStretch {
             u: [0.0, self.whole_m()],
-            most: PACE * start.speed_m_s(),
+            most: PACE * retreat_speed_m_s(start.pipeline.terms),
         };
         let (tip, limits) = (&scene.tip, &pipeline.transit);
         Ok(timing::time_optimal_slowed(&path, scene.robot, tip, limits, &[slow])?)
@@ -125,12 +125,6 @@ impl<'a> Start<'a> {
             .filter(|pair| !pair.is_clear(clearance_m))
             .cloned()
             .collect()
-    }
-
-    /// Greatest speed of the sponge where it leaves a plate \[m/s\].
-    pub fn speed_m_s(&self) -> f64 {
-        let asked = self.pipeline.terms.requirements.lifting_m_s;
-        asked.map_or(RETREAT_M_S, |asked| asked.min(RETREAT_M_S))
     }
 
     fn model(&self) -> &ClearanceModel {

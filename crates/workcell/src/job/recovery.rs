@@ -5,14 +5,23 @@
 
 use crate::dry_run::is_hash;
 use crate::job::error::JobError;
-use crate::job::requirements::Planner;
+use crate::job::requirements::{Planner, Requirements};
 use crate::job::terms::{JobTerms, within};
 use crate::plate::GREATEST_M;
 use crate::words::plate_name;
+use crate::workcell::{ReducedClearance, is_pair};
+use platewash_kinematics::JointVector;
 use serde::{Deserialize, Serialize};
 
 /// Greatest speed of the sponge where it leaves a plate after a stop \[m/s\].
-pub const RETREAT_M_S: f64 = 0.02;
+const RETREAT_M_S: f64 = 0.02;
+
+/// Greatest speed of the sponge where it leaves a plate after a stop of a job \[m/s\].
+#[must_use]
+pub fn retreat_speed_m_s(stopped: &JobTerms) -> f64 {
+    let asked = stopped.requirements.lifting_m_s;
+    asked.map_or(RETREAT_M_S, |asked| asked.min(RETREAT_M_S))
+}
 
 /// Statement that a job goes on after a stop of another plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -63,6 +72,35 @@ impl Recovery {
             RecoveryPart::Home { retreat } => retreat,
             RecoveryPart::Rest => None,
         }
+    }
+
+    /// Returns the job of the recovery, out of that of the stopped plan.
+    ///
+    /// For a motion home, `at` is where the arm stands \[rad\], and `near` has the clearances of the pairs that are too near there. The rest
+    /// takes neither.
+    #[must_use]
+    pub fn terms(self, stopped: &JobTerms, at: JointVector, near: Vec<ReducedClearance>) -> JobTerms {
+        let mut terms = JobTerms {
+            recovery: Some(self),
+            ..stopped.clone()
+        };
+        if !terms.is_motion_home() {
+            return terms;
+        }
+        terms.home_rad = [at, stopped.home_rad[0]];
+        terms.requirements = Requirements {
+            contact: None,
+            holder: None,
+            landing_m_s: None,
+            lifting_m_s: Some(retreat_speed_m_s(stopped)),
+            wrist_rad: None,
+            ..stopped.requirements
+        };
+        let pairs = &mut terms.workcell.reduced_clearances;
+        pairs
+            .retain(|ReducedClearance { pair: [a, b], .. }| !near.iter().any(|at_stop| is_pair(&at_stop.pair, (a, b))));
+        pairs.extend(near);
+        terms
     }
 
     /// Returns the notice that stands before the verdict in reports.
