@@ -48,17 +48,17 @@ pub fn tested() -> Result<()> {
         fs::remove_file(packages.join(old))?;
     }
     Step::cargo("packages", &line).run()?;
-    let outside = emptied(outside("packages"))?;
+    let (python, outside) = (python::environment()?, emptied(outside("packages"))?);
     let mut manifest = MANIFEST.to_owned();
     for name in files_in(&packages)?
         .iter()
         .filter_map(|name| name.strip_suffix(".crate"))
     {
-        unpack(&packages, name, &outside)?;
+        unpack(&python, &packages, name, &outside)?;
         let bare = name.rsplit_once('-').map_or(name, |(bare, _)| bare);
         manifest += &format!("{bare} = {{ path = \"{name}\" }}\n");
     }
-    let alone = unpack(&packages, "platewash-0.1.0", &outside.join("alone"))?.join("Cargo.toml");
+    let alone = unpack(&python, &packages, "platewash-0.1.0", &outside.join("alone"))?.join("Cargo.toml");
     let renamed = fs::read_to_string(&alone)?.replacen("name = \"platewash\"", "name = \"platewash-alone\"", 1);
     fs::write(alone, renamed)?;
     manifest += &profiles(&fs::read_to_string(root().join("Cargo.toml"))?);
@@ -71,11 +71,11 @@ pub fn tested() -> Result<()> {
     emptied(outside).map(drop)
 }
 
-/// Unpacks a package into a folder, and returns the package's own folder in it.
-fn unpack(packages: &Path, name: &str, folder: &Path) -> Result<PathBuf> {
+/// Unpacks a package, by Python, into a folder, and returns the package's own folder in it.
+fn unpack(python: &Path, packages: &Path, name: &str, folder: &Path) -> Result<PathBuf> {
     let file = packages.join(format!("{name}.crate"));
     let line = ["-m", "tarfile", "-e", &text(&file), &text(folder)];
-    Step::program("package unpacked", &python::environment()?, &line).run()?;
+    Step::program("package unpacked", python, &line).run()?;
     // Packages of an earlier state have the same version and times: cargo must not take them for these.
     for entry in ["src/lib.rs", "lib.rs"].map(|entry| folder.join(name).join(entry)) {
         if entry.exists() {
