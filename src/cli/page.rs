@@ -23,20 +23,18 @@ use std::time::Duration;
 use tempfile::NamedTempFile;
 
 /// Message for a missing bundle, with the remedy.
-const NO_BUNDLE: &str =
-    "this program was built without it; `cargo xtask page` in its sources makes it, then build again";
+const NO_BUNDLE: &str = "this program was built where neither Node.js nor Python was found; install Python 3.10 or later, or \
+     Node.js 18.3 or later, run `cargo xtask page` in the sources, and build again";
 
 /// Longest time to watch the program that opens the browser; one that runs longer is taken to have opened it.
 const TO_OPEN: Duration = Duration::from_secs(3);
 
-/// The bundle that all pages share. Without one, `None`, and a line on standard error says why, even with `--quiet`, as a file will be
-/// missing.
-pub fn bundle() -> Option<Bundle> {
-    let found = Bundle::embedded();
-    if found.is_none() {
-        output::message(&format!("no page: {NO_BUNDLE}"));
+/// Writes to standard error why no page was written, where the program has no bundle: for the end of a report. `--quiet` does not silence
+/// it, as a file is missing.
+pub fn explain_absence() {
+    if Bundle::embedded().is_none() {
+        output::message(&format!("no page was written: {NO_BUNDLE}"));
     }
-    found
 }
 
 /// The bundle, for a verb that can do nothing without it.
@@ -68,7 +66,7 @@ fn paper_beside(plan: &Plan, arm: &RobotModel) -> Option<Beside> {
     Beside::new(&run.plan().ok()?, arm, &executed).ok()
 }
 
-/// The page of a plan, to be written beside its report. Without a bundle there is none, and a line on standard error says why.
+/// The page of a plan, to be written beside its report; `None` without a bundle, which [`explain_absence`] explains.
 pub fn of(
     options: &Options,
     plan: &Plan,
@@ -77,7 +75,9 @@ pub fn of(
     executed: Option<&ExecutedMotion>,
     region: &TaskRegion,
 ) -> Result<Option<String>> {
-    let Some(bundle) = bundle() else { return Ok(None) };
+    let Some(bundle) = Bundle::embedded() else {
+        return Ok(None);
+    };
     options.cancel.check()?;
     let beside = ViewExtras {
         certificate,
@@ -229,7 +229,7 @@ impl LiveArguments {
             bail!("--live: the paper's program has no simulation to watch; `platewash view` shows its plan");
         }
         let listener = self.serve.listen(options)?;
-        let bundle = bundle();
+        let bundle = Bundle::embedded();
         options.cancel.check()?;
         Ok(bundle.map(|bundle| Stage {
             serve: &self.serve,

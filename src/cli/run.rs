@@ -177,6 +177,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -
         files.add("page.html", page);
     }
     files.answer(options, &report, || arguments.details.printed(&report))?;
+    page::explain_absence();
     Ok(ExitCode::from(report.verdict).job(scenario.job.on_failure))
 }
 
@@ -230,6 +231,7 @@ fn run_washing(
         files.add("page.html", page);
     }
     files.answer(options, &report, || arguments.details.printed(&report))?;
+    page::explain_absence();
     if let Some(show) = show {
         show.part(options);
     }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 fn soon(ran: impl FnOnce() -> CommandOutput) -> CommandOutput {
     let start = Instant::now();
     let ran = ran();
-    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(300), "{:?}", start.elapsed());
     ran
 }
 

@@ -1,7 +1,7 @@
 //! The output folder shows the results of one run, whatever ends a run and whoever else writes there.
 #![cfg(unix)]
 
-use super::served::{command, spawn};
+use super::served::{command, signal, spawn};
 use super::*;
 use std::fs;
 use std::process::Child;
@@ -110,8 +110,7 @@ fn termination_is_answered_as_ctrl_c_is() {
     let line = ["sweep", "--seeds", "1..100000", "--threads", "1", "--out", "s"];
     let child = spawn(&mut command(folder.path(), &line));
     std::thread::sleep(Duration::from_millis(500));
-    let ended = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
-    assert!(ended.unwrap().success());
+    signal(&child, 15);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(String::from_utf8_lossy(&output.stderr).ends_with("interrupted\n"));

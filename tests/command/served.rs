@@ -5,10 +5,10 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, ChildStderr, ChildStdout, Stdio};
 use std::sync::Once;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Long after anything that answers has answered.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// A command that goes on; it is ended with the test.
 pub struct RunningCommand {
@@ -43,10 +43,28 @@ pub fn spawn(command: &mut Command) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
+/// Sends a signal, such as 2 for Ctrl-C, once the command handles it: before, any program ends by it.
+#[cfg(unix)]
+pub fn signal(child: &Child, number: u32) {
+    let status = format!("/proc/{}/status", child.id());
+    let handles = |text: String| {
+        let mask = text.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        let mask = mask.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok());
+        mask.is_some_and(|mask| mask >> (number - 1) & 1 == 1)
+    };
+    let begin = Instant::now();
+    // Systems without this file are not waited for.
+    while std::fs::read_to_string(&status).is_ok_and(|text| !handles(text)) {
+        assert!(begin.elapsed() < PATIENCE, "it does not handle signal {number}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let kill = [format!("-{number}"), child.id().to_string()];
+    assert!(Command::new("kill").args(kill).status().unwrap().success());
+}
+
 #[cfg(unix)]
 pub fn interrupt(child: &Child) {
-    let kill = ["-INT", &child.id().to_string()];
-    assert!(Command::new("kill").args(kill).status().unwrap().success());
+    signal(child, 2);
 }
 
 pub fn start(command: &mut Command) -> RunningCommand {

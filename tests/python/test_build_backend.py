@@ -3,9 +3,6 @@
 import importlib.util
 import subprocess
 import sys
-import types
-import zipfile
-import zlib
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -56,31 +53,6 @@ def test_a_source_package_needs_no_node(backend: Any) -> None:
 def test_needs_no_node_where_none_is_published(backend: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(backend.platform, "machine", lambda: "riscv64")
     assert backend._node() == []
-
-
-def test_a_wheel_is_packed_once_more_with_the_same_contents(backend: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    wheel = tmp_path / "some.whl"
-    contents = {"package/core.so": bytes(range(256)) * 500, "package/__init__.py": b"", "some.dist-info/RECORD": b"a,b,c\n" * 40}
-    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_STORED) as made:
-        for name, data in contents.items():
-            made.writestr(zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED, 1)
-    before = wheel.read_bytes()
-    monkeypatch.setitem(sys.modules, "deflate", None)
-    backend._pack(wheel)
-    assert wheel.read_bytes() == before, "without libdeflate it stays"
-    fake = types.SimpleNamespace(deflate_compress=lambda data, level: zlib.compress(data, 9, -15))
-    monkeypatch.setitem(sys.modules, "deflate", fake)
-    backend._pack(wheel)
-    assert len(wheel.read_bytes()) < len(before) and list(tmp_path.glob("*.packed")) == []
-    with zipfile.ZipFile(wheel) as packed:
-        assert packed.testzip() is None and packed.namelist() == list(contents)
-        assert all(packed.read(name) == data for name, data in contents.items())
-    # What another packer spoils is not taken.
-    before = wheel.read_bytes()
-    monkeypatch.setitem(sys.modules, "deflate", types.SimpleNamespace(deflate_compress=lambda data, level: zlib.compress(b"x", 9, -15)))
-    with pytest.raises(zipfile.BadZipFile):
-        backend._pack(wheel)
-    assert wheel.read_bytes() == before and list(tmp_path.glob("*.packed")) == []
 
 
 def test_a_failed_page_is_reported_without_failing(

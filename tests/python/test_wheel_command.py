@@ -117,7 +117,7 @@ def started_in_the_background() -> Iterator[None]:
 def ends_at_ctrl_c(work: str, folder: Path) -> None:
     made, call = LONG[work]
     line = [sys.executable, "-c", INTERRUPTED.format(made=made, call=call, soon_s=SOON_S)]
-    done = subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=300, check=False, preexec_fn=heed_ctrl_c)
+    done = subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=600, check=False, preexec_fn=heed_ctrl_c)
     assert done.stdout == "interrupted\n", done.stderr
 
 

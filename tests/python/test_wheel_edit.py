@@ -21,7 +21,7 @@ from pyplatewash._cell import Cell
 from wheel_plans import plan
 
 #: Longest that anything is waited for [s].
-LONGEST_S = 60.0
+LONGEST_S = 300.0
 KITCHEN = pw.Scenario.load("kitchen")
 OUT_OF_REACH = {"key": "layout.positions_m", "value": [[0.9, 0.0]]}
 NOT_THERE = {"key": "wash.turns", "value": -1.0}

@@ -415,7 +415,7 @@ open("done.txt", "w").write(str(journal.done))
 @pytest.mark.parametrize("engine", ["threads", *ENGINES])
 def test_ctrl_c_ends_all_workers_and_lets_the_folder_go(engine: str, tmp_path: Path) -> None:
     line = [sys.executable, "-c", INTERRUPTED, engine]
-    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False, preexec_fn=heed_ctrl_c)
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, timeout=600, check=False, preexec_fn=heed_ctrl_c)
     assert done.returncode == 0, done.stderr
     assert 3 <= int((tmp_path / "done.txt").read_text()) < 60, done.stderr
 

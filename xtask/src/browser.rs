@@ -5,18 +5,13 @@ use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, Workshop, root, target};
 use std::fs;
 
-/// Runs the tests with the release build of the command, which has the page in it, and with the folder of the playground where it can
-/// be made.
+/// Runs the tests with the release build of the command, which has the page in it, and with the folder of the playground.
 pub fn tests() -> Result<()> {
     let playground = web::folder()?;
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "test"];
     let step = with_command(node.npm("tests in a browser", workshop.folder(), &line));
-    let step = match playground {
-        Some(folder) => step.with("PLATEWASH_WEB", folder),
-        None => step,
-    };
-    step.run()
+    step.with("PLATEWASH_WEB", playground).run()
 }
 
 /// Reads the website of the documentation as its readers do.

@@ -4,7 +4,6 @@ use crate::{page, python, suite, web, wheel};
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, Workshop, copied, removed, root, target};
 use std::fs;
-use std::path::Path;
 
 /// What pages link to beside those of `docs`, at the same places as in the repository.
 const LINKED: [&str; 6] = [
@@ -15,8 +14,6 @@ const LINKED: [&str; 6] = [
     "examples",
     "notebooks",
 ];
-const NO_PLAYGROUND: &str =
-    "The playground was left out: the WebAssembly target was missing when this website was built.";
 
 /// Makes all that the website holds, then the website, and says how to look at it.
 pub fn make() -> Result<()> {
@@ -43,19 +40,10 @@ pub fn built() -> Result<()> {
     pages.with("NO_COLOR", "1").run()?;
     let site = folder.join("site");
     copied(&target().join("doc"), &site.join("rust"))?;
-    playground(&site.join("playground"))?;
+    copied(&web::folder()?, &site.join("playground"))?;
     for (name, script) in [("formulas", "formulas"), ("links of the website", "links")] {
         node.npm(name, folder, &["run", "--silent", script]).run()?;
     }
     removed(&target().join("site"))?;
     fs::rename(&site, target().join("site")).with_context(|| site.display().to_string())
-}
-
-fn playground(folder: &Path) -> Result<()> {
-    if let Some(made) = web::folder()? {
-        return copied(&made, folder);
-    }
-    println!("\n==> {NO_PLAYGROUND}");
-    fs::create_dir_all(folder)?;
-    fs::write(folder.join("index.html"), NO_PLAYGROUND).with_context(|| folder.display().to_string())
 }

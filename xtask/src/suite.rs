@@ -14,7 +14,7 @@ const CRATES: [&str; 2] = ["--release", "--workspace"];
 /// With this, pyo3 asks no interpreter: the parts in Rust need none.
 const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
 /// Largest command \[bytes\].
-const LARGEST: u64 = 12_000_000;
+const LARGEST: u64 = 24_000_000;
 
 /// One thing that must pass.
 type Check = fn() -> Result<()>;

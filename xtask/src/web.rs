@@ -1,21 +1,16 @@
 //! The playground: the engine as a WebAssembly module, the folder of the page around it, and the test of the module.
 
 use crate::browser;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, alone, python_program, root, target, workshop};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const TRIPLE: &str = "wasm32-unknown-unknown";
-/// Installs what is needed beside the toolchain.
-const INSTALL: &str = "rustup target add wasm32-unknown-unknown";
-
 /// Makes the folder of the playground, and says how to look at it.
 pub fn make() -> Result<()> {
-    let Some(folder) = folder()? else {
-        bail!("the playground needs the WebAssembly target: {INSTALL}");
-    };
+    let folder = folder()?;
     println!(
         "\n{}: {:.1} MB; to serve it:",
         shown(&folder),
@@ -25,11 +20,9 @@ pub fn make() -> Result<()> {
     Ok(())
 }
 
-/// The finished folder of the playground; `None` where the target is missing.
-pub fn folder() -> Result<Option<PathBuf>> {
-    let Some(module) = module()? else {
-        return Ok(None);
-    };
+/// Makes the folder of the playground.
+pub fn folder() -> Result<PathBuf> {
+    let module = module()?;
     let _alone = alone()?;
     let node = Node::found(Packages::Bundled)?;
     let workshop = workshop()?;
@@ -38,30 +31,29 @@ pub fn folder() -> Result<Option<PathBuf>> {
     let (module, out) = (module.to_string_lossy(), folder.to_string_lossy());
     let line = ["build.mjs", "--playground", &module, "--out", &out];
     node.node("playground", workshop.folder(), &line).run()?;
-    Ok(Some(folder))
+    Ok(folder)
 }
 
-/// Builds the module; `None` where the target is missing.
-fn module() -> Result<Option<PathBuf>> {
+/// Builds the module. Installs the WebAssembly target first where the toolchain lacks it.
+fn module() -> Result<PathBuf> {
     if !is_installed()? {
-        return Ok(None);
+        let line = ["target", "add", TRIPLE];
+        let added = Step::program("WebAssembly target", "rustup", &line).run();
+        added.with_context(|| format!("the playground needs the WebAssembly target: rustup {}", line.join(" ")))?;
     }
     let line = ["build", "--release", "--target", TRIPLE, "-p", "platewash-playground"];
     Step::cargo("module of the playground", &line).run()?;
-    Ok(Some(target().join(TRIPLE).join("release/platewash_playground.wasm")))
+    Ok(target().join(TRIPLE).join("release/platewash_playground.wasm"))
 }
 
-/// Builds the module where the target is installed, so that later steps find it built.
+/// Builds the module, so that later steps find it built.
 pub fn built() -> Result<()> {
     module().map(drop)
 }
 
 /// Compares what the module answers with what the release build of the command writes.
 pub fn tested() -> Result<()> {
-    let Some(module) = module()? else {
-        println!("\n==> playground: LEFT OUT: {INSTALL} installs what it needs");
-        return Ok(());
-    };
+    let module = module()?;
     let node = Node::found(Packages::All)?;
     let line = ["--test", "--test-reporter=spec", "tests/playground/same.mjs"];
     let step = node.node("module and command side by side", &root(), &line);

@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// Largest wheel \[bytes\].
-const LARGEST: u64 = 6_000_000;
+const LARGEST: u64 = 12_000_000;
 /// Largest source package \[bytes\]: nothing that was fetched or made comes into it but the page's bundle.
 const LARGEST_SOURCE: u64 = 8_000_000;
 

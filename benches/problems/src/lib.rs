@@ -5,6 +5,9 @@
 //! forward kinematics, to the same tolerances and the joint limits, and the share that passes stands beside
 //! its time ([`score`]).
 
+// What the benchmarks ask may differ between machines in the last bit.
+#![allow(clippy::disallowed_methods)]
+
 pub mod crowded;
 pub mod ours;
 pub mod problems;

@@ -1,10 +1,7 @@
 //! Makes the bundle of the page, `crates/viewer/dist`, from `crates/viewer/page` with Node.
 //!
 //! The build script of `platewash-viewer` calls it, so that every build has the page in it. `xtask` calls it to check the page.
-//!
-//! Also here: what build scripts ask the linker for, so that programs are small.
 
-mod linker;
 mod make;
 mod node;
 mod python;
@@ -12,7 +9,6 @@ pub mod stamp;
 mod step;
 mod workshop;
 
-pub use linker::fold_equal_functions;
 pub use make::{Outcome, alone, bundle, make, sources, workshop};
 pub use node::{Node, Packages};
 pub use python::{interpreter, program as python_program};

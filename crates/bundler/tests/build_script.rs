@@ -47,7 +47,7 @@ fn workspace(root: &Path) {
     let members = "[workspace]\nresolver = \"3\"\nmembers = [\"crates/bundler\", \"crates/viewer\"]\n";
     write(&root.join("Cargo.toml"), &format!("{members}{rest}"));
     let viewer = root.join("crates/viewer");
-    let package = "[package]\nname = \"viewer\"\nedition = \"2024\"\n\n[build-dependencies]\nminiz_oxide.workspace = true\nplatewash-bundler.workspace = true\n";
+    let package = "[package]\nname = \"viewer\"\nedition = \"2024\"\n\n[build-dependencies]\nplatewash-bundler.workspace = true\n";
     write(&viewer.join("Cargo.toml"), package);
     write(&viewer.join("src/main.rs"), MAIN);
     write(

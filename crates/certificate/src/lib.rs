@@ -30,6 +30,7 @@ mod report;
 mod statements;
 mod subject;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 mod washing;
 

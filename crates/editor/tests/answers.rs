@@ -208,7 +208,7 @@ fn bounds_work_before_it_begins() {
                 .contains(&MOST_CONTACT_POINTS.to_string()),
             "{last}"
         );
-        assert!(begin.elapsed() < Duration::from_secs(20));
+        assert!(begin.elapsed() < Duration::from_secs(120));
     }
 }
 

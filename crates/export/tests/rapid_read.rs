@@ -373,6 +373,6 @@ proptest! {
             prop_assert!(reading.points.iter().all(|point| point.t_s.is_finite() && point.q_rad.iter().all(|q| q.is_finite())));
             prop_assert!(reading.points.windows(2).all(|pair| pair[1].t_s >= pair[0].t_s));
         }
-        prop_assert!(started.elapsed() < Duration::from_secs(20));
+        prop_assert!(started.elapsed() < Duration::from_secs(120));
     }
 }

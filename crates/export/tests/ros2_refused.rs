@@ -206,7 +206,7 @@ fn rejects_texts_that_are_no_message() {
         let error = read(text).unwrap_err();
         assert!(error.reason.contains(found), "{error}");
         assert!(error.reason.len() < 400 && error.place.line >= 1, "{error}");
-        assert!(began.elapsed() < std::time::Duration::from_secs(20), "{found}");
+        assert!(began.elapsed() < std::time::Duration::from_secs(120), "{found}");
     }
     let huge = format!("joint_names: [{}]\n", "'a', ".repeat(8_000_000));
     assert!(read(&huge).unwrap_err().reason.contains("bytes at most"));
@@ -224,7 +224,7 @@ fn long_texts_are_read_in_time() {
             let error = read(&text).unwrap_err();
             assert!(error.reason.len() < 400, "{error}");
             assert!(
-                began.elapsed().as_secs() < 20,
+                began.elapsed().as_secs() < 120,
                 "{part:?} after {before:?}: {:?}",
                 began.elapsed()
             );

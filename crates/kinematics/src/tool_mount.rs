@@ -7,6 +7,7 @@ use crate::geometry::Shape;
 use crate::model::{Frame, Link, RobotModel};
 use crate::rotation::RigidTransform;
 use crate::tool_frame::{ToolFrame, ToolFrameError};
+use crate::trig::cos;
 use crate::{AXES, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::fmt;
@@ -188,7 +189,7 @@ impl RobotModel {
         let mut mounts = Vec::new();
         for link in links {
             let found = self.outward_axis(link);
-            let along_6 = |axis: &LinkAxis| along(link, *axis).z.abs() >= f64::cos(ALIGNED_RAD);
+            let along_6 = |axis: &LinkAxis| along(link, *axis).z.abs() >= cos(ALIGNED_RAD);
             let axis = match (by_name.filter(along_6), found) {
                 (Some(by_name), Some(found)) if by_name != found => {
                     let reason = format!(
@@ -253,7 +254,7 @@ impl RobotModel {
     #[must_use]
     pub fn outward_axis(&self, link: &Link) -> Option<LinkAxis> {
         let out = self.outward_sense()?;
-        LinkAxis::find(|axis| out * along(link, axis).z >= f64::cos(ALIGNED_RAD))
+        LinkAxis::find(|axis| out * along(link, axis).z >= cos(ALIGNED_RAD))
     }
 
     /// Returns +1 where axis 6 leads out of the arm, −1 where it leads in: by the origins of the links behind joint 6 and by their shapes,
@@ -304,7 +305,7 @@ impl RobotModel {
     fn no_mount(&self, reason: String) -> ToolFrameError {
         let named = self.links_behind_joint_6().map(|link| match self.outward_axis(link) {
             Some(axis) => format!("'{}' ({axis} leads out)", link.name),
-            None => match LinkAxis::find(|axis| along(link, axis).z >= f64::cos(ALIGNED_RAD)) {
+            None => match LinkAxis::find(|axis| along(link, axis).z >= cos(ALIGNED_RAD)) {
                 Some(axis) => format!("'{}' ({axis} along axis 6)", link.name),
                 None => format!(
                     "'{}' (z is {:.1}° from axis 6)",

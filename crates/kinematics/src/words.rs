@@ -217,6 +217,7 @@ fn found_words(found: &str) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::{message_in_words, *};
     use proptest::prelude::*;

@@ -517,7 +517,7 @@ fn two_hundred_thousand_links_are_refused_soon() {
     let start = Instant::now();
     let text = format!("<robot name=\"many\">{links}</robot>");
     assert_refused!(text, UrdfError::TooMany { kind: "link", .. }, "200000", "at most 1000");
-    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
 }
 
 #[test]

@@ -296,6 +296,7 @@ fn slopes_of_few_samples(
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -143,7 +143,7 @@ impl<'a> Levels<'a> {
         let across = (self.area.radius_m / step_m).ceil() as i32 + 1;
         let inside = |&(column, row): &Square| {
             let [x, y] = [column, row].map(|k| step_m * (f64::from(k) + 0.5));
-            x.hypot(y) <= self.area.radius_m
+            (x * x + y * y).sqrt() <= self.area.radius_m
         };
         let rows = -across..across;
         let square = |row: i32| (-across..across).map(move |column| (column, row));
@@ -178,6 +178,7 @@ fn quarters((column, row): Square) -> impl Iterator<Item = Square> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
 

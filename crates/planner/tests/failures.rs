@@ -1,5 +1,6 @@
 //! Jobs that are not planned: what is said of them, and how soon planning is given up.
 
+use crate::SOON;
 use crate::jobs::{job, on};
 use platewash_planner::{
     Activity, InfeasibleReport, PlaceSearch, PlanError, Watch, check, draw_washable_layout, plan, plan_with,
@@ -11,7 +12,7 @@ use platewash_workcell::layout::{Layout, LayoutError, LayoutSource};
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::verdict::{Infeasibility, Verdict};
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 #[test]
 fn a_plate_out_of_reach_is_named_with_the_nearest_place_that_will_do() {
@@ -177,5 +178,5 @@ fn give_up(job: &WashJob, at: fn(&Activity) -> bool) {
     let ended = plan_with(job, &watch);
     assert!(matches!(ended, Err(PlanError::Cancelled(_))), "{ended:?}");
     let told = told.lock().unwrap().take();
-    assert!(told.is_some_and(|at| at.elapsed() < Duration::from_millis(500)));
+    assert!(told.is_some_and(|at| at.elapsed() < SOON));
 }

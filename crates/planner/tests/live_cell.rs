@@ -1,5 +1,6 @@
 //! The quick answers for a live cell, held against planning itself.
 
+use crate::SOON;
 use crate::jobs::{job, on};
 use platewash_planner::{
     Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
@@ -12,7 +13,7 @@ use platewash_workcell::job::{OrderRule, Overlap, Planner, PlateOverlap, WashJob
 use platewash_workcell::random;
 use rand::RngExt;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// One that is washed, one out of reach, one behind the arm, one too near.
 const MIXED: [[f64; 2]; 4] = [[0.40, 0.0], [0.1, 0.56], [-0.7, 0.1], [0.0, -0.2]];
@@ -450,7 +451,7 @@ fn cancelled_work_ends_at_once() {
     ended(unwashable_plates(&job, &watch).err());
     ended(nearest_place(&job, 1, &watch).err());
     ended(washable_map(&job, 1, &area, &mut |patch| panic!("{patch:?}"), &watch).err());
-    assert!(start.elapsed() < Duration::from_millis(500), "{:?}", start.elapsed());
+    assert!(start.elapsed() < SOON, "{:?}", start.elapsed());
 }
 
 /// Told in the midst of it: no later patch comes, and the end is near.
@@ -470,7 +471,7 @@ fn a_map_and_a_search_can_be_cancelled_halfway() {
     let ended = washable_map(&job, 1, &area, &mut tell, &Watch::silent(&cancel));
     assert!(matches!(ended, Err(PlanError::Cancelled(_))), "{ended:?}");
     assert_eq!(patches, 3);
-    assert!(told.elapsed() < Duration::from_millis(500));
+    assert!(told.elapsed() < SOON);
     let kinds: [fn(&Activity) -> bool; 2] = [
         |a| matches!(a, Activity::Relocation { ring: 2, .. }),
         |a| matches!(a, Activity::Trial { .. }),
@@ -490,7 +491,7 @@ fn a_map_and_a_search_can_be_cancelled_halfway() {
         let ended = nearest_place(&job, 1, &watch);
         assert!(matches!(ended, Err(PlanError::Cancelled(_))), "{ended:?}");
         let told = told.lock().unwrap().take();
-        assert!(told.is_some_and(|at| at.elapsed() < Duration::from_millis(500)));
+        assert!(told.is_some_and(|at| at.elapsed() < SOON));
         // By `plan_with` too, as ever.
         assert!(matches!(plan_with(&job, &watch), Err(PlanError::Cancelled(_))));
     }

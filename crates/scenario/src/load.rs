@@ -8,7 +8,7 @@
 
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::keys::fits::{Misfit, byte_of, check, check_list, line_at, nearest, unknown};
-use crate::keys::value::{describe, json_of, json_of_table};
+use crate::keys::value::{describe, json_of};
 use crate::keys::{KEYS, Key, LISTS};
 use crate::resolve::surroundings::in_folder;
 use crate::scenario::{Scenario, check_seed};
@@ -53,20 +53,12 @@ impl Scenario {
             let line = Some(line_at(text, at));
             ScenarioError::new(source_name, line, problem)
         })?;
-        let scenario =
-            Self::of_table(table.get_ref()).map_err(|problem| ScenarioError::new(source_name, None, problem))?;
+        let scenario: Self = toml::from_str(text).map_err(syntax)?;
         scenario.check_conflicts().map_err(|problem| {
             let at = problem.key().and_then(|key| byte_of(table.get_ref(), key));
             ScenarioError::new(source_name, at.map(|at| line_at(text, at)), problem)
         })?;
         Ok(scenario)
-    }
-
-    /// The scenario of a table whose keys were checked. By way of JSON: its reader is much smaller than that of TOML.
-    pub(crate) fn of_table(table: &DeTable<'_>) -> Result<Self, Problem> {
-        serde_json::from_value(json_of_table(table)).map_err(|error| Problem::Syntax {
-            detail: error.to_string(),
-        })
     }
 
     /// Checks a scenario that was built in code: every range, and keys that contradict each other.

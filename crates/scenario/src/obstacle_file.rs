@@ -130,7 +130,7 @@ impl ObstacleText {
             return Err(at(start, Problem::UnknownKey { key, hint }));
         }
         check_table(&table, "").map_err(|(start, problem)| at(start, problem))?;
-        let mut scenario = Scenario::of_table(&table).map_err(|problem| refused(name, None, problem))?;
+        let mut scenario: Scenario = toml::from_str(text).map_err(syntax)?;
         scenario.name.clone_from(name);
         scenario.floor.present &= table.contains_key("floor");
         if let Some(folder) = &self.folder {

@@ -122,7 +122,7 @@ impl Scenario {
         // The home is that for a plate ahead, in the middle of the row.
         let ([x, y], [front_x, front_y]) = (self.foot_m(), front_m);
         let (ahead_x, ahead_y) = (front_x - x, front_y - y);
-        let part = 0.5 * (sector.rho_m[0] + sector.rho_m[1]) / ahead_x.hypot(ahead_y);
+        let part = 0.5 * (sector.rho_m[0] + sector.rho_m[1]) / (ahead_x * ahead_x + ahead_y * ahead_y).sqrt();
         let job = fitted.with_one_plate(arm, [x + part * ahead_x, y + part * ahead_y])?;
         let [home, _] = job.terms().home_rad;
         let start_deg = home.map(|rad| rad.to_degrees().round() + 0.0).into();

@@ -10,7 +10,7 @@ use std::time::Duration;
 const PAGE: &str = "<!doctype html><title>page</title>";
 
 /// Long after anything that answers has answered.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 struct TestServer {
     server: Option<Server>,

@@ -18,7 +18,7 @@ pub const MOST_BYTES: usize = 1 << 20;
 pub const MOST_LONG_BYTES: usize = 8 << 20;
 
 /// Long after anything that answers has answered.
-pub const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(300);
 
 #[derive(Debug, Default)]
 pub struct Toy {

@@ -3,7 +3,7 @@
 use crate::error::StudyError;
 use crate::lines;
 use crate::manifest::{FORMAT, Manifest, ManifestAxis};
-use crate::row::{ROW_SCHEMA, Row, row_of};
+use crate::row::{ROW_SCHEMA, Row};
 use crate::study::MOST_ROWS;
 use platewash_kinematics::fingerprint::Sha256;
 use platewash_workcell::json;
@@ -169,7 +169,7 @@ pub(crate) fn each_row(
     let whole = lines::read(path, file, |at, line| {
         number += 1;
         let wrong = |problem: String| Err(StudyError::damaged_file(path, Some(number), problem));
-        let row: Row = match row_of(line) {
+        let row: Row = match serde_json::from_slice(line) {
             Ok(row) => row,
             Err(error) => return wrong(format!("is no row: {error}")),
         };

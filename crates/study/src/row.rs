@@ -47,14 +47,6 @@ pub struct Row {
     pub plan: Option<String>,
 }
 
-/// Reads a row from its line.
-pub(crate) fn row_of(line: &[u8]) -> Result<Row, serde_json::Error> {
-    match std::str::from_utf8(line) {
-        Ok(text) => serde_json::from_str(text),
-        Err(error) => Err(serde::de::Error::custom(error)),
-    }
-}
-
 impl Row {
     /// A row without a result yet.
     pub(crate) fn new(index: u64, key: String, scenario: String, axes: BTreeMap<String, Value>) -> Self {

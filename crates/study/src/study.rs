@@ -5,7 +5,7 @@ use crate::axis::{Axis, Values, canonical};
 use crate::error::StudyError;
 use crate::folder_reader::{PARTS, read_manifest};
 use crate::manifest::Manifest;
-use crate::row::{Outcome, PlanChoice, Row, row_of};
+use crate::row::{Outcome, PlanChoice, Row};
 use crate::statement::Source;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use platewash_kinematics::fingerprint::sha256_hex;
@@ -305,7 +305,7 @@ impl Study {
     /// # Errors
     /// [`StudyError::Sent`]: it is no row of this study.
     pub fn parse_row(&self, line: &[u8]) -> Result<Row, StudyError> {
-        let row = row_of(line).map_err(|error| StudyError::sent(&error))?;
+        let row: Row = serde_json::from_slice(line).map_err(|error| StudyError::sent(&error))?;
         if !self.row(row.index).is_ok_and(|address| address.key == row.key) {
             let problem = format!("row {} with key {} is none of this study", row.index, row.key);
             return Err(StudyError::sent(&problem));

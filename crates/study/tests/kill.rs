@@ -71,7 +71,7 @@ fn exported(folder: &Path) -> Vec<u8> {
 #[ignore = "the process that is killed: the test below starts it"]
 fn child() {
     let folder = std::env::var_os(FOLDER).unwrap();
-    work(Path::new(&folder), &study(400), Duration::from_millis(2));
+    work(Path::new(&folder), &study(400), Duration::from_millis(10));
 }
 
 #[test]

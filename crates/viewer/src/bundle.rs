@@ -17,23 +17,15 @@ pub struct Bundle {
 
 impl Bundle {
     /// The bundle in this program; none where there was none when it was compiled.
-    // Not inlined: each crate that calls it would hold its own copy of the page.
-    #[inline(never)]
     pub fn embedded() -> Option<Self> {
         #[cfg(embedded_page)]
         return Some(Self {
             template: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/index.html"))),
             style: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/page.css"))),
-            script: Cow::Owned(unpacked(include_bytes!(concat!(env!("OUT_DIR"), "/page.js.deflate")))?),
+            script: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/page.js"))),
             notices: Cow::Borrowed(include_str!(concat!(env!("OUT_DIR"), "/notices.txt"))),
         });
         #[cfg(not(embedded_page))]
         None
     }
-}
-
-/// The text that the build packed.
-#[cfg(embedded_page)]
-fn unpacked(bytes: &[u8]) -> Option<String> {
-    String::from_utf8(miniz_oxide::inflate::decompress_to_vec(bytes).ok()?).ok()
 }

@@ -52,6 +52,7 @@ fn shorter_turn(from: f64, to: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

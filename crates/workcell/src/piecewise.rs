@@ -62,9 +62,9 @@ impl MotionPiece {
             q0,
             v0,
             a0 * 0.5,
-            (mean * 10.0 - v0 * 6.0 - v1 * 4.0 - b0 * 3.0 + b1) / h.powi(2),
-            (v0 * 8.0 + v1 * 7.0 - mean * 15.0 + b0 * 3.0 - b1 * 2.0) / h.powi(3),
-            (mean * 6.0 - (v0 + v1) * 3.0 - b0 + b1) / h.powi(4),
+            (mean * 10.0 - v0 * 6.0 - v1 * 4.0 - b0 * 3.0 + b1) / (h * h),
+            (v0 * 8.0 + v1 * 7.0 - mean * 15.0 + b0 * 3.0 - b1 * 2.0) / (h * h * h),
+            (mean * 6.0 - (v0 + v1) * 3.0 - b0 + b1) / ((h * h) * (h * h)),
         ]
     }
 
@@ -167,7 +167,7 @@ impl PiecewiseMotion {
             t_s: piece.t_s.map(|t| t * factor),
             q_rad: piece.q_rad,
             qd_rad_s: piece.qd_rad_s.map(|v| v / factor),
-            qdd_rad_s2: piece.qdd_rad_s2.map(|both| both.map(|a| a / factor.powi(2))),
+            qdd_rad_s2: piece.qdd_rad_s2.map(|both| both.map(|a| a / (factor * factor))),
         };
         Self {
             pieces: self.pieces.iter().map(stretched).collect(),

@@ -39,14 +39,14 @@ impl UniformBody {
                 centred(volume, [across, across, volume * r * r / 2.0])
             }
             Shape::Sphere { radius_m: r } => {
-                let volume = 4.0 / 3.0 * PI * r.powi(3);
+                let volume = 4.0 / 3.0 * PI * (r * r * r);
                 centred(volume, [0.4 * volume * r * r; 3])
             }
             Shape::Capsule {
                 radius_m: r,
                 half_length_m: h,
             } => {
-                let (rod, ball) = (2.0 * PI * r * r * h, 4.0 / 3.0 * PI * r.powi(3));
+                let (rod, ball) = (2.0 * PI * r * r * h, 4.0 / 3.0 * PI * (r * r * r));
                 // Each half of the ball is 3r/8 beyond its end of the rod: 2r²/5 + h² + 3hr/4.
                 let ends = ball * (0.4 * r * r + h * h + 0.75 * h * r);
                 let across = rod * (r * r / 4.0 + h * h / 3.0) + ends;
@@ -108,6 +108,7 @@ fn polyhedron(points: &[Point3<f64>]) -> Option<UniformBody> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -4,6 +4,9 @@ import { after } from "node:test";
 import { pathToFileURL } from "node:url";
 import { launch } from "./browser.mjs";
 
+/** Longest wait for anything that a page does [ms]: a busy machine takes many times as long as an idle one. */
+const PATIENCE_MS = 300_000;
+
 /** Small, since every pixel is computed without a graphics processor. */
 const SIZE = { width: 640, height: 480 };
 
@@ -22,6 +25,7 @@ export const address = (file) => pathToFileURL(file).href;
 export async function watch(test, url, { size = SIZE, ...context } = {}) {
   const own = await (await shared()).newContext({ viewport: size, reducedMotion: "reduce", ...context });
   test.after(() => own.close());
+  own.setDefaultTimeout(PATIENCE_MS);
   const page = await own.newPage();
   const origin = new URL(url).origin;
   const wrong = [];

@@ -62,17 +62,17 @@ test("a file that changes on disk is taken over where nothing is lost, and asked
   await change(page, [{ key: "seed", value: 7 }]);
   const mine = await scenario(page);
   await replace(file, first);
-  await page.getByRole("button", { name: /keep mine/i }).click({ timeout: 10_000 });
+  await page.getByRole("button", { name: /keep mine/i }).click();
   assert.equal(await scenario(page), mine);
   await replace(file, other.replace("3.25", "3.75"));
-  await page.getByRole("button", { name: /take it/i }).click({ timeout: 10_000 });
+  await page.getByRole("button", { name: /take it/i }).click();
   await settled(page);
   assert.match(await scenario(page), /turns = 3\.75/);
   // A save between two looks does not overwrite what is there.
   await change(page, [{ key: "seed", value: 8 }]);
   await replace(file, "# somebody else's\n" + first);
   await page.evaluate(() => window.platewash.edit.save());
-  await page.getByRole("button", { name: /overwrite|keep mine/i }).first().waitFor({ timeout: 10_000 });
+  await page.getByRole("button", { name: /overwrite|keep mine/i }).first().waitFor();
   assert.match(await readFile(file, "utf8"), /^# somebody else's/);
 });
 
@@ -122,7 +122,7 @@ test("a server that is killed and started again finds the page as it was", async
   await other.goto(again.url);
   await settled(other);
   assert.equal(new URL(other.url()).hash.includes("token"), false);
-  await page.waitForFunction(() => window.platewash.edit.verdict().kind === "proved", null, { timeout: 20_000 });
+  await page.waitForFunction(() => window.platewash.edit.verdict().kind === "proved");
   await settled(page);
   assert.match(await scenario(page), /seed = 11/);
   await save(page);

@@ -59,7 +59,7 @@ function raw(url, method, path, headers, body, { slow = false } = {}) {
     const socket = connect(Number(port), hostname);
     let said = "";
     const end = () => resolve({ status: Number(/^HTTP\/1\.1 (\d+)/.exec(said)?.[1] ?? 0), words: said });
-    socket.setTimeout(30_000, () => socket.destroy());
+    socket.setTimeout(300_000, () => socket.destroy());
     socket.on("error", end);
     socket.on("close", end);
     socket.on("connect", () => {
@@ -81,7 +81,7 @@ async function resident(pid) {
   return found === null ? null : Number(found[1]) / 1000;
 }
 
-test("of a thousand requests at once each is answered or refused, and the page is answered afterwards", { timeout: 120_000 }, async (t) => {
+test("of a thousand requests at once each is answered or refused, and the page is answered afterwards", { timeout: 900_000 }, async (t) => {
   const { page, server } = await edit(t, await folder(t));
   const { text } = await page.evaluate(() => JSON.parse(document.getElementById("platewash-edit").textContent));
   const headers = { Origin: server.origin, "X-Platewash-Token": server.token };

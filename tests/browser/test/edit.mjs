@@ -195,9 +195,9 @@ test("what is typed and not applied does not stand beside a verdict", async (t) 
   await page.getByRole("tab", { name: "Settings" }).click();
   const speed = page.locator('[data-key="wash.speed_m_s"] input');
   await speed.fill("0.2");
-  await badge.getByText("Not applied").waitFor({ timeout: 5000 });
+  await badge.getByText("Not applied").waitFor();
   await speed.press("Escape");
-  await badge.getByText("Proved").waitFor({ timeout: 5000 });
+  await badge.getByText("Proved").waitFor();
   quiet();
 });
 
@@ -205,7 +205,7 @@ test("a map shows where a plate could lie, and goes when the cell changes", asyn
   const { page, quiet } = await edit(t, await folder(t));
   await page.getByRole("button", { name: "Where?" }).first().click();
   const words = page.locator(".map-words");
-  await words.getByText("Not planned, not proved").waitFor({ timeout: 30_000 });
+  await words.getByText("Not planned, not proved").waitFor();
   await change(page, [{ key: "seed", value: 2 }]);
   assert.equal(await words.isVisible(), false);
   quiet();

@@ -247,6 +247,7 @@ fn curvatures(surface: &Surface, [least, most]: [f64; 2]) -> ([f64; 2], bool) {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use nalgebra::UnitQuaternion;

@@ -190,7 +190,7 @@ fn across(sine: f64, friction: f64) -> f64 {
     if friction * sine <= cosine {
         sine + friction * cosine
     } else {
-        friction.hypot(1.0)
+        (1.0 + friction * friction).sqrt()
     }
 }
 
@@ -282,7 +282,7 @@ impl RingLoad {
         let (sine, friction, most) = (self.sine, self.friction, self.pressed_n);
         let dragged = across(sine, friction);
         let least = (1.0 - sine * sine).max(0.0).sqrt() - friction * sine;
-        let greatest = (1.0 + friction * sine).min(friction.hypot(1.0));
+        let greatest = (1.0 + friction * sine).min((1.0 + friction * friction).sqrt());
         let (d, s, z) = (self.tip_m, self.reach_m, self.height_m);
         let bounds = [
             (dragged, self.lateral_n),

@@ -128,7 +128,7 @@ fn slide(mut start: RigidTransform, splits: &mut [Split]) -> RigidTransform {
 /// Returns the z–x–z angles. For parallel axes φ is along the translation, which then has an entry less.
 fn split(rigid: &RigidTransform) -> Split {
     let r = &rigid.rotation;
-    let sin = r.m13.hypot(r.m23);
+    let sin = (r.m13 * r.m13 + r.m23 * r.m23).sqrt();
     let t = rigid.translation;
     let (phi, alpha) = if sin > ROUNDING {
         (atan2(r.m13, -r.m23), atan2(sin, r.m33))

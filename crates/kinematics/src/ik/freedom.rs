@@ -172,6 +172,7 @@ fn twist(r: &Matrix3<f64>) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use crate::{Axes, JointVector, RobotModel};

@@ -60,6 +60,7 @@ pub(super) fn rows() -> [Row; 2] {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
 

@@ -36,6 +36,7 @@ mod search;
 pub mod stuck;
 pub mod task;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 pub mod washability;
 mod washing;

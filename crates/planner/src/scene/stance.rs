@@ -238,6 +238,7 @@ fn smoothstep(r: f64, [from, to]: [f64; 2]) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use platewash_workcell::surface::SHIPPED_PROFILES;

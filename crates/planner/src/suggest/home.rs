@@ -319,6 +319,7 @@ impl Search<'_> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use platewash_kinematics::Pose;

@@ -180,7 +180,10 @@ impl<'a> Map<'a> {
         }
         let washable: Vec<_> = squares.iter().filter(|square| square.is_washable).collect();
         let [x, y] = self.area.centre_m;
-        let rho = washable.iter().map(|s| (s.centre_m[0] - x).hypot(s.centre_m[1] - y));
+        let rho = washable.iter().map(|s| {
+            let [dx, dy] = [s.centre_m[0] - x, s.centre_m[1] - y];
+            (dx * dx + dy * dy).sqrt()
+        });
         let ends = rho.fold([f64::INFINITY, 0.0_f64], |[least, most], rho| {
             [least.min(rho), most.max(rho)]
         });
@@ -257,6 +260,7 @@ fn square(area: &MapArea, step_m: f64, place: [f64; 2]) -> [i64; 2] {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use platewash_workcell::cancel::CancelToken;

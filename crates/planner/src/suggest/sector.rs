@@ -98,6 +98,7 @@ fn widest_row(answers: &[bool]) -> Option<Range<usize>> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use platewash_workcell::cancel::CancelToken;

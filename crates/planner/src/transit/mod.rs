@@ -18,6 +18,7 @@ mod lift_line;
 mod sampled;
 mod search;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 
 pub use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};

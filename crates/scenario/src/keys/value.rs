@@ -6,10 +6,8 @@ use crate::keys::KEYS;
 use crate::scenario::Scenario;
 use platewash_workcell::words::quoted;
 use serde_json::{Number, Value};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 /// Elements of a list that are named.
 const FEW: usize = 8;
@@ -27,22 +25,6 @@ pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
         DeValue::Boolean(boolean) => Value::Bool(*boolean),
         DeValue::Array(array) => Value::Array(array.iter().map(|v| json_of(v.get_ref())).collect()),
         DeValue::Datetime(_) | DeValue::Table(_) => Value::Null,
-    }
-}
-
-/// A table of a file as JSON, its sections as objects.
-pub(crate) fn json_of_table(table: &DeTable<'_>) -> Value {
-    let entry = |(name, value): (&Spanned<Cow<'_, str>>, &Spanned<DeValue<'_>>)| {
-        (name.get_ref().to_string(), json_of_all(value.get_ref()))
-    };
-    Value::Object(table.iter().map(entry).collect())
-}
-
-fn json_of_all(value: &DeValue<'_>) -> Value {
-    match value {
-        DeValue::Table(table) => json_of_table(table),
-        DeValue::Array(array) => array.iter().map(|value| json_of_all(value.get_ref())).collect(),
-        other => json_of(other),
     }
 }
 

@@ -3,7 +3,6 @@
 //! Once its files are read, a scenario is as if its text stated what they say: a profile for a mesh, a `[[plate]]` section for a row.
 
 use crate::error::{Problem, ScenarioError, conflict};
-use crate::keys::value::json_of_table;
 use crate::load::{MAX_BYTES, unread};
 use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
 use crate::resolve::placement::ShapeKeys;
@@ -18,11 +17,9 @@ use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape}
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::surface::Surface;
 use serde::Deserialize;
-use serde_json::Value;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::de::DeTable;
 
 /// Longest table of plates or points that is read \[bytes\].
 const MOST_TABLE_BYTES: u64 = 16 << 20;
@@ -450,14 +447,7 @@ impl Scenario {
             keys: key.to_owned(),
             detail: format!("{}: {detail}", path.display()),
         };
-        let table = DeTable::parse(&text).map_err(|error| refused(error.to_string().trim_end().to_owned()))?;
-        let table = json_of_table(table.get_ref());
-        // JSON has no such value.
-        if let Some(key) = key_of_null(&table) {
-            return Err(refused(format!("{key} is not finite, or a date; expected a number")));
-        }
-        let file: Result<SoilFile, _> = serde_json::from_value(table);
-        let file = file.map_err(|error| refused(error.to_string()))?;
+        let file: SoilFile = toml::from_str(&text).map_err(|error| refused(error.to_string().trim_end().to_owned()))?;
         for (index, soil) in file.soil.iter().enumerate() {
             let name = &soil.name;
             let bad = |what: &str, expected: &str| Err(refused(format!("soil \"{name}\": {what} must be {expected}")));
@@ -485,19 +475,6 @@ impl Scenario {
 #[serde(deny_unknown_fields)]
 struct SoilFile {
     soil: Vec<Soil>,
-}
-
-/// Name of the first key whose value, or an element of it, is null.
-fn key_of_null(value: &Value) -> Option<String> {
-    match value {
-        Value::Null => Some(String::new()),
-        Value::Array(all) => all.iter().find_map(key_of_null),
-        Value::Object(all) => all.iter().find_map(|(key, value)| {
-            let inside = key_of_null(value)?;
-            Some(if inside.is_empty() { key.clone() } else { inside })
-        }),
-        _ => None,
-    }
 }
 
 /// Keys of a shape that was measured.

@@ -293,6 +293,7 @@ fn fade(cosine: f64) -> (f64, f64) {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use nalgebra::{Rotation3, Unit};

@@ -496,6 +496,7 @@ pub(crate) fn check_steps(
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

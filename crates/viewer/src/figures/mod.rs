@@ -53,4 +53,5 @@ pub fn draw(subject: &Subject<'_>, figure: Figure) -> Result<String, FigureError
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;

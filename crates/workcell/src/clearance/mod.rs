@@ -38,6 +38,7 @@ mod pairs;
 mod part;
 mod solid;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 mod tree;
 mod washing;

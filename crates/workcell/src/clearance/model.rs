@@ -222,7 +222,7 @@ impl ClearanceModel {
             .flat_map(|&(a, b)| self.part_pairs(a, b).map(move |(p, r)| (a, b, p, r)))
             .map(|(a, b, p, r)| (placed[a][p].sphere_gap(&placed[b][r]), a, b, p, r))
             .collect();
-        candidates.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+        candidates.sort_by(|x, y| x.0.total_cmp(&y.0));
         for (at_least, a, b, p, r) in candidates {
             if best.as_ref().is_some_and(|(.., s)| at_least >= s.distance) {
                 break;

@@ -94,7 +94,10 @@ impl Columns {
         for ring in 1..=rings {
             let count = 6 * ring;
             let [inner, outer] = [ring as f64 - 0.5, ring as f64 + 0.5].map(|k| k * width);
-            let (squares, cubes) = (outer * outer - inner * inner, outer.powi(3) - inner.powi(3));
+            let (squares, cubes) = (
+                outer * outer - inner * inner,
+                outer * outer * outer - inner * inner * inner,
+            );
             let half = PI / count as f64;
             let centroid = 2.0 / 3.0 * cubes / squares * sin(half) / half;
             for k in 0..count {

@@ -102,6 +102,7 @@ fn beyond_rim_m2(disc_m: f64, distance_m: f64, rim_m: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -22,6 +22,7 @@ mod moment;
 mod parts;
 mod plate_load;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 
 pub use crate::contact::bundles::Bundles;

@@ -92,6 +92,7 @@ fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Cap
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use crate::coverage::{CoverageSettings, coverage};

@@ -437,6 +437,7 @@ impl fmt::Display for PlateOverlap {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use crate::fixtures::{kitchen, kitchen_terms};

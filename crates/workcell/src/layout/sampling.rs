@@ -22,6 +22,7 @@
 //! The source of a job's plates: given one by one, or drawn.
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 
 use crate::layout::error::{EmptyReason, LayoutError};

@@ -14,6 +14,7 @@ pub(crate) mod cell;
 pub(crate) mod doses;
 pub(crate) mod edges;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests;
 
 use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};

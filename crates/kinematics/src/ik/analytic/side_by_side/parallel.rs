@@ -184,6 +184,7 @@ impl AllSideBySide<'_> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
     use crate::RobotModel;
