@@ -1,6 +1,6 @@
 //! Takes the page's bundle into the library. It makes the bundle where it is missing or old, for which it takes Node and the network.
 //!
-//! Without them the crate builds as well: cargo prints why, and `Bundle::embedded` has nothing.
+//! Without them the crate builds as well: cargo prints why, `Bundle::embedded` has nothing, and `Bundle::reason_absent` says why.
 
 use platewash_bundler::stamp;
 use std::path::{Path, PathBuf};
@@ -26,10 +26,9 @@ fn main() -> io::Result<()> {
             // Cargo is not told of files that this run made: it takes them for changes.
             Ok(()) => {}
             Err(why) => {
-                println!(
-                    "cargo::warning=this build has no page in 3-D: {}",
-                    why.replace('\n', " ")
-                );
+                let why = why.replace('\n', " ");
+                println!("cargo::warning=this build has no page in 3-D: {why}");
+                println!("cargo::rustc-env=PLATEWASH_NO_PAGE={why}");
                 // The folder around the bundle changes when `cargo xtask page` makes it.
                 println!("cargo::rerun-if-changed=.");
                 return Ok(());
@@ -48,7 +47,7 @@ fn main() -> io::Result<()> {
 fn make() -> Result<(), String> {
     let set = |(name, value): &(&str, &str)| env::var_os(name).is_some_and(|found| found == *value);
     match SWITCHES.iter().find(|switch| set(switch)) {
-        Some((name, value)) => Err(format!("{name}={value}; `cargo xtask page` makes it")),
+        Some((name, value)) => Err(format!("{name}={value} kept the build from making it; run `cargo xtask page`")),
         None => platewash_bundler::make().map(drop).map_err(|why| format!("{why:#}")),
     }
 }

@@ -22,24 +22,23 @@ use std::sync::Arc;
 use std::time::Duration;
 use tempfile::NamedTempFile;
 
-/// Message for a missing bundle, with the remedy.
-const NO_BUNDLE: &str = "this program was built where neither Node.js nor Python was found; install Python 3.10 or later, or \
-     Node.js 18.3 or later, run `cargo xtask page` in the sources, and build again";
-
 /// Longest time to watch the program that opens the browser; one that runs longer is taken to have opened it.
 const TO_OPEN: Duration = Duration::from_secs(3);
 
 /// Writes to standard error why no page was written, where the program has no bundle: for the end of a report. `--quiet` does not silence
 /// it, as a file is missing.
 pub fn explain_absence() {
-    if Bundle::embedded().is_none() {
-        output::message(&format!("no page was written: {NO_BUNDLE}"));
+    if let Some(why) = Bundle::reason_absent() {
+        output::message(&format!("no page was written: {why}, and build again"));
     }
 }
 
 /// The bundle, for a verb that can do nothing without it.
 pub fn needed_bundle() -> Result<Bundle> {
-    Bundle::embedded().ok_or_else(|| internal(anyhow!("there is no page to show: {NO_BUNDLE}")))
+    Bundle::embedded().ok_or_else(|| {
+        let why = Bundle::reason_absent().unwrap_or_default();
+        internal(anyhow!("there is no page to show: {why}, and build again"))
+    })
 }
 
 /// The page of a plan.

@@ -28,4 +28,13 @@ impl Bundle {
         #[cfg(not(embedded_page))]
         None
     }
+
+    /// The reason why this program was built without a bundle, and what to install and to run before the next build. `None` where it has
+    /// one.
+    pub fn reason_absent() -> Option<&'static str> {
+        if cfg!(embedded_page) {
+            return None;
+        }
+        Some(option_env!("PLATEWASH_NO_PAGE").unwrap_or("run `cargo xtask page`"))
+    }
 }
