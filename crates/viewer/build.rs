@@ -47,7 +47,9 @@ fn main() -> io::Result<()> {
 fn make() -> Result<(), String> {
     let set = |(name, value): &(&str, &str)| env::var_os(name).is_some_and(|found| found == *value);
     match SWITCHES.iter().find(|switch| set(switch)) {
-        Some((name, value)) => Err(format!("{name}={value} kept the build from making it; run `cargo xtask page`")),
+        Some((name, value)) => Err(format!(
+            "{name}={value} kept the build from making it; run `cargo xtask page`"
+        )),
         None => platewash_bundler::make().map(drop).map_err(|why| format!("{why:#}")),
     }
 }

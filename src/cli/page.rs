@@ -7,15 +7,14 @@ use super::output;
 use super::simulate::SimulationAnswer;
 use anyhow::{Context, Error, Result, anyhow, bail};
 use clap::Args;
-use platewash::paper::{self, PaperPart};
+use platewash::editor::paper_beside;
 use platewash::scenario::{Program, SHIPPED};
 use platewash::server::{Feed, Listener, LiveRun, Page, Server, Site};
 use platewash::simulator::plant::TorqueLimits;
 use platewash::viewer::bundle::Bundle;
-use platewash::viewer::view::{Beside, ExecutedMotion, View, ViewExtras};
-use platewash::workcell::layout::{Layout, TaskRegion};
-use platewash::workcell::plan::Process;
-use platewash::{Certificate, PaperJob, Plan, Pose, RobotModel, Scenario, Verdict};
+use platewash::viewer::view::{ExecutedMotion, View, ViewExtras};
+use platewash::workcell::layout::TaskRegion;
+use platewash::{Certificate, Plan, RobotModel, Scenario};
 use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::Arc;
@@ -46,23 +45,6 @@ pub fn html(plan: &Plan, arm: &RobotModel, extras: &ViewExtras<'_>, bundle: &Bun
     let (view, beside) = rayon::join(|| View::of_plan(plan, arm, extras), || paper_beside(plan, arm));
     let view = View { beside, ..view? };
     Ok(platewash::viewer::page::html(&view, bundle)?)
-}
-
-/// The paper's program on the plates of a plan. `None` where it knows nothing of the cell, as it is for an IRB 120 on a floor, and where
-/// it ends with an error.
-fn paper_beside(plan: &Plan, arm: &RobotModel) -> Option<Beside> {
-    let job = &plan.job;
-    let is_known = arm.name() == "irb120" && job.workcell.mount == Pose::identity();
-    if plan.process == Process::Paper || job.dry_run.is_some() || !is_known {
-        return None;
-    }
-    let layout = Layout::of(job.plates.clone());
-    let job = PaperJob::of_part(PaperPart::Appendix, Arc::new(arm.clone()), layout, job.seed).ok()?;
-    let run = paper::run(&job).ok()?;
-    let report = run.report().ok()?;
-    let is_swept = report.verdict == Verdict::Swept;
-    let executed = ExecutedMotion::followed(&run.executed, job.simulation.law, &report.headline, is_swept);
-    Beside::new(&run.plan().ok()?, arm, &executed).ok()
 }
 
 /// The page of a plan, to be written beside its report; `None` without a bundle, which [`explain_absence`] explains.

@@ -12,6 +12,7 @@
 //! | a new question ends those before it | `sessions.rs` |
 //! | the subject: the scenario, changed; its arm and its job; the limit on work | `subject.rs` |
 //! | from the scenario to the proof, or the reason that there is none; places at which plates could lie | `cell.rs` |
+//! | the paper's program on the plates of a plan | `beside.rs` |
 //! | the way on after a stop | `recovery.rs` |
 //! | the things that a user can move | `moves.rs` |
 //! | the reasons that a scenario is refused | `refusal.rs` |
@@ -19,6 +20,7 @@
 //! | the file on disk | `keep.rs` |
 
 mod answer_writer;
+mod beside;
 mod cell;
 mod editor;
 mod host;
@@ -30,6 +32,7 @@ mod refusal;
 mod sessions;
 mod subject;
 
+pub use beside::paper_beside;
 pub use editor::{Editor, EditorError, FirstContents};
 pub use host::Host;
 pub use keep::{Keeper, Save, SaveError, SaveReport};

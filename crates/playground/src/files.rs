@@ -1,7 +1,7 @@
 //! Files of a planned and proved scenario, byte for byte as the command writes them.
 
 use platewash_certificate::certify_with;
-use platewash_editor::LastResult;
+use platewash_editor::{LastResult, paper_beside};
 use platewash_export::dialect::{self, Dialect};
 use platewash_export::{ExportSettings, export};
 use platewash_simulator::{SimulationReport, simulate};
@@ -84,7 +84,10 @@ fn html(result: &LastResult, bundle: Option<&BundleText>) -> Result<String, Stri
         region: Some(&region),
         events: None,
     };
-    let view = View::of_plan(plan, &arm, &extras).map_err(|error| error.to_string())?;
+    let view = View {
+        beside: paper_beside(plan, &arm),
+        ..View::of_plan(plan, &arm, &extras).map_err(|error| error.to_string())?
+    };
     let bundle = Bundle {
         template: bundle.template.clone().into(),
         style: bundle.style.clone().into(),
