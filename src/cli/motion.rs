@@ -109,8 +109,8 @@ impl MotionArguments {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

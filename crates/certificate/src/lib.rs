@@ -29,8 +29,8 @@ mod prove;
 mod report;
 mod statements;
 mod subject;
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 mod washing;
 

@@ -216,8 +216,8 @@ fn found_words(found: &str) -> String {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::{message_in_words, *};
     use proptest::prelude::*;

@@ -295,8 +295,8 @@ fn slopes_of_few_samples(
     vec![before * 2.0 - middle, middle, after * 2.0 - middle]
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

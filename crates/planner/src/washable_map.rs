@@ -177,8 +177,8 @@ fn quarters((column, row): Square) -> impl Iterator<Item = Square> {
     [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].into_iter()
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
 

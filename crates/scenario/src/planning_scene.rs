@@ -269,8 +269,8 @@ fn expected(what: &str, found: &str) -> String {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

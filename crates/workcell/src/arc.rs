@@ -51,8 +51,8 @@ fn shorter_turn(from: f64, to: f64) -> f64 {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

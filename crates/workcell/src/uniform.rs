@@ -107,8 +107,8 @@ fn polyhedron(points: &[Point3<f64>]) -> Option<UniformBody> {
     })
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

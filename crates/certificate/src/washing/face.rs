@@ -246,8 +246,8 @@ fn curvatures(surface: &Surface, [least, most]: [f64; 2]) -> ([f64; 2], bool) {
     (bounds, most < ends_m)
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use nalgebra::UnitQuaternion;

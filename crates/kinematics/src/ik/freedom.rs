@@ -171,8 +171,8 @@ fn twist(r: &Matrix3<f64>) -> f64 {
     atan2(r.m21 - r.m12, r.m11 + r.m22)
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::{Axes, JointVector, RobotModel};

@@ -59,8 +59,8 @@ pub(super) fn rows() -> [Row; 2] {
     quantities.map(|(key, words, unit, paper, value)| Row::new(GROUP, key, words, unit, paper, Estimate::exact(value)))
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -35,8 +35,8 @@ mod samples;
 mod search;
 pub mod stuck;
 pub mod task;
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 pub mod washability;
 mod washing;

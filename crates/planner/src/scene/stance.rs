@@ -237,8 +237,8 @@ fn smoothstep(r: f64, [from, to]: [f64; 2]) -> f64 {
     x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use platewash_workcell::surface::SHIPPED_PROFILES;

@@ -318,8 +318,8 @@ impl Search<'_> {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use platewash_kinematics::Pose;

@@ -259,8 +259,8 @@ fn square(area: &MapArea, step_m: f64, place: [f64; 2]) -> [i64; 2] {
     [(x, place[0]), (y, place[1])].map(|(from, at)| ((at - from) / step_m).floor() as i64)
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use platewash_workcell::cancel::CancelToken;

@@ -97,8 +97,8 @@ fn widest_row(answers: &[bool]) -> Option<Range<usize>> {
     rows.rev().max_by_key(area).filter(|row| row.len() > 1)
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use platewash_workcell::cancel::CancelToken;

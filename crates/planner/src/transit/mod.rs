@@ -17,8 +17,8 @@ mod error;
 mod lift_line;
 mod sampled;
 mod search;
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 
 pub use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};

@@ -292,8 +292,8 @@ fn fade(cosine: f64) -> (f64, f64) {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use nalgebra::{Rotation3, Unit};

@@ -495,8 +495,8 @@ pub(crate) fn check_steps(
     })
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -52,6 +52,6 @@ pub fn draw(subject: &Subject<'_>, figure: Figure) -> Result<String, FigureError
     Ok(drawing.finish(page::SIZE, &format!("{}: {scenario}", figure.name())))
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;

@@ -37,8 +37,8 @@ pub mod motion;
 mod pairs;
 mod part;
 mod solid;
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 mod tree;
 mod washing;

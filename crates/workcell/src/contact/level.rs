@@ -101,8 +101,8 @@ fn beyond_rim_m2(disc_m: f64, distance_m: f64, rim_m: f64) -> f64 {
     (whole - lens + 1e-13 * big * big).clamp(0.0, whole)
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -21,8 +21,8 @@ mod level;
 mod moment;
 mod parts;
 mod plate_load;
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 
 pub use crate::contact::bundles::Bundles;

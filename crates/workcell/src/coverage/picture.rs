@@ -91,8 +91,8 @@ fn state(middle: [f64; 2], half: f64, radius: f64, sponge: f64, capsules: &[&Cap
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::coverage::{CoverageSettings, coverage};

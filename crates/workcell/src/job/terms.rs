@@ -436,8 +436,8 @@ impl fmt::Display for PlateOverlap {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixtures::{kitchen, kitchen_terms};

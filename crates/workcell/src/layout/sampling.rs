@@ -21,8 +21,8 @@
 //!
 //! The source of a job's plates: given one by one, or drawn.
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 
 use crate::layout::error::{EmptyReason, LayoutError};

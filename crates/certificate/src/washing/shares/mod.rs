@@ -13,8 +13,8 @@ pub(crate) mod bounds;
 pub(crate) mod cell;
 pub(crate) mod doses;
 pub(crate) mod edges;
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests;
 
 use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};

@@ -183,8 +183,8 @@ impl AllSideBySide<'_> {
     }
 }
 
-#[cfg(test)]
 #[allow(clippy::disallowed_methods)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::RobotModel;
