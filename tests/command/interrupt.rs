@@ -1,14 +1,11 @@
 //! Ctrl-C in the middle of long work.
 #![cfg(unix)]
 
-use super::served::{command, interrupt, spawn};
+use super::served::{PATIENCE, command, interrupt, spawn};
 use super::*;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Child;
 use std::time::{Duration, Instant};
-
-/// Long after anything that gives up has given up, and long before the work would be done.
-const PATIENCE: Duration = Duration::from_secs(300);
 
 /// The exit code and what was said on standard error.
 #[track_caller]

@@ -1,12 +1,10 @@
 //! A reader of standard output that leaves, as `head` does.
 
+use super::served::PATIENCE;
 use super::*;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
-
-/// Long after anything that stops has stopped.
-const PATIENCE: Duration = Duration::from_secs(300);
 
 fn start(folder: &Path, arguments: &[&str]) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_platewash"));

@@ -7,8 +7,8 @@ use std::process::{Child, ChildStderr, ChildStdout, Stdio};
 use std::sync::Once;
 use std::time::{Duration, Instant};
 
-/// Long after anything that answers has answered.
-const PATIENCE: Duration = Duration::from_secs(300);
+/// Long after anything that answers or ends has done so, and long before work without end is done.
+pub const PATIENCE: Duration = Duration::from_secs(300);
 
 /// A command that goes on; it is ended with the test.
 pub struct RunningCommand {

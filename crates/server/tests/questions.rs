@@ -222,8 +222,7 @@ fn drops_a_client_that_reads_too_slowly() {
     let served = serve();
     let mut stream = served.begin("/flood");
     read_until(&mut stream, "\r\n\r\n1");
-    let took = until("it is left", || served.toy.given_up.load(SeqCst) == 1);
-    assert!(took < PATIENCE, "{took:?}");
+    until("it is left", || served.toy.given_up.load(SeqCst) == 1);
     assert_eq!(served.toy.working.load(SeqCst), 0);
     // What it has not been sent by then does not come any more.
     let mut received = Vec::new();

@@ -1,16 +1,13 @@
 //! The server as its clients meet it, good ones and others, over TCP.
 
+use crate::toy::PATIENCE;
 use crate::wire::{is, read_until};
 use platewash_server::{Listener, LiveEnd, LiveRun, Page, Server, ServerError, Site};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
-use std::time::Duration;
 
 const PAGE: &str = "<!doctype html><title>page</title>";
-
-/// Long after anything that answers has answered.
-const PATIENCE: Duration = Duration::from_secs(300);
 
 struct TestServer {
     server: Option<Server>,

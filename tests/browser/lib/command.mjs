@@ -8,9 +8,10 @@ import { promisify } from "node:util";
 
 const run = promisify(execFile);
 
-const needed = (name) => {
+/** A variable of the environment, which must be set. */
+export const needed = (name) => {
   const value = process.env[name];
-  if (value === undefined) throw new Error(`${name} is not set: cargo xtask test --only browser sets it`);
+  if (value === undefined) throw new Error(`${name} is not set: cargo xtask test sets it`);
   return value;
 };
 

@@ -6,11 +6,11 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { centres, drag, scenario, settled, verdict } from "../lib/cell.mjs";
-import { folder, platewash } from "../lib/command.mjs";
+import { folder, needed, platewash } from "../lib/command.mjs";
 import { serveFolder } from "../lib/static.mjs";
 import { text, watch } from "../lib/watched.mjs";
 
-const WEB = process.env["PLATEWASH_WEB"];
+const WEB = needed("PLATEWASH_WEB");
 const SIZE = { width: 1000, height: 640 };
 const options = { timeout: 900_000 };
 

@@ -3,10 +3,11 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { test } from "node:test";
+import { needed } from "../lib/command.mjs";
 import { serveFolder } from "../lib/static.mjs";
 import { watch } from "../lib/watched.mjs";
 
-const SITE = process.env["PLATEWASH_SITE"];
+const SITE = needed("PLATEWASH_SITE");
 const NARROW = { width: 390, height: 300 };
 
 test("every page of the website asks nothing of anybody else and fits on a narrow screen", { timeout: 900_000 }, async (t) => {
