@@ -44,6 +44,14 @@ pub fn tests() -> Result<()> {
     .run()
 }
 
+/// Fails where there is no Python that can run the tests.
+///
+/// # Errors
+/// No interpreter, or one without `venv` or `pip`; the message says what to install.
+pub fn check() -> Result<()> {
+    version(&python_program()).map(drop)
+}
+
 /// The interpreter of the virtual environment, made anew when the interpreter or the requirements changed. One call waits for the other.
 pub fn environment() -> Result<PathBuf> {
     static ALONE: Mutex<()> = Mutex::new(());

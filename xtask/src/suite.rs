@@ -59,7 +59,8 @@ impl Part {
 
 /// Runs the whole suite or one part of it, each up to the first failure.
 ///
-/// The page is made first, so that all that is compiled after it has it. The Python packages are fetched while crates compile.
+/// The whole suite first looks for Python, so that it does not fail after half an hour without it. The page is made before crates are
+/// compiled, so that all have it. The Python packages are fetched while crates compile.
 pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
     let start = Instant::now();
     let (in_browser, site_in_browser): (Check, Check) = match in_browser {
@@ -105,6 +106,7 @@ fn beside(others: &[Check], steps: &[Check]) -> Result<()> {
 }
 
 fn whole(in_browser: Check, site_in_browser: Check) -> Result<()> {
+    python::check()?;
     // The step that needs them waits for the end of this, and tells what goes wrong.
     std::thread::spawn(python::environment);
     page::make()?;
