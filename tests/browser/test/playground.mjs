@@ -130,8 +130,9 @@ test("a scenario is chosen, opened from a file and taken back", options, async (
   const own = first.replace("[[plate]]", "# my own\n[[plate]]");
   await writeFile(join(place, "own.toml"), own);
   await page.locator("input[type=file]").setInputFiles(join(place, "own.toml"));
+  // The page reads the file on its own: until then nothing is asked.
+  await page.waitForFunction((text) => window.platewash.edit.text() === text, own);
   await settled(page);
-  assert.equal(await scenario(page), own);
   await page.evaluate(() => (window.platewash.edit.undo(), window.platewash.edit.undo()));
   assert.equal(await scenario(page), first);
   quiet();
