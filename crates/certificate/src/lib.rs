@@ -29,9 +29,6 @@ mod prove;
 mod report;
 mod statements;
 mod subject;
-#[allow(clippy::disallowed_methods)]
-#[cfg(test)]
-mod tests;
 mod washing;
 
 pub use crate::arm_motion::{ArmMotionProof, MotionRules, Timing, prove_arm_motion};

@@ -77,7 +77,7 @@ pub struct RingShares {
 
 impl RingShares {
     /// Returns what the plate may do; `None` if it stays.
-    pub(crate) fn fault(&self) -> Option<&'static str> {
+    pub fn fault(&self) -> Option<&'static str> {
         let is_below = |share: Option<f64>| share.is_some_and(|share| share <= 1.0);
         match self {
             _ if !self.tipping.is_some_and(|share| share < 1.0) => Some("it may tip"),
@@ -394,3 +394,7 @@ pub(crate) fn check(subject: &Subject<'_>, all: &[PlateContact]) -> Option<Check
     });
     Some(sides.reduce(tighter).unwrap_or_else(|| Check::not_judged(requirement)))
 }
+
+#[allow(clippy::disallowed_methods)]
+#[cfg(test)]
+mod tests;

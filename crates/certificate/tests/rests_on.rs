@@ -1,8 +1,8 @@
 //! The basis of a verdict in words: different jobs read differently, and a name never reads as more than a name.
 
-use crate::VerdictBasis;
-use crate::tests::maker::{good, post};
+use crate::maker::{good, post};
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
+use platewash_certificate::VerdictBasis;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::words::rounded;
 use platewash_workcell::dry_run::DryRun;

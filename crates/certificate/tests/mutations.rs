@@ -1,8 +1,8 @@
 //! Every requirement is broken on purpose, the plan sealed again, and the right one must say so.
 
-use crate::Requirement::{self, *};
-use crate::tests::maker::{Recipe, good, irb120, resealed, tool};
-use crate::{Certificate, PairRule, Status, Verdict, prove};
+use crate::maker::{Recipe, good, irb120, resealed, tool};
+use platewash_certificate::Requirement::{self, *};
+use platewash_certificate::{Certificate, PairRule, Status, Verdict, prove};
 use platewash_kinematics::JointVector;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::plan::Plan;
@@ -146,7 +146,7 @@ fn excluded_pairs_follow_from_the_arm() {
     });
     // Pairs are left out by names: those of two bodies that have one.
     let told = breaks_at_least(&[Exclusions], |p| {
-        p.job.workcell.obstacles.push(crate::tests::maker::post("link_3"))
+        p.job.workcell.obstacles.push(crate::maker::post("link_3"))
     });
     assert!(
         told.to_string()
@@ -266,7 +266,7 @@ fn a_pair_with_a_reduced_clearance_is_proved_on_its_own() {
 #[test]
 fn refuses_an_obstacle_that_is_too_near() {
     let mut plan = good();
-    let mut far = crate::tests::maker::post("far");
+    let mut far = crate::maker::post("far");
     far.pose.translation.x = -0.9;
     plan.job.workcell.obstacles.push(far);
     plan.job.workcell.exclusions =
@@ -402,7 +402,7 @@ fn moved_plates_are_not_washed() {
     let by = |p: &mut Plan, way_m: f64| p.job.plates[0].pose.translation.x += way_m;
     let mut plan = good();
     by(&mut plan, 1e-4);
-    let found = crate::differences(&plan.job, &good().job);
+    let found = platewash_certificate::differences(&plan.job, &good().job);
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].key, "plates[0].pose.position_m[0]");
     assert_eq!(broken(&judged(plan)), []);

@@ -4,10 +4,12 @@
 //! One requirement about contact is asked at a time, so that an edit cannot be refused by a neighbour first. What no job can leave out
 //! (the tip on the face, along its path) is broken by a face that is another one before contact is.
 
-use crate::Requirement::{self, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Pressed, Strain};
-use crate::tests::contact::{disc, rings, washed};
-use crate::tests::maker::{Recipe, irb120, tool};
-use crate::{Certificate, prove};
+use crate::contact::{disc, rings, washed};
+use crate::maker::{Recipe, irb120, tool};
+use platewash_certificate::Requirement::{
+    self, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Pressed, Strain,
+};
+use platewash_certificate::{Certificate, prove};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::{Knot, Surface};

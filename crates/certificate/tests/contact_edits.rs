@@ -1,9 +1,9 @@
 //! Plans whose jobs are edited: what is more than a plan has to spare is refused by the requirement that it concerns, what is less is still
 //! proved. What it has to spare is taken from its certificate.
 
-use crate::tests::contact::{disc, profile, rings};
-use crate::tests::maker::{Recipe, irb120};
-use crate::{Certificate, Measure, Requirement, Status, prove};
+use crate::contact::{disc, profile, rings};
+use crate::maker::{Recipe, irb120};
+use platewash_certificate::{Certificate, Measure, Requirement, Status, prove};
 use platewash_workcell::fixtures::is_thorough;
 use platewash_workcell::plan::Plan;
 use rayon::prelude::*;
@@ -114,7 +114,7 @@ fn edited((name, plan): (&str, Plan)) -> usize {
     for (requirement, edit) in EDITS {
         let check = before.check(requirement).unwrap();
         let mut measure = check.measure.unwrap();
-        if measure.unit == crate::Unit::Share && requirement != Requirement::Strain {
+        if measure.unit == platewash_certificate::Unit::Share && requirement != Requirement::Strain {
             measure.bound = most.check(requirement).unwrap().measure.unwrap().bound;
         }
         assert_eq!(check.status, Status::Proved, "{name}: {check:?}");

@@ -1,8 +1,8 @@
 //! Requests that no plan can meet, an order that a job requires, and facts that only the job's owner knows.
 
-use crate::Requirement::{self, EveryPlateOnce, Plates};
-use crate::tests::maker::{Recipe, good, irb120, resealed};
-use crate::{Certificate, differences, prove};
+use crate::maker::{Recipe, good, irb120, resealed};
+use platewash_certificate::Requirement::{self, EveryPlateOnce, Plates};
+use platewash_certificate::{Certificate, differences, prove};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plan::Plan;
 

@@ -1,9 +1,9 @@
 //! A tip that goes deeper before or after its wash than in it: strain, force and torque are those of the deepest place, the least force is
 //! that of the wash.
 
-use crate::tests::contact::{disc, rings, washed};
-use crate::tests::maker::{Recipe, irb120};
-use crate::{Certificate, PlateContact, Requirement, prove};
+use crate::contact::{disc, rings, washed};
+use crate::maker::{Recipe, irb120};
+use platewash_certificate::{Certificate, PlateContact, Requirement, prove};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::{Knot, Surface};
 use platewash_workcell::trajectory::SegmentKind;

@@ -1,8 +1,8 @@
 //! The words of a certificate, and of errors for plans that cannot be judged.
 
-use crate::tests::contact::{disc, rings};
-use crate::tests::maker::{good, irb120, resealed};
-use crate::{Certificate, PairRule, ProveError, Requirement, Sense, Unit, prove};
+use crate::contact::{disc, rings};
+use crate::maker::{good, irb120, resealed};
+use platewash_certificate::{Certificate, PairRule, ProveError, Requirement, Sense, Unit, prove};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::{decimals_down, decimals_up};
 use platewash_workcell::job::Overlap;
@@ -206,7 +206,7 @@ fn names_out_of_files_are_escaped_in_messages() {
     escaped(certificate.to_string().lines().nth(1).unwrap().to_owned());
     let mut plan = good();
     plan.job.workcell.arm.name = FORGED.into();
-    plan.job.workcell.obstacles.push(crate::tests::maker::post(FORGED));
+    plan.job.workcell.obstacles.push(crate::maker::post(FORGED));
     plan.job.workcell.tool.bodies[0].name = FORGED.into();
     let told = format!("{:#}", prove(&plan, &irb120()).unwrap());
     assert_eq!(

@@ -1,8 +1,8 @@
 //! Bounds of the contact, against the same model on fine squares: never above it, and little below.
 
-use crate::tests::foundation::{dose_times_s, raster};
-use crate::tests::maker::{Recipe, irb120};
-use crate::{PlateContact, Requirement, Status, dose_times, prove};
+use crate::foundation::{dose_times_s, raster};
+use crate::maker::{Recipe, irb120};
+use platewash_certificate::{PlateContact, Requirement, Status, dose_times, prove};
 use platewash_workcell::fixtures::is_thorough;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;
@@ -67,7 +67,7 @@ pub fn disc(compression_m: f64, lean_deg: f64, curve: WashCurve) -> Recipe {
     recipe
 }
 
-fn judged(plan: &Plan) -> (PlateContact, crate::Certificate) {
+fn judged(plan: &Plan) -> (PlateContact, platewash_certificate::Certificate) {
     let certificate = prove(plan, &irb120()).unwrap();
     (certificate.contact[0], certificate)
 }
@@ -98,7 +98,7 @@ fn compare(name: &str, recipe: &Recipe) {
             seen.touched
         );
     }
-    let bound = |of: crate::ProvedExtreme| of.bound.unwrap();
+    let bound = |of: platewash_certificate::ProvedExtreme| of.bound.unwrap();
     let (strain, least, most) = (
         bound(found.strain),
         bound(found.least_force_n),

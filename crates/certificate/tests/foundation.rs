@@ -1,6 +1,6 @@
 //! The elastic foundation once more, on squares of 0.25 mm and dense moments: its own formulas, from knots, positions and nothing else.
 
-use crate::tests::maker::irb120;
+use crate::maker::irb120;
 use nalgebra::Vector3;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;

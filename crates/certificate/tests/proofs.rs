@@ -1,8 +1,8 @@
 //! Results of a proof besides its requirements: a certified value, a motion alone, the basis of the verdict.
 
-use crate::Requirement::{Clearance, JointSpeed, TipSpeed};
-use crate::tests::maker::{good, irb120, resealed};
-use crate::{CertifyError, PairRule, ProveError, Status, certify, prove, prove_motion};
+use crate::maker::{good, irb120, resealed};
+use platewash_certificate::Requirement::{Clearance, JointSpeed, TipSpeed};
+use platewash_certificate::{CertifyError, PairRule, ProveError, Status, certify, prove, prove_motion};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::plan::Process;
 use std::collections::BTreeSet;
@@ -87,7 +87,7 @@ fn a_motion_without_washing_keeps_clear_at_all_times() {
 #[test]
 fn reports_the_basis_of_the_verdict() {
     let mut plan = good();
-    let mut post = crate::tests::maker::post("post");
+    let mut post = crate::maker::post("post");
     post.pose.translation.x = -0.9;
     plan.job.workcell.obstacles.push(post);
     plan.job.home_rad[1][5] = 0.5;
@@ -130,7 +130,7 @@ fn reports_the_basis_of_the_verdict() {
 /// The proof does not depend on the planner: of this project, the crate uses only kinematics and workcell.
 #[test]
 fn the_certificate_does_not_depend_on_the_planner() {
-    let manifest: toml::Table = include_str!("../../Cargo.toml").parse().unwrap();
+    let manifest: toml::Table = include_str!("../Cargo.toml").parse().unwrap();
     for section in ["dependencies", "dev-dependencies"] {
         let ours = manifest[section]
             .as_table()

@@ -1,7 +1,7 @@
 //! Motions of an arm alone, against dense samples.
 
-use crate::{ArmMotionProof, MotionRules, ProveError, Requirement, Status, Timing, prove_arm_motion};
 use nalgebra::Vector3;
+use platewash_certificate::{ArmMotionProof, MotionRules, ProveError, Requirement, Status, Timing, prove_arm_motion};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;

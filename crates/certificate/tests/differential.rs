@@ -1,9 +1,9 @@
 //! A dense sampler that shares no code with the certificate but the motion's knots, forward kinematics and distances: it must
 //! never find anything worse than a certified bound, and the bounds must not be far from what it finds.
 
-use crate::tests::maker::{Recipe, good, irb120};
-use crate::{Certificate, PairRule, Requirement, prove};
+use crate::maker::{Recipe, good, irb120};
 use nalgebra::Vector3;
+use platewash_certificate::{Certificate, PairRule, Requirement, prove};
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::SegmentKind;

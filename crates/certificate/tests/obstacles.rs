@@ -1,9 +1,9 @@
 //! Obstacles of every kind around a plan: what is proved of pairs is never more than what is found at any moment, whether they were dismissed many at
 //! once or looked at one by one.
 
-use crate::tests::maker::{good, irb120, resealed};
-use crate::{Requirement, Status, prove};
+use crate::maker::{good, irb120, resealed};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
+use platewash_certificate::{Requirement, Status, prove};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::clearance::{ClearanceModel, exclusions};

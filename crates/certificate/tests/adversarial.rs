@@ -1,8 +1,8 @@
 //! Files that are hardly plans: an error or a requirement that is not kept, soon, and never a panic.
 
-use crate::tests::maker::{good, irb120, post, resealed};
-use crate::{Certificate, ProveError, Verdict, prove, prove_with};
+use crate::maker::{good, irb120, post, resealed};
 use nalgebra::Point3;
+use platewash_certificate::{Certificate, ProveError, Verdict, prove, prove_with};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::cancel::CancelToken;

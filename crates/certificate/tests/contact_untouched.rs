@@ -1,10 +1,10 @@
 //! Faces of which hardly anything is washed: an untouched area does not count, also if contact begins with no compression at all, and if
 //! there are no contact requirements.
 
-use crate::tests::contact::{disc, spiral, washed};
-use crate::tests::foundation::raster;
-use crate::tests::maker::{Recipe, irb120};
-use crate::{Requirement, Status, prove};
+use crate::contact::{disc, spiral, washed};
+use crate::foundation::raster;
+use crate::maker::{Recipe, irb120};
+use platewash_certificate::{Requirement, Status, prove};
 use platewash_workcell::surface::{Knot, Surface};
 
 /// Returns a disc and a face that is none, of which the sponge reaches the middle only.

@@ -1,7 +1,9 @@
 //! The motion of a program: what an independent sampler finds is within the bounds, and what leaves the plan is said.
 
-use crate::tests::maker::{good, irb120};
-use crate::{Certified, Check, ProgramLimits, ProgramProof, Requirement, Status, certify, prove_program};
+use crate::maker::{good, irb120};
+use platewash_certificate::{
+    Certified, Check, ProgramLimits, ProgramProof, Requirement, Status, certify, prove_program,
+};
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
