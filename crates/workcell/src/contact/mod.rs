@@ -21,9 +21,6 @@ mod level;
 mod moment;
 mod parts;
 mod plate_load;
-#[allow(clippy::disallowed_methods)]
-#[cfg(test)]
-mod tests;
 
 pub use crate::contact::bundles::Bundles;
 pub use crate::contact::columns::{Column, Columns, Load};

@@ -102,18 +102,3 @@ impl WashJob {
         Ok(Self::new(self.arm.clone(), terms)?.named(&self.name))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fixtures::kitchen;
-
-    #[test]
-    fn a_home_beyond_the_limits_is_refused_by_its_joint() {
-        let good = kitchen();
-        let mut terms = good.terms().clone();
-        terms.home_rad[1][2] = 3.0;
-        let said = WashJob::new(good.shared_arm(), terms).unwrap_err().to_string();
-        assert!(said.contains("end of the motion") && said.contains("joint 3"), "{said}");
-    }
-}

@@ -207,25 +207,3 @@ impl Plate {
         ))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::fixtures::kitchen;
-    use nalgebra::{UnitQuaternion, Vector3};
-
-    #[test]
-    fn states_the_tilt_of_tilted_plates_alone() {
-        let mut plate = kitchen().terms().plates[0];
-        assert_eq!(plate.tilt_words(), None);
-        let mut turned = |axis: Vector3<f64>, deg: f64| {
-            plate.pose.rotation = UnitQuaternion::from_scaled_axis(axis * deg.to_radians());
-            plate.tilt_words()
-        };
-        let said = turned(Vector3::y(), 60.0);
-        assert_eq!(said.as_deref(), Some("tilted by 60°, axis (0.866025404, 0, 0.5)"));
-        let said = turned(Vector3::x(), 180.0);
-        assert_eq!(said.as_deref(), Some("tilted by 180°, axis (0, 0, -1)"));
-        // About its own axis a plate is round.
-        assert_eq!(turned(Vector3::z(), 30.0), None);
-    }
-}

@@ -1,7 +1,9 @@
-mod plate_load;
+//! The pressure of an upright sponge, stays over a place, and level presses against sums over the face.
 
-use crate::contact::*;
-use crate::surface::Surface;
+use nalgebra::Vector3;
+use platewash_workcell::contact::*;
+use platewash_workcell::surface::Surface;
+use proptest::prelude::*;
 use std::f64::consts::PI;
 
 fn foundation() -> Foundation {
@@ -87,4 +89,42 @@ fn the_contact_intervals_of_a_point_add_up_to_its_contact_time() {
         none.contact_intervals(&Vector3::new(f64::NAN, 0.0, 0.0)).is_empty()
             && looks.contact_intervals(&Vector3::repeat(f64::NAN)).is_empty()
     );
+}
+
+proptest! {
+    /// Dense sums over the sponge's face, at every height and tilt within the bounds, stay within the computed bounds.
+    #[test]
+    fn loads_of_poses_stay_within_the_bounds(
+        height in [-2e-3..2e-3f64, -2e-3..2e-3f64], tilt in 0.0..0.3f64, share in [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64], far in 0.05..0.15f64,
+    ) {
+        let foundation = Foundation { radius_m: 0.025, free_height_m: 0.03, compression_m: 0.005, stiffness_pa: [1.1e4, 4.4e4] };
+        let height_m = [height[0].min(height[1]), height[0].max(height[1])];
+        let level = Level { height_m, cosine: tilt.cos(), distance_m: far };
+        let press = foundation.level_press(&level, 0.145);
+        let (z, t, d) = (height_m[0] + (height_m[1] - height_m[0]) * share[0], tilt * share[1], far * share[2]);
+        let n = 200;
+        let (mut volume, mut twist, mut turn, mut deepest) = (0.0, 0.0, 0.0, f64::NEG_INFINITY);
+        let ds = 2.0 * 0.025 / f64::from(n);
+        for i in 0..n {
+            for j in 0..n {
+                let [x, y] = [i, j].map(|k| (f64::from(k) + 0.5) * ds - 0.025);
+                if x * x + y * y > 0.025 * 0.025 { continue; }
+                // The column through (x, y) across the axis (sin t, 0, −cos t) meets the face where its height is 0.
+                let along = (z + x * t.sin()) / t.cos();
+                let meets = [d + x * t.cos() + along * t.sin(), y];
+                if meets[0] * meets[0] + meets[1] * meets[1] > 0.145 * 0.145 { continue; }
+                let w = 0.005 - along;
+                deepest = f64::max(deepest, w);
+                volume += w.max(0.0) * ds * ds;
+                twist += w.max(0.0) * (x * x + y * y).sqrt() * ds * ds / t.cos();
+                turn += w.max(0.0) * (meets[0] * meets[0] + meets[1] * meets[1]).sqrt() * ds * ds / t.cos();
+            }
+        }
+        let [least, most] = press.volume_m3;
+        prop_assert!(volume >= least * (1.0 - 2e-3) - 1e-9 && volume <= most * (1.0 + 2e-3) + 1e-9, "{volume} {press:?}");
+        prop_assert!(deepest <= press.deepest_m[1] + 1e-12);
+        prop_assert!(twist <= press.twist_m4 * (1.0 + 3e-3) + 1e-12);
+        prop_assert!(turn <= press.holder.turn_m4 * (1.0 + 3e-3) + 1e-12);
+        prop_assert!(volume / t.cos() <= press.holder.normal_m3 * (1.0 + 2e-3) + 1e-9);
+    }
 }

@@ -1,8 +1,8 @@
 //! Bounds of a sponge on a plate over a stretch of time, against sums over its face at moments of it, column by column by halving.
 
-use crate::contact::tests::*;
-use crate::surface::{SHIPPED_PROFILES, Surface};
-use nalgebra::{Rotation3, Unit};
+use nalgebra::{Rotation3, Unit, Vector3};
+use platewash_workcell::contact::*;
+use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use std::f64::consts::{PI, TAU};
@@ -19,7 +19,9 @@ const ERROR_M: f64 = 1e-3;
 
 /// Rings and sectors of the sums, and the error of the sums relative to the whole face pressed as deep as its deepest column.
 const RINGS: u32 = 40;
+
 const SECTORS: u32 = 90;
+
 const OFF: f64 = 4e-3;
 
 fn surface(profile: usize) -> Surface {

@@ -1,13 +1,13 @@
 //! Plates of many parts, against the same parts as separate obstacles that are examined one by one.
 
-use crate::clearance::motion::PartPairs;
-use crate::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
-use crate::fixtures::{kitchen_tool, workcell};
-use crate::plate::{Foot, Plate, PlateTerms};
-use crate::surface::{SHIPPED_PROFILES, Surface};
-use crate::words::plate_name;
-use crate::workcell::{Obstacle, ObstacleShape, Workcell};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_workcell::clearance::motion::PartPairs;
+use platewash_workcell::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
+use platewash_workcell::fixtures::{kitchen_tool, workcell};
+use platewash_workcell::plate::{Foot, Plate, PlateTerms};
+use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
+use platewash_workcell::words::plate_name;
+use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
 use proptest::prelude::*;
 
 fn plates(kind: usize, z: f64) -> [Plate; 2] {
@@ -53,6 +53,7 @@ fn near() -> impl Strategy<Value = JointVector> {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
     #[test]
     fn the_distance_of_many_parts_is_the_least_of_theirs(q in near(), kind in 0..4usize, z in 0.03..0.2f64, required in 0.0..0.05f64) {
         let robot = RobotModel::irb120().unwrap();
