@@ -133,23 +133,6 @@ impl Default for Scenario {
     }
 }
 
-#[cfg(all(test, unix))]
-mod tests {
-    use super::Scenario;
-    use std::ffi::OsStr;
-    use std::os::unix::ffi::OsStrExt;
-
-    #[test]
-    fn accepts_any_path_of_the_system() {
-        let mut scenario = Scenario::load("paper-text").unwrap();
-        let path = OsStr::from_bytes(b"arm\xff.urdf");
-        scenario.robot.urdf = Some(path.into());
-        scenario.robot.package_path = vec![path.into()];
-        assert_eq!(scenario.validate(), Ok(()));
-        assert!(serde_json::to_string(&scenario).unwrap().contains("arm\u{fffd}.urdf"));
-    }
-}
-
 /// Refuses a seed above [`MAX_SEED`], by the name of the key that states it.
 ///
 /// # Errors

@@ -190,34 +190,6 @@ impl Scenario {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::Note;
-    use platewash_workcell::cancel::CancelToken;
-
-    #[test]
-    fn a_job_without_a_home_uses_and_reports_the_suggested_one() {
-        let mut scenario = Scenario::load("kitchen").unwrap();
-        scenario.robot.start_deg = None;
-        assert_eq!(scenario.validate(), Ok(()));
-        assert!(
-            matches!(scenario.notes()[..], [Note::HomeLeftOpen]),
-            "{:?}",
-            scenario.notes()
-        );
-        let job = scenario.job().unwrap();
-        let found = suggest_home(job.arm(), job.terms(), &CancelToken::new()).unwrap();
-        assert_eq!(job.terms().home_rad, [found.q_rad(); 2]);
-        scenario.robot.home_deg = Some([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]);
-        let [start, end] = scenario.job().unwrap().terms().home_rad;
-        assert_eq!((start, end[4]), (found.q_rad(), 90_f64.to_radians()));
-    }
-
-    #[test]
-    fn the_papers_program_starts_at_0_where_nothing_is_stated() {
-        let mut scenario = Scenario::load("paper-text").unwrap();
-        scenario.robot.start_deg = None;
-        assert_eq!(scenario.notes(), []);
-        assert_eq!(scenario.paper_job().unwrap().start_rad.amax(), 0.0);
-    }
 
     /// The handle is never farther than 24 mm from the forearm.
     #[test]
@@ -296,21 +268,5 @@ mod tests {
         ] {
             assert_eq!(split(pair, count), None, "{pair:?}");
         }
-    }
-
-    #[test]
-    fn suggested_homes_are_accepted() {
-        let (scenario, cancel) = (Scenario::load("angled-tool").unwrap(), CancelToken::new());
-        let arm = scenario.arm().unwrap();
-        let suggestion = scenario
-            .suggest(&arm, Duration::from_secs(600), &Watch::silent(&cancel))
-            .unwrap();
-        let sector = suggestion.region.sector.unwrap();
-        let mut like = scenario.clone();
-        like.robot.start_deg = Some(suggestion.home.q_deg);
-        like.layout.region = None;
-        (like.layout.rho_m, like.layout.azimuth_deg) = (Some(sector.rho_m), Some(sector.azimuth_deg));
-        like.layout.count = 2;
-        platewash_planner::plan(&like.job().unwrap()).unwrap();
     }
 }

@@ -4,12 +4,23 @@
 #![allow(clippy::disallowed_methods)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
+mod certified_keys;
+mod contact;
 mod draft;
 mod draft_properties;
+mod holder;
+mod jobs;
+mod loading;
 mod measured;
+mod notes;
+mod obstacle_files;
 mod obstacles;
+mod plant;
 mod plate_files;
+mod plate_sections;
 mod plates;
+mod reference;
+mod tool_bodies;
 mod tool_meshes;
 
 #[path = "../../../tests/support/texts.rs"]
