@@ -276,3 +276,21 @@ fn input_that_makes_no_sense_is_refused() {
         Err(GeneralizedError::Ik(IkError::Seed { .. }))
     ));
 }
+
+#[test]
+fn freedoms_out_of_range_are_refused() {
+    for (freedom, name) in [
+        (
+            TaskFreedom {
+                position_m: [0.0, -1.0, 0.0],
+                ..TaskFreedom::none()
+            },
+            "position_m",
+        ),
+        (TaskFreedom::cone(f64::NAN), "tilt_rad"),
+        (TaskFreedom::cone(3.2), "tilt_rad"),
+    ] {
+        assert_eq!(freedom.validate().map_err(|e| e.name), Err(name));
+    }
+    assert_eq!(TaskFreedom::cone(0.3).validate(), Ok(()));
+}

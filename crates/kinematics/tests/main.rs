@@ -6,17 +6,26 @@
 
 mod against_pinocchio;
 mod batch;
+mod fingerprint;
 mod ik_analytic;
 mod ik_answers;
 mod ik_generalized;
 mod ik_path;
 mod ik_spread;
+mod limits;
+mod rotation;
+mod shapes;
+mod srdf;
+mod trig;
 mod trig_accuracy;
 mod urdf_collada;
+mod urdf_files;
+mod urdf_fixed;
 mod urdf_loads;
 mod urdf_meshes;
 mod urdf_refused;
 mod urdf_visuals;
+mod words;
 
 #[path = "../../../tests/support/urdf.rs"]
 mod urdf;

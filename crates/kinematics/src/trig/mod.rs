@@ -19,8 +19,6 @@ mod arc_sine;
 mod atan2;
 mod mul_add;
 mod sin_cos;
-#[cfg(test)]
-mod tests;
 
 pub use crate::trig::arc_sine::{acos, asin};
 pub use crate::trig::atan2::atan2;

@@ -80,36 +80,3 @@ fn system(error: &std::io::Error) -> FileError {
         code: error.raw_os_error(),
     }
 }
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_size_limit_counts_bytes_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("text");
-        std::fs::write(&path, "12345").unwrap();
-        assert_eq!(read_text(&path, 5), Ok("12345".to_owned()));
-        assert_eq!(read_text(&path, 4), Err(FileError::TooLong { limit: 4 }));
-        std::fs::write(&path, b"12\xff").unwrap();
-        assert_eq!(read_text(&path, 5), Err(FileError::NotText { position: 2 }));
-        assert_eq!(read_bytes(folder.path(), 5), Err(FileError::NotRegular));
-        assert!(matches!(
-            read_bytes(&folder.path().join("none"), 5),
-            Err(FileError::System { .. })
-        ));
-    }
-
-    /// `/dev/zero` never ends; files below `/proc` state a length of zero.
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn rejects_devices_and_ignores_stated_lengths() {
-        assert_eq!(read_bytes(Path::new("/dev/zero"), 5), Err(FileError::NotRegular));
-        assert_eq!(
-            read_bytes(Path::new("/proc/self/status"), 5),
-            Err(FileError::TooLong { limit: 5 })
-        );
-    }
-}

@@ -170,33 +170,3 @@ impl Files {
         file::text(self.read_bytes(path, limit)?)
     }
 }
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keeps_read_files_after_they_leave_the_disk() {
-        let folder = tempfile::tempdir().unwrap();
-        let [path, none] = ["a.urdf", "none"].map(|name| folder.path().join(name));
-        std::fs::write(&path, "abc").unwrap();
-        let recording = Files::recording();
-        assert_eq!(recording.read_text(&path, 3).unwrap(), "abc");
-        let held = Files::held(Arc::new(recording.recorded().unwrap()));
-        std::fs::remove_file(&path).unwrap();
-        assert!(held.is_file(&path) && !held.is_file(&none) && !recording.is_file(&path));
-        assert_eq!(held.read_bytes(&path, 3).unwrap(), b"abc");
-        assert_eq!(held.read_bytes(&path, 2), Err(FileError::TooLong { limit: 2 }));
-        assert!(matches!(held.read_text(&none, 3), Err(FileError::System { .. })));
-        assert!(recording.read_bytes(&none, 3).is_err());
-        assert_eq!(recording.recorded().unwrap_err().0, none);
-    }
-
-    #[test]
-    fn a_source_without_files_refuses_those_of_the_disk() {
-        let file = tempfile::NamedTempFile::new().unwrap();
-        assert!(!Files::none().is_file(file.path()));
-        assert_eq!(Files::none().read_bytes(file.path(), 3), Err(FileError::NoFiles));
-    }
-}

@@ -1,6 +1,6 @@
-//! Properties that hold for every argument: symmetry, monotony, inverses.
+//! Properties of the trigonometry that hold for every argument: symmetry, monotony, inverses.
 
-use crate::trig::{acos, asin, atan2, cos, sin, sin_cos};
+use platewash_kinematics::trig::{acos, asin, atan2, cos, sin, sin_cos};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
