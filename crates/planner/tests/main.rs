@@ -10,7 +10,11 @@ const SOON: std::time::Duration = std::time::Duration::from_secs(60);
 mod failures;
 mod knots;
 mod live_cell;
+mod redundancy;
+mod suggest;
+mod timing;
 mod timing_fixture;
+mod transit;
 
 #[path = "../../../tests/support/jobs.rs"]
 mod jobs;

@@ -46,7 +46,7 @@ fn fixture() -> String {
     let robot = RobotModel::irb120().unwrap();
     let tip = kitchen_tool().tip_frame(&robot);
     let smooth = smooth();
-    let wash = wash(&robot, &tip);
+    let wash = wash(&robot, &tip, 3e-5);
     let tip_limits = TipLimits {
         speed_m_s: 0.25,
         acceleration_m_s2: 4.0,
@@ -120,7 +120,7 @@ fn fine(path: &JointPath) -> JointPath {
 }
 
 /// The spiral and ring of a plate in front of the arm, tool straight down.
-fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
+pub fn wash(robot: &RobotModel, tip: &Frame, chord_error_m: f64) -> JointPath {
     let curve = WashCurve {
         radius_m: 0.124,
         turns: 3.5,
@@ -131,7 +131,7 @@ fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
     let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);
-    let u = curve.parameters(&Surface::Disc { radius_m: 0.145 }, 3e-5);
+    let u = curve.parameters(&Surface::Disc { radius_m: 0.145 }, chord_error_m);
     let mut seed = JointVector::new(0.0, 0.5, 0.3, 0.0, 0.7, 0.0);
     let q = u.iter().map(|&theta| {
         let p = curve.at(theta).position;

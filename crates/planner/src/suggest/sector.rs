@@ -97,12 +97,9 @@ fn widest_row(answers: &[bool]) -> Option<Range<usize>> {
     rows.rev().max_by_key(area).filter(|row| row.len() > 1)
 }
 
-#[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use platewash_workcell::cancel::CancelToken;
-    use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 
     #[test]
     fn of_all_rows_the_one_with_the_largest_ring_is_found() {
@@ -112,27 +109,5 @@ mod tests {
         assert_eq!(row("11"), Some(0..2));
         assert_eq!(row("01010"), None);
         assert_eq!(row(""), None);
-    }
-
-    /// Planning washes plates on the corners of the sector and in its middle.
-    #[test]
-    fn plates_in_the_sector_are_washed() {
-        let (job, cancel) = (kitchen(), CancelToken::new());
-        let watch = Watch::silent(&cancel);
-        let Sector { rho_m, azimuth_deg } = suggest_sector(&job, &watch).unwrap().unwrap();
-        let [near, far] = rho_m;
-        let [from, to] = azimuth_deg;
-        assert!(far - near > 0.05 && to - from > 60.0, "{rho_m:?} {azimuth_deg:?}");
-        for (rho, azimuth) in [
-            (near, from),
-            (near, to),
-            (far, from),
-            (far, to),
-            (0.5 * (near + far), 0.5 * (from + to)),
-        ] {
-            let (s, c) = azimuth.to_radians().sin_cos();
-            let plates = vec![kitchen_plate([rho * c, rho * s])];
-            crate::plan_here(&job.on_plates(plates).unwrap(), &watch).unwrap();
-        }
     }
 }

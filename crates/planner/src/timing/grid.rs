@@ -272,8 +272,15 @@ fn levers(robot: &RobotModel, tip: &Frame) -> [f64; AXES] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::timing::tests::arm;
+    use platewash_workcell::fixtures::kitchen_tool;
     use proptest::prelude::*;
+
+    /// The IRB 120 and the tip of a tool 150 mm long.
+    fn arm() -> (RobotModel, Frame) {
+        let robot = RobotModel::irb120().unwrap();
+        let tip = kitchen_tool().tip_frame(&robot);
+        (robot, tip)
+    }
 
     fn vector(most: f64) -> impl Strategy<Value = JointVector> {
         prop::array::uniform6(-most..most).prop_map(JointVector::from)

@@ -19,9 +19,6 @@ mod grid;
 mod hermite;
 mod interval;
 mod rounds;
-#[allow(clippy::disallowed_methods)]
-#[cfg(test)]
-mod tests;
 
 pub use crate::timing::rounds::{LONGEST_PIECE_S, PATH_ERROR_RAD, SHORTEST_PIECE_S};
 

@@ -167,37 +167,3 @@ impl fmt::Display for ClearanceShortfall {
         )
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use platewash_kinematics::RobotModel;
-    use platewash_workcell::clearance::ClearanceModel;
-    use platewash_workcell::fixtures::{kitchen_tool, workcell};
-    use platewash_workcell::plate::Plate;
-
-    /// A plate whose surface is `gap` below the free sponge, under the tool that points straight down.
-    #[test]
-    fn names_the_pair_its_distance_and_the_required_clearance() {
-        let robot = RobotModel::irb120().unwrap();
-        let tool = kitchen_tool();
-        let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);
-        let tip = robot.fk(&q).rigid(&tool.tip_frame(&robot)).translation;
-        let free_m = tool.sponge.compression_m;
-        let workcell = workcell(&robot, tool);
-        for (gap, near) in [(0.0105, true), (0.0112, false)] {
-            let plate = Plate::level_disc([tip.x, tip.y, tip.z - free_m - gap], 0.1, 0.02);
-            let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
-            let found = ClearanceShortfall::at(&clearance, &q, Stretch::Free, 0.01);
-            assert_eq!(found.is_some(), near);
-            let at_plate = ClearanceShortfall::at(&clearance, &q, Stretch::AtPlate(0), 0.01);
-            assert_eq!(at_plate, None, "the sponge may be near a plate");
-            if let Some(found) = found {
-                let message = found.to_string();
-                for part in ["sponge", "plate 1", "10.50 mm", "11.00 mm", "1.00 mm in reserve"] {
-                    assert!(message.contains(part), "{message}");
-                }
-            }
-        }
-    }
-}

@@ -17,10 +17,6 @@ mod error;
 mod lift_line;
 mod sampled;
 mod search;
-#[allow(clippy::disallowed_methods)]
-#[cfg(test)]
-mod tests;
-
 pub use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};
 pub use crate::transit::lift_line::{LiftLine, LiftLineError};
 pub use crate::transit::search::{BaseArc, STEP_RAD, Transit, TransitKind, TransitRules, plan};

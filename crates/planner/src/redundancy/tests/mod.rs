@@ -1,10 +1,11 @@
 mod aside;
 mod held;
-mod input;
-mod other_arms;
 mod scale;
+#[path = "../../../tests/redundancy/world.rs"]
+mod world;
 
-use crate::redundancy::places::{MOST_CHECKS, MovedPlate, nearest_washable, on_grid};
+use self::world::*;
+use crate::redundancy::places::{MovedPlate, nearest_washable, on_grid};
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::anywhere;
 use crate::redundancy::task::Profile;
@@ -13,223 +14,22 @@ use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
 use crate::redundancy::*;
 use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, stance};
 use crate::trig::sin_cos;
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use crate::{redundancy, scene};
+use nalgebra::Vector3;
+use platewash_kinematics::RobotModel;
+use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::{ClearanceModel, PairClearance};
+use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::fixtures::{kitchen_tool, workcell};
 use platewash_workcell::job::ReachBorders;
-use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use proptest::prelude::*;
 
-const RADIUS_M: f64 = 0.12385;
-const CLEARANCE_M: f64 = 0.01;
-/// Largest error of a distance that decides a quick answer \[m\].
-const QUICK_ERROR_M: f64 = 1e-4;
-const HOME: JointVector = JointVector::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-
-/// The tool of the kitchen with another length and another handle.
-fn straight(length_m: f64, radius_m: f64) -> Tool {
-    Tool::from(StraightTool {
-        length_m,
-        radius_m,
-        ..StraightTool::default()
-    })
-}
-
-fn curve(radius_m: f64) -> WashCurve {
-    WashCurve {
-        radius_m,
-        turns: 3.5,
-        start_angle_rad: 0.3,
-        closing_ring: true,
-        trim_rad: 0.0,
-        rings: None,
-    }
-}
-
-/// The path on the first plate.
-fn path(curve: WashCurve, tilt_deg: f64) -> WashPath {
-    WashPath {
-        plate: 0,
-        curve,
-        lift_m: 0.03,
-        cone_rad: tilt_deg.to_radians(),
-    }
-}
-
-fn plate_at(rho: f64, azimuth_deg: f64) -> Plate {
-    let (s, c) = sin_cos(azimuth_deg.to_radians());
-    Plate::level_disc([rho * c, rho * s, 0.03], 0.145, 0.02)
-}
-
-/// An arm among some plates.
-struct World<'a> {
-    scene: Scene<'a>,
-    clearance: &'a ClearanceModel,
-}
-
-impl World<'_> {
-    fn task(&self, path: &WashPath) -> Task<'_> {
-        self.task_near(path, &HOME)
-    }
-
-    fn task_near(&self, path: &WashPath, near: &JointVector) -> Task<'_> {
-        Task::new(&self.scene, path, CLEARANCE_M, near).unwrap()
-    }
-
-    fn washing(&self, path: &WashPath) -> Result<Washing, RedundancyError> {
-        washing(&self.task(path))
-    }
-}
-
-/// Does something with an arm among some plates.
-fn with_arm<T>(robot: &RobotModel, tool: &Tool, plates: &[Plate], act: impl FnOnce(&World<'_>) -> T) -> T {
-    let clearance = ClearanceModel::new(robot, &workcell(robot, tool.clone()), plates).unwrap();
-    act(&World {
-        scene: Scene::new(robot, tool, &clearance, plates, ReachBorders::IRB_120).unwrap(),
-        clearance: &clearance,
-    })
-}
-
-/// The same with the IRB 120.
-fn within<T>(tool: &Tool, plates: &[Plate], act: impl FnOnce(&World<'_>) -> T) -> T {
-    with_arm(&RobotModel::irb120().unwrap(), tool, plates, act)
-}
-
-/// The second derivatives of the clamped cubic spline through (x, y) (de Boor, ch. IV), by elimination.
-fn spline_curvatures(x: &[f64], y: &[f64], ends: [f64; 2]) -> Vec<f64> {
-    let n = x.len();
-    let h = |k: usize| x[k + 1] - x[k];
-    let rise = |k: usize| (y[k + 1] - y[k]) / h(k);
-    let (mut upper, mut right) = (vec![0.5; n], vec![3.0 * (rise(0) - ends[0]) / h(0); n]);
-    for k in 1..n {
-        let below = h(k - 1);
-        let (diagonal, above, value) = if k + 1 < n {
-            (2.0 * (below + h(k)), h(k), 6.0 * (rise(k) - rise(k - 1)))
-        } else {
-            (2.0 * below, 0.0, 6.0 * (ends[1] - rise(k - 1)))
-        };
-        let pivot = diagonal - below * upper[k - 1];
-        upper[k] = above / pivot;
-        right[k] = (value - below * right[k - 1]) / pivot;
-    }
-    for k in (0..n - 1).rev() {
-        right[k] -= upper[k] * right[k + 1];
-    }
-    right
-}
-
-/// Checks everything that a washing promises, from outside.
-fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
-    let scene = &world.scene;
-    let (plate, limits) = (&scene.plates[path.plate], scene.robot.limits());
-    assert_eq!(
-        washing.theta,
-        path.curve
-            .parameters(&plate.surface, crate::redundancy::task::CHORD_ERROR_M)
-    );
-    assert_eq!([washing.q.len(), washing.tilt_rad.len()], [washing.theta.len(); 2]);
-    let stance = scene.clone().leaning_aside(washing.aside_rad).stance;
-    for (k, (&theta, q)) in washing.theta.iter().zip(&washing.q).enumerate() {
-        let tip = scene.robot.fk(q).rigid(&scene.tip);
-        let contact = plate.pose.rotation * path.curve.at(theta).position.push(0.0) + plate.centre();
-        assert!((tip.translation - contact).norm() < 1e-9, "point {k}");
-        let tool = tip.rotation.column(2);
-        let lean = tool.cross(&plate.axis()).norm().atan2(-tool.dot(&plate.axis()));
-        let stated = stance.lean_rad(washing.tilt_rad[k]);
-        assert!(
-            (lean - stated).abs() < 1e-9,
-            "tilt at {k}: {lean} {}",
-            washing.tilt_rad[k]
-        );
-        assert!(lean <= path.cone_rad + 1e-9);
-        assert!(limits.contain(q), "point {k}");
-        for pair in world.clearance.all(q) {
-            let sponge_on_plate = pair.a == "sponge" && pair.b.starts_with("plate");
-            let kept = pair.distance_m >= CLEARANCE_M;
-            assert!(sponge_on_plate || kept, "point {k}: {pair:?}");
-        }
-    }
-    check_between(scene, &path.curve, plate, washing);
-}
-
-/// The clamped spline through the answer stays near the wash path and keeps the answer's slopes.
-fn check_between(scene: &Scene<'_>, curve: &WashCurve, plate: &Plate, washing: &Washing) {
-    let x = &washing.theta;
-    let curvatures: Vec<Vec<f64>> = (0..6)
-        .map(|joint| {
-            let y: Vec<_> = washing.q.iter().map(|q| q[joint]).collect();
-            spline_curvatures(x, &y, washing.end_slopes.map(|slope| slope[joint]))
-        })
-        .collect();
-    let mut worst: f64 = 0.0;
-    for k in 0..x.len() - 1 {
-        let h = x[k + 1] - x[k];
-        for share in [0.2, 0.5, 0.8] {
-            let (a, b) = (1.0 - share, share);
-            let q = JointVector::from_fn(|joint, _| {
-                let m = &curvatures[joint];
-                a * washing.q[k][joint]
-                    + b * washing.q[k + 1][joint]
-                    + ((a * a * a - a) * m[k] + (b * b * b - b) * m[k + 1]) * h * h / 6.0
-            });
-            let tip = scene.robot.pose(&q, &scene.tip).translation.vector;
-            // Distance from the curve: to the point at this θ, less what is along the curve.
-            let point = curve.at(x[k] + share * h);
-            let off = plate.local(&tip) - point.position.push(0.0);
-            let along = point.first.push(0.0).normalize();
-            worst = worst.max((off - along * along.dot(&off)).norm());
-        }
-    }
-    assert!(worst < 2e-5, "the spline leaves the wash path by {worst} m");
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
-
-    /// With the tool and the margin of the facts every plate of the paper can be washed, at no more than 15 rad of joint travel. Nearer than
-    /// 0.27 m the base is within the clearance and the planner's reserve of 0.5 mm at some points.
-    #[test]
-    fn a_plate_of_the_paper_is_washed(rho in 0.27..0.495f64, azimuth in -110.0..110.0f64, start in -3.0..3.0f64) {
-        let plates = [plate_at(rho, azimuth)];
-        let path = path(WashCurve { start_angle_rad: start, ..curve(RADIUS_M) }, 15.0);
-        within(&kitchen_tool(), &plates, |world| {
-            let washing = world.washing(&path).unwrap();
-            check(world, &path, &washing);
-            assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
-            assert!(washing.q.iter().all(|q| q[3].abs() < 1e-9 && q[5].abs() < 1e-9), "joints 4 and 6 rest");
-        });
-    }
-
-    /// Whatever the plates and the tool: an answer keeps its promises, an error names a place where the exhaustive search
-    /// finds nothing either, or nothing within the arm's plane.
-    #[test]
-    fn an_answer_keeps_its_promises_and_a_failure_has_a_reason(
-        places in prop::collection::vec((0.2..0.55f64, -170.0..170.0f64), 1..4),
-        tilt in prop::sample::select(vec![0.0, 5.0, 15.0, 30.0]),
-        length_m in 0.06..0.2f64,
-        radius in 0.05..0.145f64,
-    ) {
-        let plates: Vec<_> = places.iter().map(|&(rho, azimuth)| plate_at(rho, azimuth)).collect();
-        let (tool, path) = (straight(length_m, 0.02), path(curve(radius), tilt));
-        within(&tool, &plates, |world| match world.washing(&path) {
-            Ok(washing) => check(world, &path, &washing),
-            Err(RedundancyError::NoTilt { dead, tried, ends, .. }) => {
-                assert!(0 < dead && dead <= tried && !ends.is_empty() && ends.len() <= MOST_DEAD_ENDS);
-                for end in &ends {
-                    assert!(!end.reasons.is_empty(), "{end:?}");
-                }
-            }
-            Err(RedundancyError::Disconnected { end, .. } | RedundancyError::Between { end, .. }) => {
-                assert!(!end.reasons.is_empty(), "{end:?}");
-            }
-            Err(other) => panic!("{other}"),
-        });
-    }
 
     /// The last turn alone gives the same answer as the whole search, on every branch.
     #[test]
@@ -263,29 +63,6 @@ proptest! {
             let rates = washing.tilt_rad.windows(2).zip(task.samples.length_m.windows(2));
             for (tilts, lengths) in rates {
                 assert!((tilts[1] - tilts[0]).abs() <= 1.05 * stance::FASTEST_RAD_M * (lengths[1] - lengths[0]) + 1e-12);
-            }
-        });
-    }
-
-    /// The quick answer of the clearance model equals that of all its distances, except where a distance is within the error of
-    /// the quick routine of the required one.
-    #[test]
-    fn fast_and_slow_clearance_agree(q in prop::array::uniform6(-1.9..1.9f64), required in 0.0..0.05f64) {
-        let plates = [plate_at(0.3, 10.0), plate_at(0.4, 60.0)];
-        within(&kitchen_tool(), &plates, |world| {
-            let q = JointVector::from(q);
-            let near = |pair: &PairClearance| !(pair.distance_m > 0.0 && pair.distance_m >= required);
-            let mut all = world.clearance.all(&q);
-            if all.iter().any(|pair| (pair.distance_m - required).abs() <= QUICK_ERROR_M) {
-                return;
-            }
-            assert_eq!(world.clearance.keeps_clearance(&q, required), !all.iter().any(near));
-            all.retain(|pair| !(pair.a == "sponge" && pair.b.starts_with("plate")) && near(pair));
-            assert_eq!(world.clearance.levels_kept(&q, Some(0), &[required]) == 1, all.is_empty());
-            let least = all.iter().map(|pair| pair.distance_m).fold(f64::INFINITY, f64::min);
-            match world.clearance.nearest_washing(&q, 0, required) {
-                Some(pair) => assert_eq!(pair.distance_m, least),
-                None => assert!(all.is_empty()),
             }
         });
     }
@@ -330,28 +107,6 @@ proptest! {
             assert!((slope - difference).amax() < 1e-7, "{slope} {difference}");
         });
     }
-}
-
-/// A few points of the last turn decide for any length of the wash path and any number of tilts, and the search does not begin.
-#[test]
-fn a_long_path_out_of_reach_is_refused_before_it_is_searched() {
-    let plates = [plate_at(0.62, 20.0)];
-    let curve = WashCurve {
-        turns: 100.0,
-        ..curve(RADIUS_M)
-    };
-    within(&kitchen_tool(), &plates, |world| {
-        let failed = world.washing(&path(curve, 60.0));
-        let Err(RedundancyError::NoTilt { dead, tried, ends, .. }) = &failed else {
-            panic!("{failed:?}");
-        };
-        assert!(0 < *dead && *dead < *tried && *tried < 100, "{dead} of {tried}");
-        let turn = curve.end() - std::f64::consts::TAU;
-        assert!(
-            ends.iter().all(|end| end.theta > turn - 0.1 && !end.reasons.is_empty()),
-            "{ends:?}"
-        );
-    });
 }
 
 /// Plates too near, too far or behind are refused with their obstruction, and where no other branch of the arm would do the
@@ -465,54 +220,6 @@ fn a_better_position_is_near_and_washable() {
     }
 }
 
-/// A place that the caller refuses is no answer: the next one is, further out, and none is where all are refused.
-#[test]
-fn suggests_only_positions_that_the_caller_accepts() {
-    let (path, plates) = (path(curve(RADIUS_M), 15.0), [plate_at(0.56, -40.0)]);
-    within(&kitchen_tool(), &plates, |world| {
-        let search = elsewhere(world, &path);
-        let mut asked = Vec::new();
-        let third = |place: &Vector2<f64>| {
-            asked.push(*place);
-            asked.len() == 3
-        };
-        let found = nearest_washable(&search, &mut { third }, &|_| ()).unwrap().unwrap();
-        assert_eq!((asked.len(), asked[2]), (3, found));
-        let mut count = 0;
-        let none = |_: &Vector2<f64>| {
-            count += 1;
-            false
-        };
-        assert_eq!(nearest_washable(&search, &mut { none }, &|_| ()).unwrap(), None);
-        assert!(0 < count && count <= MOST_CHECKS, "{count}");
-    });
-}
-
-fn elsewhere<'a>(world: &'a World<'a>, path: &'a WashPath) -> MovedPlate<'a> {
-    MovedPlate {
-        scene: &world.scene,
-        clearance: world.clearance,
-        path,
-        clearance_m: CLEARANCE_M,
-        near: &HOME,
-    }
-}
-
-/// Wherever its face looks: the tool stands on the plate's own normal, in the cone that the path states.
-#[test]
-fn a_plate_that_does_not_lie_level_is_washed_too() {
-    for (roll, pitch) in [(0.1, 0.0), (-0.05, 0.08), (0.0, -0.1)] {
-        let mut plate = plate_at(0.38, 25.0);
-        plate.pose.rotation = UnitQuaternion::from_euler_angles(roll, pitch, 0.7);
-        plate.pose.translation.z = 0.1;
-        within(&kitchen_tool(), &[plate], |world| {
-            let path = path(curve(0.1), 15.0);
-            let washing = world.washing(&path).unwrap();
-            check(world, &path, &washing);
-        });
-    }
-}
-
 /// Every search ends at once when it is cancelled, whether it would succeed or not.
 #[test]
 fn a_cancelled_search_returns_cancelled() {
@@ -539,4 +246,23 @@ fn a_cancelled_search_returns_cancelled() {
             );
         });
     }
+}
+
+/// An arm without a spherical wrist has no named branches: the branch is the one that the path follows.
+#[test]
+fn an_arm_without_a_closed_form_washes_too() {
+    let offset = r#"<origin xyz="0.072 0 0"/>"#;
+    assert!(IRB120_URDF.contains(offset));
+    let text = IRB120_URDF.replace(offset, r#"<origin xyz="0.072 0 0.012"/>"#);
+    let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    let robot = robot
+        .with_disabled_pairs(RobotModel::irb120().unwrap().disabled_pairs().unwrap().clone())
+        .unwrap();
+    with_arm(&robot, &kitchen_tool(), &[plate_at(0.36, 30.0)], |world| {
+        assert!(matches!(*world.scene.inverse, Inverse::Numeric(_)));
+        let path = path(curve(0.1), 15.0);
+        let washing = world.washing(&path).unwrap();
+        check(world, &path, &washing);
+        assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
+    });
 }

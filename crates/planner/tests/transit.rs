@@ -1,14 +1,19 @@
 //! Transits among made-up obstacles: each kind is needed once, and is really free.
 
-use crate::scene::{Contact, Scene, Stretch, Surroundings, TiltPolicy};
-use crate::timing::MotionLimits;
-use crate::transit::*;
 use nalgebra::Vector3;
+use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_planner::scene::{Contact, Scene, Stretch, Surroundings, TiltPolicy};
+use platewash_planner::timing::MotionLimits;
+use platewash_planner::transit::{
+    BaseArc, ClearanceShortfall, LiftLine, Transit, TransitError, TransitKind, TransitRules, plan,
+};
 use platewash_workcell::arc::Arc;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::PairClearance;
+use platewash_workcell::clearance::{ClearanceModel, PairClearance};
+use platewash_workcell::fixtures::{kitchen_tool, workcell};
 use platewash_workcell::job::ReachBorders;
+use platewash_workcell::plate::Plate;
 use platewash_workcell::random;
 use platewash_workcell::tool::{StraightTool, Tool};
 use std::fmt;
@@ -68,7 +73,13 @@ fn line(set: &Set, plate: usize, azimuth: f64) -> LiftLine {
         let heights: Vec<f64> = (0..=15).map(|k| 2e-3 * f64::from(k)).collect();
         let poses: Vec<_> = heights.iter().map(|h| scene.tip_pose(&foot.raised(*h), 0.0)).collect();
         let seed = JointVector::new(azimuth, 0.3, 0.2, 0.0, 1.0, 0.0);
-        LiftLine::line(plate, heights, scene.solver.solve_path(&poses, &seed).unwrap().q).unwrap()
+        let settings = IkSettings {
+            position_tolerance_m: 1e-9,
+            orientation_tolerance_rad: 1e-9,
+            ..IkSettings::default()
+        };
+        let solver = IkSolver::new(scene.robot, scene.tip, settings).unwrap();
+        LiftLine::line(plate, heights, solver.solve_path(&poses, &seed).unwrap().q).unwrap()
     })
 }
 
@@ -187,4 +198,29 @@ fn a_cancelled_search_returns_no_transit() {
         let given_up = plan(&rules, &ends[0], &ends[1], &mut random::stream(1, "crossing"));
         assert!(matches!(given_up, Err(TransitError::Cancelled(_))), "{given_up:?}");
     });
+}
+
+/// A plate whose surface is `gap` below the free sponge, under the tool that points straight down.
+#[test]
+fn names_the_pair_its_distance_and_the_required_clearance() {
+    let robot = RobotModel::irb120().unwrap();
+    let tool = kitchen_tool();
+    let q = JointVector::new(0.0, 0.0, 0.0, 0.0, 90.0_f64.to_radians(), 0.0);
+    let tip = robot.fk(&q).rigid(&tool.tip_frame(&robot)).translation;
+    let free_m = tool.sponge.compression_m;
+    let workcell = workcell(&robot, tool);
+    for (gap, near) in [(0.0105, true), (0.0112, false)] {
+        let plate = Plate::level_disc([tip.x, tip.y, tip.z - free_m - gap], 0.1, 0.02);
+        let clearance = ClearanceModel::new(&robot, &workcell, &[plate]).unwrap();
+        let found = ClearanceShortfall::at(&clearance, &q, Stretch::Free, 0.01);
+        assert_eq!(found.is_some(), near);
+        let at_plate = ClearanceShortfall::at(&clearance, &q, Stretch::AtPlate(0), 0.01);
+        assert_eq!(at_plate, None, "the sponge may be near a plate");
+        if let Some(found) = found {
+            let message = found.to_string();
+            for part in ["sponge", "plate 1", "10.50 mm", "11.00 mm", "1.00 mm in reserve"] {
+                assert!(message.contains(part), "{message}");
+            }
+        }
+    }
 }

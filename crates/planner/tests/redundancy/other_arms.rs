@@ -1,11 +1,20 @@
 //! Arms of other makers: branches in closed form or searched for, and the conclusion where none is found.
 
-use crate::redundancy::tests::*;
+use super::world::{World, check, curve, path, with_arm};
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::{JointVector, RobotModel};
+use platewash_planner::redundancy::washability::{Washability, washable};
+use platewash_planner::redundancy::{Conclusion, washing};
+use platewash_planner::scene::TILT_RESERVE_RAD;
+use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::fixtures::{kitchen_tool, workcell};
+use platewash_workcell::plate::Plate;
+use platewash_workcell::wash_path::WashCurve;
 
 /// Axes 2, 3 and 4 are parallel.
-const UR5: &str = include_str!("../../../../kinematics/tests/fixtures/ur5_lengths.urdf");
-const KR5: &str = include_str!("../../../../kinematics/tests/fixtures/kr5_lengths.urdf");
+const UR5: &str = include_str!("../../../kinematics/tests/fixtures/ur5_lengths.urdf");
+const KR5: &str = include_str!("../../../kinematics/tests/fixtures/kr5_lengths.urdf");
 
 /// The UR5 with axis 6 beside axis 5, so that there is no closed form.
 fn searched() -> String {
@@ -66,6 +75,7 @@ fn says_unwashable_only_with_a_proof() {
                     );
                     Some(conclusion)
                 }
+                other => panic!("{other:?}"),
             }
         })
     };
@@ -105,7 +115,7 @@ fn the_search_leaves_room_under_the_largest_tilt() {
         check(world, &path, &found);
         let most = found.tilt_rad.iter().fold(0.0, |most: f64, tilt| most.max(tilt.abs()));
         assert!(most > 0.99 * path.cone_rad, "{most}: the limit does not bind here");
-        assert!(most <= path.cone_rad - 0.9 * crate::scene::TILT_RESERVE_RAD, "{most}");
+        assert!(most <= path.cone_rad - 0.9 * TILT_RESERVE_RAD, "{most}");
     });
 }
 

@@ -1,18 +1,14 @@
 //! The whole of the timing: limits, optimality, structure, and bad input.
 
-use crate::joint_path::Ends;
-use crate::timing::*;
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use platewash_kinematics::ik::{IkSettings, IkSolver};
-use platewash_kinematics::{AXES, JointVector};
+use crate::timing_fixture::wash;
+use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
+use platewash_planner::joint_path::{Ends, JointPath};
+use platewash_planner::timing::{Limit, MotionLimits, PATH_ERROR_RAD, TimedPath, TimingError, TipLimits, time_optimal};
 use platewash_workcell::fixtures::{is_thorough, kitchen_tool};
-use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::WashCurve;
 use proptest::prelude::*;
-use std::f64::consts::PI;
 
 /// The IRB 120 and the tip of a tool 150 mm long.
-pub(crate) fn arm() -> (RobotModel, Frame) {
+fn arm() -> (RobotModel, Frame) {
     let robot = RobotModel::irb120().unwrap();
     let tip = kitchen_tool().tip_frame(&robot);
     (robot, tip)
@@ -30,30 +26,6 @@ const WASH: TipLimits = TipLimits {
     speed_m_s: 0.25,
     acceleration_m_s2: 4.0,
 };
-
-/// The spiral and ring of a kitchen's plate, tool straight down.
-fn wash(robot: &RobotModel, tip: &Frame) -> JointPath {
-    let curve = WashCurve {
-        radius_m: 0.124,
-        turns: 3.5,
-        start_angle_rad: 0.3,
-        closing_ring: true,
-        trim_rad: 0.0,
-        rings: None,
-    };
-    let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
-    let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);
-    let u = curve.parameters(&Surface::Disc { radius_m: 0.145 }, 5e-5);
-    let mut seed = JointVector::new(0.0, 0.5, 0.3, 0.0, 0.7, 0.0);
-    let q = u.iter().map(|&theta| {
-        let p = curve.at(theta).position;
-        let target = Isometry3::from_parts(Translation3::new(0.36 + p.x, p.y, 0.03), down);
-        seed = solver.solve(&target, &seed).unwrap().q;
-        seed
-    });
-    let q = q.collect();
-    JointPath::through(u, q, Ends::NotAKnot).unwrap()
-}
 
 /// Largest demands over limits by looking densely, with differences of the tip's positions: nothing of this module.
 fn dense(timed: &TimedPath, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) -> [f64; 4] {
@@ -140,7 +112,7 @@ fn one_joint_takes_the_time_of_the_closed_forms() {
 #[test]
 fn the_wash_of_a_plate_keeps_its_limits_and_uses_them() {
     let (robot, tip) = arm();
-    let path = wash(&robot, &tip);
+    let path = wash(&robot, &tip, 5e-5);
     for limits in [limits(None), limits(Some(WASH))] {
         let timed = time_optimal(&path, &robot, &tip, &limits).unwrap();
         assert_sound(&timed, &path);
@@ -161,7 +133,6 @@ fn the_wash_of_a_plate_keeps_its_limits_and_uses_them() {
 /// Share of the time in which some limit is used to within a per cent: all of it in a time-optimal motion.
 fn busy(timed: &TimedPath, robot: &RobotModel, tip: &Frame, limits: &MotionLimits) -> f64 {
     let motion = &timed.motion;
-    let model = TipModel::new(robot, tip);
     let mut busy = 0.0;
     for segment in motion.extremes() {
         let [from, to] = segment.span_s;
@@ -170,9 +141,15 @@ fn busy(timed: &TimedPath, robot: &RobotModel, tip: &Frame, limits: &MotionLimit
         if let Some(tip_limits) = &limits.tip {
             for share in [1e-9, 0.5, 1.0 - 1e-9] {
                 let state = motion.at(from + (to - from) * share).unwrap();
-                let rates = model.rates(&state.q, &state.qd);
-                most = most.max(rates.velocity(&state.qd).norm() / tip_limits.speed_m_s);
-                most = most.max(rates.acceleration(&state.qdd).norm() / tip_limits.acceleration_m_s2);
+                // Differences of the tip's positions where the joints go on at the same acceleration, also beyond the segment.
+                let h = 1e-4;
+                let at = |t: f64| {
+                    let q = state.q + state.qd * t + state.qdd * (0.5 * t * t);
+                    robot.pose(&q, tip).translation.vector
+                };
+                let [before, here, after] = [at(-h), at(0.0), at(h)];
+                most = most.max((after - before).norm() / (2.0 * h) / tip_limits.speed_m_s);
+                most = most.max((after + before - here * 2.0).norm() / (h * h) / tip_limits.acceleration_m_s2);
             }
         }
         if most > 0.99 {

@@ -1,8 +1,11 @@
-//! Input that makes no sense, and arms of other kinds.
+//! Input that makes no sense or is extreme, and plates that lie near each other.
 
-use crate::redundancy::tests::*;
-use platewash_kinematics::irb120::IRB120_URDF;
-use platewash_kinematics::urdf::MeshSource;
+use super::world::{HOME, RADIUS_M, check, curve, path, plate_at, within};
+use platewash_kinematics::JointVector;
+use platewash_planner::redundancy::{RedundancyError, Task};
+use platewash_workcell::fixtures::kitchen_tool;
+use platewash_workcell::plate::Plate;
+use platewash_workcell::wash_path::{WashCurve, WashPath};
 
 #[test]
 fn numbers_that_make_no_sense_are_refused_by_name() {
@@ -88,23 +91,4 @@ fn ignores_the_distance_of_other_plates() {
             assert_eq!(washing.q, alone.q, "{gap}");
         });
     }
-}
-
-/// An arm without a spherical wrist has no named branches: the branch is the one that the path follows.
-#[test]
-fn an_arm_without_a_closed_form_washes_too() {
-    let offset = r#"<origin xyz="0.072 0 0"/>"#;
-    assert!(IRB120_URDF.contains(offset));
-    let text = IRB120_URDF.replace(offset, r#"<origin xyz="0.072 0 0.012"/>"#);
-    let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
-    let robot = robot
-        .with_disabled_pairs(RobotModel::irb120().unwrap().disabled_pairs().unwrap().clone())
-        .unwrap();
-    with_arm(&robot, &kitchen_tool(), &[plate_at(0.36, 30.0)], |world| {
-        assert!(matches!(*world.scene.inverse, Inverse::Numeric(_)));
-        let path = path(curve(0.1), 15.0);
-        let washing = world.washing(&path).unwrap();
-        check(world, &path, &washing);
-        assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
-    });
 }

@@ -1,0 +1,67 @@
+//! Homes over the plates, clear of everything, from which jobs are planned.
+
+use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::{JointVector, Pose};
+use platewash_planner::suggest::{SuggestedHome, suggest_home};
+use platewash_planner::{PlanError, plan};
+use platewash_workcell::cancel::CancelToken;
+use platewash_workcell::fixtures::{kitchen, kitchen_plate};
+use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use std::f64::consts::FRAC_PI_6;
+
+fn home(terms: &JobTerms) -> Result<SuggestedHome, PlanError> {
+    suggest_home(kitchen().arm(), terms, &CancelToken::new())
+}
+
+/// The home of a job is of no account, and the one found is one for the job: it can be planned from there.
+#[test]
+fn the_home_is_clear_points_down_and_is_the_same_again() {
+    let job = kitchen();
+    let mut terms = job.terms().clone();
+    let found = home(&terms).unwrap();
+    terms.home_rad = [JointVector::zeros(); 2];
+    assert_eq!(home(&terms).unwrap(), found);
+    // The handle is never farther than 24 mm from the forearm's shape.
+    let nearest = found.nearest.as_ref().unwrap();
+    assert!(
+        [&*nearest.a, &*nearest.b] == ["link_4", "handle"] && nearest.distance_m > 0.019,
+        "{found:?}"
+    );
+    assert!(found.tilt_rad < 0.05 && found.margin_rad > 0.25, "{found:?}");
+    terms.home_rad = [found.q_rad(); 2];
+    plan(&WashJob::new(job.shared_arm(), terms).unwrap()).unwrap();
+}
+
+/// Plates behind the arm turn it round.
+#[test]
+fn the_home_is_over_the_plates() {
+    let mut terms = kitchen().terms().clone();
+    for [x, y] in [[0.3, 0.0], [-0.05, 0.35], [-0.05, -0.35]] {
+        terms.plates = vec![kitchen_plate([x, y])];
+        let q = home(&terms).unwrap().q_rad();
+        let job = kitchen();
+        let tip = job
+            .arm()
+            .fk(&q)
+            .rigid(&terms.workcell.tool.tip_frame(job.arm()))
+            .translation;
+        let between = (tip.y * x - tip.x * y).atan2(tip.x * x + tip.y * y);
+        assert!(between.abs() < FRAC_PI_6 + 0.1, "{x} {y}: {tip}");
+    }
+}
+
+/// A box around all that the arm can reach.
+#[test]
+fn returns_no_home_where_nothing_is_clear() {
+    let mut terms = kitchen().terms().clone();
+    let block = ObstacleShape::Convex(Shape::Box { half_m: [2.0; 3] });
+    terms
+        .workcell
+        .obstacles
+        .push(Obstacle::new("block", block, Pose::identity()));
+    let refused = home(&terms).unwrap_err();
+    assert!(matches!(refused, PlanError::NoHome { .. }));
+    let said = refused.to_string();
+    assert!(said.contains(" and block, in 4000 of them"), "{said}");
+}

@@ -1,0 +1,5 @@
+//! Suggestions for an arm without a layout, held against planning.
+
+mod home;
+mod region;
+mod sector;
