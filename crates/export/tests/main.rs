@@ -5,10 +5,14 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 mod csv;
+mod dialect;
+mod judgement;
+mod rapid_accepts;
 mod rapid_read;
 mod rapid_round_trip;
 mod ros2;
 mod ros2_refused;
+mod trajectory;
 mod urscript;
 mod whole_plan;
 

@@ -391,6 +391,3 @@ fn check_fixed_names(arm: &RobotModel, fixed: &FixedJoints, of_file: impl Fn(&st
         None => Ok(()),
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,6 +1,7 @@
 //! Trajectories of files: what is read, and what is refused with its line.
 
-use super::*;
+use platewash_export::trajectory::{Interpolation, JointPoints, PointMotion, PointsError, TrajectoryFile};
+use platewash_kinematics::{JointVector, RobotModel};
 
 fn arm() -> RobotModel {
     RobotModel::irb120().unwrap()
