@@ -10,8 +10,10 @@ mod dynamics_laws;
 mod dynamics_refused;
 mod feasibility;
 mod foam;
+mod foam_law;
 mod plant;
 mod pressing;
+mod stability;
 mod washing;
 
 #[path = "../../../tests/support/dynamics.rs"]
