@@ -66,31 +66,3 @@ impl PaperSettings {
         Err(WorkError::PlateChecks { plates, waypoints })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn of_points(points: usize) -> PaperSettings {
-        let mut settings = PaperSettings::text();
-        settings.spiral.points = points;
-        settings
-    }
-
-    #[test]
-    fn refuses_too_much_work_before_it_begins() {
-        assert_eq!(of_points(55).waypoints_at_most(4), 4 * (55 + 50));
-        assert_eq!(of_points(49_950).check_waypoints(4), Ok(()));
-        let message = of_points(49_951).check_waypoints(4).unwrap_err().to_string();
-        assert!(
-            message.contains("4 plates") && message.contains("200004 waypoints"),
-            "{message}"
-        );
-        assert_eq!(of_points(55).check_work(218), Ok(()));
-        let message = of_points(55).check_work(1000).unwrap_err().to_string();
-        assert!(
-            message.contains("1000 plates") && message.contains("5000000"),
-            "{message}"
-        );
-    }
-}

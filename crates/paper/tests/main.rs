@@ -4,6 +4,10 @@
 #![allow(clippy::disallowed_methods)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
+mod cubic;
 mod knots;
+mod order;
 mod paper_facts;
+mod settings;
+mod spiral;
 mod verdict;
