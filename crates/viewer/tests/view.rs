@@ -1,5 +1,4 @@
 //! Documents of real plans against what proves, simulates and plans them.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
