@@ -8,3 +8,4 @@ mod kept;
 mod kill;
 mod rows;
 mod self_contained;
+mod summary;
