@@ -8,6 +8,7 @@
 const SOON: std::time::Duration = std::time::Duration::from_secs(60);
 
 mod failures;
+mod joint_path;
 mod knots;
 mod live_cell;
 mod redundancy;
