@@ -1,5 +1,6 @@
 //! Dry runs: the same paths in the air, proved, never a washing, and refused wherever they are not what they say.
 
+use crate::shipped;
 use platewash::certificate::{Status, Verdict, differences};
 use platewash::planner::{PlannedJob, Watch, plan_in_order};
 use platewash::simulator::simulate::PlateVerdict;
@@ -13,7 +14,7 @@ use platewash::{
 use std::sync::LazyLock;
 
 /// The kitchen's job and its plan.
-static PARENT: LazyLock<(WashJob, Plan)> = LazyLock::new(|| parent(1));
+static PARENT: LazyLock<&(WashJob, Plan)> = LazyLock::new(|| shipped::planned("kitchen"));
 
 fn parent(seed: u64) -> (WashJob, Plan) {
     let mut scenario = Scenario::load("kitchen").unwrap();
@@ -53,8 +54,8 @@ fn judged(plan: &Plan) -> Certificate {
 /// Plates that lean are raised along their own axes, so that the next one lies in another direction: the paths are the parent's all the same.
 #[test]
 fn wash_paths_on_tilted_plates_equal_the_parents() {
-    let rack = planned(&Scenario::load("rack").unwrap());
-    let raised = dry_run_of(&rack, 0.024, 0.1).plan;
+    let rack = shipped::planned("rack");
+    let raised = dry_run_of(rack, 0.024, 0.1).plan;
     assert_eq!(raised.wash_paths, rack.1.wash_paths);
     assert_eq!(prove(&raised, rack.0.arm()).unwrap().verdict, Verdict::Pass);
 }

@@ -25,6 +25,7 @@ mod random_jobs;
 mod random_scenarios;
 mod reachable_points;
 mod recovery;
+mod shipped;
 mod simulation;
 mod spiral_knots;
 mod stays;

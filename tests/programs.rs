@@ -6,13 +6,13 @@
 //!
 //! More seeds, and excursions at every tenth row of every program: cargo test --release --test main programs::many -- --ignored
 
+use crate::shipped::{certified, planned};
 use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
 use platewash::export::dialect::{DIALECTS, Dialect, Points};
 use platewash::export::judgement::{JOINT_SPEED_SHARE, motions};
 use platewash::export::reading::{Reading, SegmentShape};
 use platewash::export::{ExportSettings, ExportedProgram, compare, export};
 use platewash::kinematics::sha256_hex;
-use platewash::scenario::{Program, SHIPPED};
 use platewash::workcell::plan::Plan;
 use platewash::{CancelToken, Certified, JointVector, RobotModel, Scenario, certify, plan};
 use rayon::prelude::*;
@@ -29,22 +29,15 @@ fn golden() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden/programs.json")
 }
 
-fn certified(name: &str, seed: u64) -> (Certified<Plan>, RobotModel) {
-    certified_of(&Scenario {
-        seed,
-        ..Scenario::load(name).unwrap()
-    })
+/// The plan of a shipped scenario.
+fn shipped(name: &str) -> (Certified<Plan>, RobotModel) {
+    let (job, plan) = planned(name);
+    (certify(plan.clone(), job.arm()).unwrap(), job.arm().clone())
 }
 
 fn certified_of(scenario: &Scenario) -> (Certified<Plan>, RobotModel) {
     let job = scenario.job().unwrap();
     (certify(plan(&job).unwrap().plan, job.arm()).unwrap(), job.arm().clone())
-}
-
-/// The scenarios that are certified.
-fn scenarios() -> impl Iterator<Item = &'static str> {
-    let is_certified = |name: &&str| Scenario::load(name).unwrap().job.program == Program::Certified;
-    SHIPPED.iter().map(|scenario| scenario.name).filter(is_certified)
 }
 
 /// The dialects that take an arm with its job.
@@ -123,9 +116,9 @@ fn points_are_the_plans(plan: &Plan, dialect: &dyn Dialect, exported: &ExportedP
 
 /// Checks the programs of all shipped scenarios, each with its own seed.
 fn hashes() -> Hashes {
-    let names: Vec<_> = scenarios().collect();
+    let names: Vec<_> = certified().collect();
     let of = |name: &&str| {
-        let (plan, arm) = certified_of(&Scenario::load(name).unwrap());
+        let (plan, arm) = shipped(name);
         let of_dialect = |dialect: &dyn Dialect| {
             let exported = checked(&plan, &arm, dialect);
             if COMPARED.contains(name) {
@@ -159,7 +152,10 @@ fn programs_of_the_shipped_scenarios_hold_and_have_the_committed_bytes() {
 #[ignore = "takes minutes"]
 fn programs_of_many_kitchens_hold() {
     (1..=200_u64).into_par_iter().for_each(|seed| {
-        let (plan, arm) = certified("kitchen", seed);
+        let (plan, arm) = certified_of(&Scenario {
+            seed,
+            ..Scenario::load("kitchen").unwrap()
+        });
         for dialect in dialects(&plan, &arm) {
             is_found_unchanged(&plan, &arm, &checked(&plan, &arm, dialect));
         }
@@ -257,7 +253,7 @@ fn excursion(reading: &Reading, row: usize) -> (Reading, [f64; 2]) {
 /// No bound of the clearance is above what is sampled densely, whatever the joints do about every `every`-th row of a plan's programs.
 /// Answers how many motions were judged.
 fn attacked(name: &str, every: usize) -> usize {
-    let (plan, arm) = certified(name, 1);
+    let (plan, arm) = shipped(name);
     let job = &plan.plan().job;
     let tip = job.workcell.tool.tip_frame(&arm);
     let (rule, cancel) = (ClearanceRule::new(plan.plan(), &arm).unwrap(), CancelToken::new());
@@ -322,7 +318,7 @@ fn no_bound_is_above_a_sample_of_an_excursion() {
 #[test]
 #[ignore = "takes an hour"]
 fn many_bounds_are_not_above_a_sample() {
-    for name in scenarios() {
+    for name in certified() {
         println!("{name}: {} motions", attacked(name, 10));
     }
 }

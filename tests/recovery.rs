@@ -1,15 +1,16 @@
 //! Recovery from a stop: from where the arm stands home with a proof, or the true reason; then the plates that are left.
 
+use crate::shipped;
 use platewash::certificate::{Requirement, Status, certify, prove};
 use platewash::export::dialect::by_name;
 use platewash::export::{ExportSettings, export};
 use platewash::kinematics::RobotModel;
-use platewash::planner::{Recovered, RecoveryError, Stop, Watch, plan, recover};
+use platewash::planner::{Recovered, RecoveryError, Stop, Watch, recover};
 use platewash::workcell::clearance::{ClearanceModel, PairClearance};
 use platewash::workcell::job::RecoveryPart;
 use platewash::workcell::random::stream;
 use platewash::workcell::trajectory::SegmentKind;
-use platewash::{CancelToken, JointVector, Plan, Scenario};
+use platewash::{CancelToken, JointVector, Plan};
 use rand::{Rng, RngExt};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -24,8 +25,8 @@ const STEP_S: f64 = 2e-3;
 const ROUNDING_M: f64 = 1e-7;
 
 fn planned(scenario: &str) -> (Plan, Arc<RobotModel>) {
-    let job = Scenario::load(scenario).unwrap().job().unwrap();
-    (plan(&job).unwrap().plan, job.shared_arm())
+    let (job, plan) = shipped::planned(scenario);
+    (plan.clone(), job.shared_arm())
 }
 
 /// A moment of a plan, and where the arm stands then, off by up to the given share of [`OFF_DEG`].

@@ -1,16 +1,23 @@
 //! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
-use crate::{suite, web};
+use crate::{command, web};
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, Workshop, root, target};
 use std::fs;
 
-/// Runs the tests with the release build of the command, which has the page in it, and with the folder of the playground.
-pub fn tests() -> Result<()> {
+/// Runs the tests of pages with the release build of the command, which has the page in it.
+pub fn pages() -> Result<()> {
+    let (node, workshop) = workshop()?;
+    let line = ["run", "--silent", "pages"];
+    with_command(node.npm("tests in a browser", workshop.folder(), &line)).run()
+}
+
+/// Runs the tests of the playground, with its folder and the release build of the command.
+pub fn playground() -> Result<()> {
     let playground = web::folder()?;
     let (node, workshop) = workshop()?;
-    let line = ["run", "--silent", "test"];
-    let step = with_command(node.npm("tests in a browser", workshop.folder(), &line));
+    let line = ["run", "--silent", "playground"];
+    let step = with_command(node.npm("playground in a browser", workshop.folder(), &line));
     step.with("PLATEWASH_WEB", playground).run()
 }
 
@@ -59,6 +66,6 @@ fn workshop() -> Result<(Node, Workshop)> {
 
 /// Names the release build of the command and the project's folder to a step.
 pub fn with_command(step: Step) -> Step {
-    step.with("PLATEWASH_BIN", suite::program())
+    step.with("PLATEWASH_BIN", command::program())
         .with("PLATEWASH_ROOT", root())
 }

@@ -1,15 +1,13 @@
-//! The crates as packages: made, unpacked outside of the checkout, and used there as from a registry.
+//! The crates as packages: what they hold, and, before a release, whether a program can use them.
 
-use crate::python;
 use crate::wheel::{emptied, outside, text};
-use anyhow::{Context, Result};
+use crate::{python, sources};
+use anyhow::{Context, Result, bail};
 use platewash_bundler::{Step, root, target};
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
-
-/// Members of the workspace that are not published.
-const PRIVATE: [&str; 4] = ["pyplatewash", "platewash-playground", "platewash-problems", "xtask"];
 
 /// Manifest of a program that uses the command as a library does.
 const MANIFEST: &str = r#"
@@ -37,16 +35,87 @@ fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
 }
 "#;
 
+/// A crate that is published.
+#[derive(Debug, PartialEq, Eq)]
+struct Published {
+    name: String,
+    /// Relative to the root of the repository; empty for the crate there.
+    folder: PathBuf,
+}
+
+/// Fails unless the package of each published crate holds all of the crate's files that command and wheel are compiled from.
+pub fn complete() -> Result<()> {
+    let line = ["metadata", "--no-deps", "--format-version", "1"];
+    let crates = published(&Step::cargo("crates", &line).output()?)?;
+    let files = sources::compiled()?;
+    for one in &crates {
+        let line = ["package", "--list", "--allow-dirty", "--package", &one.name];
+        let list = Step::cargo("files of a package", &line).output()?;
+        if let Some(missing) = missing(one, &crates, &files, &list).first() {
+            bail!(
+                "the package of {} has no {}: add it to `include` in {}",
+                one.name,
+                missing.display(),
+                one.folder.join("Cargo.toml").display()
+            );
+        }
+    }
+    println!("    {} packages hold what is compiled from them", crates.len());
+    Ok(())
+}
+
+/// The crates of cargo's account of the workspace that are published.
+fn published(metadata: &str) -> Result<Vec<Published>> {
+    let metadata: Value = serde_json::from_str(metadata).context("cargo's account of the workspace")?;
+    let packages = metadata["packages"]
+        .as_array()
+        .context("no packages in cargo's account")?;
+    let mut crates = Vec::new();
+    // A crate with `publish = false` has an empty list of registries, others have none.
+    for package in packages.iter().filter(|package| package["publish"].is_null()) {
+        let text = |key: &str| package[key].as_str().with_context(|| format!("no {key} of a package"));
+        let manifest = PathBuf::from(text("manifest_path")?);
+        let place = manifest
+            .strip_prefix(root())
+            .context("a package outside of the checkout")?;
+        crates.push(Published {
+            name: text("name")?.to_owned(),
+            folder: place.parent().unwrap_or(Path::new("")).to_owned(),
+        });
+    }
+    Ok(crates)
+}
+
+/// Files of a crate, relative to its folder, that are compiled and are not in the list of its package.
+fn missing(one: &Published, crates: &[Published], files: &[PathBuf], list: &str) -> Vec<PathBuf> {
+    let listed: Vec<PathBuf> = list.lines().map(PathBuf::from).collect();
+    // A file belongs to the crate whose folder is the nearest around it.
+    let is_ours = |file: &&PathBuf| {
+        let around = crates.iter().filter(|other| file.starts_with(&other.folder));
+        let nearest = around.max_by_key(|other| other.folder.components().count());
+        nearest.is_some_and(|nearest| nearest == one)
+    };
+    let ours = files
+        .iter()
+        .filter(is_ours)
+        .filter_map(|file| file.strip_prefix(&one.folder).ok());
+    ours.filter(|file| !listed.iter().any(|listed| listed == file))
+        .map(Path::to_owned)
+        .collect()
+}
+
 /// Makes the packages, and checks a program that uses them in a folder without the workspace, and the library without what the command
-/// needs.
-pub fn tested() -> Result<()> {
-    let excluded = PRIVATE.iter().flat_map(|name| ["--exclude", name]);
-    let line = ["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"];
-    let line: Vec<&str> = line.into_iter().chain(excluded).collect();
+/// needs. Then checks the extension in the unpacked source package.
+pub fn used() -> Result<()> {
     let packages = target().join("package");
     for old in files_in(&packages)?.iter().filter(|name| name.ends_with(".crate")) {
         fs::remove_file(packages.join(old))?;
     }
+    let line = ["metadata", "--no-deps", "--format-version", "1"];
+    let crates = published(&Step::cargo("crates", &line).output()?)?;
+    let named = crates.iter().flat_map(|one| ["--package", &one.name]);
+    let line = ["package", "--no-verify", "--allow-dirty", "--quiet"];
+    let line: Vec<&str> = line.into_iter().chain(named).collect();
     Step::cargo("packages", &line).run()?;
     let (python, outside) = (python::environment()?, emptied(outside("packages"))?);
     let mut manifest = MANIFEST.to_owned();
@@ -104,4 +173,34 @@ fn files_in(folder: &Path) -> Result<Vec<String>> {
     }
     names.sort();
     Ok(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_a_package_lacks_is_found() {
+        let one = |name: &str, folder: &str| Published {
+            name: name.to_owned(),
+            folder: folder.into(),
+        };
+        let crates = [one("whole", ""), one("part", "crates/part")];
+        let files = ["src/lib.rs", "crates/part/src/lib.rs", "crates/part/data.toml"].map(PathBuf::from);
+        assert!(missing(&crates[0], &crates, &files, "Cargo.toml\nsrc/lib.rs\n").is_empty());
+        let found = missing(&crates[1], &crates, &files, "Cargo.toml\nsrc/lib.rs\n");
+        assert_eq!(found, [PathBuf::from("data.toml")]);
+    }
+
+    #[test]
+    fn crates_that_are_not_published_are_left_out() {
+        let manifest = |folder: &str| root().join(folder).join("Cargo.toml").display().to_string();
+        let metadata = serde_json::json!({ "packages": [
+            { "name": "whole", "manifest_path": manifest(""), "publish": null },
+            { "name": "private", "manifest_path": manifest("private"), "publish": [] },
+        ]});
+        let found = published(&metadata.to_string()).unwrap();
+        assert_eq!(found.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(), ["whole"]);
+        assert_eq!(found[0].folder, Path::new(""));
+    }
 }

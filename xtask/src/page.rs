@@ -13,14 +13,26 @@ pub fn make() -> Result<()> {
     Ok(())
 }
 
-/// Checks the types of the page's sources and runs their tests, which need no browser.
-pub fn tested() -> Result<()> {
+/// Checks the types of the page's sources.
+pub fn types() -> Result<()> {
     let _alone = alone()?;
+    let (node, workshop) = everything()?;
+    node.npm("types of the page", workshop.folder(), &["run", "check"])
+        .run()
+}
+
+/// Node, and the page's sources with all their packages.
+fn everything() -> Result<(Node, Workshop)> {
     let node = Node::found(Packages::All)?;
     let workshop = workshop()?;
     workshop.fetch(&node, Packages::All)?;
-    node.npm("types of the page", workshop.folder(), &["run", "check"])
-        .run()?;
+    Ok((node, workshop))
+}
+
+/// Runs the tests of the page's sources, which need no browser.
+pub fn tested() -> Result<()> {
+    let _alone = alone()?;
+    let (node, workshop) = everything()?;
     let tests = node.npm("tests of the page", workshop.folder(), &["test"]);
     // Later versions run TypeScript without being told to.
     tests.with("NODE_OPTIONS", "--experimental-strip-types").run()

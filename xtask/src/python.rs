@@ -1,6 +1,6 @@
 //! The Python tests, in a virtual environment of their own.
 
-use crate::suite;
+use crate::command;
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{Step, interpreter, python_program, root, target};
 use std::path::PathBuf;
@@ -17,31 +17,39 @@ the Python tests need Python 3 with venv and pip.
     macOS:           brew install python
     Windows:         winget install Python.Python.3.12
 If it goes by another name, set PYTHON, as in PYTHON=python3.12.
-Without Python, `cargo xtask test --only lint` and `--only rust` still work.";
+Without Python, `cargo xtask check --only lint` and `cargo xtask test --only rust` still work.";
+/// What type checkers say of the package: a part of `cargo xtask check`.
+const TYPES: &str = "tests/python/test_types.py";
 
 /// Runs `tests/python` against the release build of the command.
 pub fn tests() -> Result<()> {
-    let python = environment()?;
-    Step::program(
-        "Python tests",
-        python,
+    let without = format!("--ignore={TYPES}");
+    let line = [
+        "tests/python",
+        &without,
         // One process a core. Tests of one file stay together: they share plans, and a cluster is alone in its process.
         // `tests/python/conftest.py` puts the longest files first, so that no core is idle at the end.
-        &[
-            "-m",
-            "pytest",
-            "tests/python",
-            "--numprocesses=auto",
-            "--dist=loadfile",
-            "--no-loadscope-reorder",
-            "--durations=20",
-        ],
-    )
-    .with("PLATEWASH_BIN", suite::program())
-    // What Python compiles is kept, and not among the sources.
-    .with("PYTHONDONTWRITEBYTECODE", "")
-    .with("PYTHONPYCACHEPREFIX", target().join("pycache"))
-    .run()
+        "--numprocesses=auto",
+        "--dist=loadfile",
+        "--no-loadscope-reorder",
+        "--durations=20",
+    ];
+    pytest("Python tests", &line)
+}
+
+/// Checks the types of the package, and its stubs.
+pub fn types() -> Result<()> {
+    pytest("types of the Python package", &[TYPES])
+}
+
+fn pytest(title: &'static str, arguments: &[&str]) -> Result<()> {
+    let line = [&["-m", "pytest"], arguments].concat();
+    Step::program(title, environment()?, &line)
+        .with("PLATEWASH_BIN", command::program())
+        // What Python compiles is kept, and not among the sources.
+        .with("PYTHONDONTWRITEBYTECODE", "")
+        .with("PYTHONPYCACHEPREFIX", target().join("pycache"))
+        .run()
 }
 
 /// Fails where there is no Python that can run the tests.

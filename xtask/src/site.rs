@@ -1,6 +1,6 @@
 //! The documentation as a website: pages, Rust and Python API, playground. Links that lead nowhere are errors.
 
-use crate::{page, python, suite, web, wheel};
+use crate::{check, page, python, web, wheel};
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Step, Workshop, copied, removed, root, target};
 use std::fs;
@@ -18,7 +18,7 @@ const LINKED: [&str; 6] = [
 /// Makes all that the website holds, then the website, and says how to look at it.
 pub fn make() -> Result<()> {
     page::make()?;
-    suite::documentation()?;
+    check::documentation()?;
     wheel::install()?;
     built()?;
     println!("\nto look at it: {}", web::serving(&target().join("site")));

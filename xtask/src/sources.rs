@@ -1,4 +1,4 @@
-//! What the wheel is compiled from, by cargo's own account.
+//! What command and wheel are compiled from, by cargo's own account.
 
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{bundle, root, target};
@@ -8,15 +8,7 @@ use std::path::{Path, PathBuf};
 /// Fails unless a folder holds, byte for byte, every file of the checkout that the extension was compiled from. Gives each the checkout's
 /// time of change, from which cargo tells what to build again: a package states one time for all.
 pub fn all_in(folder: &Path) -> Result<()> {
-    let account = target().join("release").join(account());
-    let text = std::fs::read_to_string(&account).with_context(|| account.display().to_string())?;
-    let mut files = Vec::new();
-    for named in compiled_from(&text, &root())? {
-        // What build scripts made is made again from the package.
-        if !root().join(&named).starts_with(target()) {
-            collect(&root(), named, &mut files)?;
-        }
-    }
+    let mut files = files_of(&account())?;
     // The bundle of the page, too, so that a build of the package needs no Node.
     let bundle = bundle().strip_prefix(root())?.to_owned();
     collect(&root(), bundle, &mut files)?;
@@ -35,6 +27,28 @@ pub fn all_in(folder: &Path) -> Result<()> {
     }
     println!("    {} source files are the checkout's", files.len());
     Ok(())
+}
+
+/// The files of the checkout, relative to its root, that command and extension are compiled from.
+pub fn compiled() -> Result<Vec<PathBuf>> {
+    let mut files = [files_of("platewash.d")?, files_of(&account())?].concat();
+    files.sort();
+    files.dedup();
+    Ok(files)
+}
+
+/// The files of the checkout, relative to its root, that an account of the release build names.
+fn files_of(account: &str) -> Result<Vec<PathBuf>> {
+    let account = target().join("release").join(account);
+    let text = std::fs::read_to_string(&account).with_context(|| account.display().to_string())?;
+    let mut files = Vec::new();
+    for named in compiled_from(&text, &root())? {
+        // What build scripts made is made again from a package.
+        if !root().join(&named).starts_with(target()) {
+            collect(&root(), named, &mut files)?;
+        }
+    }
+    Ok(files)
 }
 
 /// A file of `root`, or all in a folder of it: build scripts name folders, too.

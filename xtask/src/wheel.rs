@@ -29,11 +29,21 @@ pub fn install() -> Result<()> {
     pip("wheel among the tests", &tests, &line).run()
 }
 
-/// Makes the source package, and runs the README's example with the wheel and nothing else.
-///
-/// Outside the checkout, the package holds, byte for byte, what the wheel was compiled from, and its manifests and sources pass
-/// `cargo check`. So a wheel of the package is that of the checkout, and is not compiled a second time.
+/// Makes the source package, which holds, byte for byte, what the wheel was compiled from, and runs the README's example with the wheel
+/// and nothing else.
 pub fn package() -> Result<()> {
+    in_package(|_| Ok(()))?;
+    fresh(&only_file(&wheels(), "whl")?)
+}
+
+/// Makes the source package, and checks the extension in it, outside of the checkout and without a network. So a wheel of the package is
+/// that of the checkout, and is not compiled a second time.
+pub fn package_checked() -> Result<()> {
+    in_package(checked)
+}
+
+/// Makes the source package, unpacks it outside of the checkout, compares its sources with the checkout's, and does more with its folder.
+fn in_package(more: fn(&Path) -> Result<()>) -> Result<()> {
     let tests = python::environment()?;
     let folder = emptied(target().join("package"))?;
     let line = ["-c", SOURCE_PACKAGE, "python/backend", &text(&folder)];
@@ -45,10 +55,9 @@ pub fn package() -> Result<()> {
     Step::program("source package unpacked", &tests, &line).run()?;
     let name = package.file_name().unwrap_or_default().to_string_lossy();
     let source = outside.join(name.trim_end_matches(".tar.gz"));
-    let done = sources::all_in(&source).and_then(|()| checked(&source));
+    let done = sources::all_in(&source).and_then(|()| more(&source));
     emptied(outside)?;
-    done?;
-    fresh(&only_file(&wheels(), "whl")?)
+    done
 }
 
 /// Checks the extension in an unpacked source package, without a network.
