@@ -94,6 +94,8 @@ pub fn docs() -> Result<()> {
         "--release",
         "-p",
         "platewash-scenario",
+        "--test",
+        "scenario",
         "the_committed_page_is_current",
     ];
     Step::cargo("pages", &line).with("PLATEWASH_WRITE_DOCS", "1").run()
