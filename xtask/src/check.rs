@@ -7,9 +7,6 @@ use anyhow::{Result, bail};
 use platewash_bundler::Step;
 use std::time::Instant;
 
-/// With this, pyo3 asks no interpreter: the parts in Rust need none.
-const NO_PYTHON: (&str, &str) = ("PYO3_NO_PYTHON", "1");
-
 /// A part of the checks that can be run alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
@@ -115,17 +112,13 @@ fn clippy() -> Result<()> {
         ("clippy", &everything[..]),
         ("clippy, library without the command", &library),
     ] {
-        Step::cargo(title, &[line, &warnings].concat())
-            .with(NO_PYTHON.0, NO_PYTHON.1)
-            .run()?;
+        wheel::with_its_settings(Step::cargo(title, &[line, &warnings].concat())).run()?;
     }
     Ok(())
 }
 
 /// Makes rustdoc's pages.
 pub fn documentation() -> Result<()> {
-    Step::cargo("documentation", &["doc", "--release", "--workspace", "--no-deps"])
-        .with("RUSTDOCFLAGS", "-D warnings")
-        .with(NO_PYTHON.0, NO_PYTHON.1)
-        .run()
+    let step = Step::cargo("documentation", &["doc", "--release", "--workspace", "--no-deps"]);
+    wheel::with_its_settings(step).with("RUSTDOCFLAGS", "-D warnings").run()
 }

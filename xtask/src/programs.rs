@@ -43,13 +43,17 @@ struct Program {
 /// others have run.
 pub fn tested() -> Result<()> {
     let of_command = parsed(&command::messages()?)?;
-    // The tests in Rust need no interpreter of Python: with this, pyo3 asks none.
-    let cargo = |title, line: &[&str]| {
-        let line = [line, &["--release", "--workspace"]].concat();
-        Step::cargo(title, &line).with("PYO3_NO_PYTHON", "1")
-    };
-    let line = ["test", "--no-run", "--message-format", "json-render-diagnostics"];
-    let of_tests = parsed(&cargo("compiling the tests", &line).output()?)?;
+    let all = ["test", "--release", "--workspace"];
+    // Without examples: the only one is that of the extension, and would have pyo3 built once more, for another interpreter.
+    let tests = [
+        "--no-run",
+        "--lib",
+        "--bins",
+        "--tests",
+        "--message-format",
+        "json-render-diagnostics",
+    ];
+    let of_tests = parsed(&Step::cargo("compiling the tests", &[&all[..], &tests].concat()).output()?)?;
     let twice = compiled_twice(&of_command, &of_tests);
     if !twice.is_empty() {
         bail!(
@@ -59,7 +63,7 @@ pub fn tested() -> Result<()> {
         );
     }
     run(queue(&of_tests)?)?;
-    cargo("tests in the documentation", &["test", "--doc"]).run()
+    Step::cargo("tests in the documentation", &[&all[..], &["--doc"]].concat()).run()
 }
 
 /// Cargo's messages, one a line.
@@ -77,7 +81,9 @@ fn compiled_twice<'a>(first: &'a [Value], second: &'a [Value]) -> Vec<&'a str> {
         let name = is_library.then(|| message["target"]["name"].as_str()).flatten()?;
         let kinds = message["target"]["kind"].as_array()?;
         let id = message["package_id"].as_str()?;
-        kinds.iter().any(|kind| kind == "lib").then_some((id, name))
+        // What build scripts use is compiled for them alone, without optimization.
+        let level = message["profile"]["opt_level"].as_str()?;
+        kinds.iter().any(|kind| kind == "lib").then_some((id, name, level))
     };
     let built: HashSet<_> = first.iter().filter_map(library).collect();
     let anew = second
@@ -85,7 +91,7 @@ fn compiled_twice<'a>(first: &'a [Value], second: &'a [Value]) -> Vec<&'a str> {
         .filter(|message| message["fresh"] == false)
         .filter_map(library);
     anew.filter(|library| built.contains(library))
-        .map(|(_, name)| name)
+        .map(|(_, name, _)| name)
         .collect()
 }
 
@@ -195,18 +201,24 @@ mod tests {
 
     #[test]
     fn libraries_that_are_compiled_twice_are_named() {
-        let library = |name: &str, fresh: bool| {
+        let library = |name: &str, level: &str, fresh: bool| {
             serde_json::json!({
                 "reason": "compiler-artifact", "package_id": format!("index#{name}@1.0.0"), "fresh": fresh,
-                "target": { "name": name, "kind": ["lib"] }, "profile": { "test": false },
+                "target": { "name": name, "kind": ["lib"] }, "profile": { "test": false, "opt_level": level },
             })
         };
-        let command = [library("serde", false), library("toml", true)];
-        let tests = [
-            library("serde", true),
-            library("toml", false),
-            library("proptest", false),
+        let command = [
+            library("serde", "3", false),
+            library("toml", "1", true),
+            library("bundler", "0", false),
         ];
+        let tests = [
+            ("serde", "3", true),
+            ("toml", "1", false),
+            ("bundler", "3", false),
+            ("proptest", "3", false),
+        ];
+        let tests = tests.map(|(name, level, fresh)| library(name, level, fresh));
         assert_eq!(compiled_twice(&command, &tests), ["toml"]);
     }
 

@@ -64,9 +64,23 @@ fn in_package(more: fn(&Path) -> Result<()>) -> Result<()> {
 fn checked(source: &Path) -> Result<()> {
     let line = ["check", "--release", "--offline", "-p", "pyplatewash"];
     let step = Step::cargo("check of the source package", &line).at(source);
-    step.with("CARGO_TARGET_DIR", target())
-        .with("PYO3_NO_PYTHON", "1")
-        .run()
+    with_its_settings(step).with("CARGO_TARGET_DIR", target()).run()
+}
+
+/// Gives a call of cargo the settings of pyo3 with which the wheel was built, so that pyo3 and the extension are not built once more for
+/// the next wheel. Before the first wheel, pyo3 asks no interpreter.
+pub fn with_its_settings(step: Step) -> Step {
+    let settings = std::fs::read_dir(target().join("maturin")).into_iter().flatten();
+    let settings = settings.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_of_pyo3 = |file: &PathBuf| {
+        file.file_name()
+            .is_some_and(|name| name.to_string_lossy().starts_with("pyo3-config-"))
+    };
+    let changed = |file: &PathBuf| file.metadata().and_then(|data| data.modified()).ok();
+    match settings.filter(is_of_pyo3).max_by_key(changed) {
+        Some(file) => step.with("PYO3_CONFIG_FILE", file),
+        None => step.with("PYO3_NO_PYTHON", "1"),
+    }
 }
 
 /// Where the wheel is.
