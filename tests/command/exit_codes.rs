@@ -16,16 +16,21 @@ fn write(dir: &Path, name: &str, shipped: &str, changes: &[(&str, &str)]) {
 const REPORT: (&str, &str) = ("on_failure = \"fail\"", "on_failure = \"report\"");
 const FAIL: (&str, &str) = ("on_failure = \"report\"", "on_failure = \"fail\"");
 
+/// One plate: its verdict ends the command as those of four do.
+const FEWER: (&str, &str) = ("count = 4", "count = 1");
+
 /// Scenarios by condition: each with `on_failure = "fail"`, and with "report" under a name that ends so.
 fn conditions(dir: &Path) {
     let region = "region = \"appendix\"";
     let far = (region, "positions_m = [[0.8, 0.0]]");
     let same = (region, "positions_m = [[0.36, 0.0], [0.36, 0.0]]");
     let pd = ("[job]", "[control]\nlaw = \"pd\"\nfrequency_rad_s = 15\n[job]");
-    for (name, change) in [("far", far), ("same", same), ("pd", pd)] {
-        write(dir, name, "kitchen-spiral", &[change]);
-        write(dir, &format!("{name}-report"), "kitchen-spiral", &[REPORT, change]);
+    for (name, changes) in [("far", &[far][..]), ("same", &[same]), ("pd", &[pd, FEWER])] {
+        write(dir, name, "kitchen-spiral", changes);
+        let report = [&[REPORT], changes].concat();
+        write(dir, &format!("{name}-report"), "kitchen-spiral", &report);
     }
+    write(dir, "one", "kitchen", &[FEWER]);
     let told = ("overlap = \"fail\"", "overlap = \"report\"");
     write(dir, "told", "kitchen-spiral", &[same, told]);
     write(dir, "paper-report", "paper-appendix", &[]);
@@ -37,15 +42,10 @@ fn conditions(dir: &Path) {
 
 /// Plan files by condition, and two that were changed after they were sealed.
 fn plans(dir: &Path) {
-    for name in ["kitchen", "pd", "pd-report", "paper", "paper-report"] {
-        let file = if name == "kitchen" {
-            name.to_owned()
-        } else {
-            format!("{name}.toml")
-        };
-        platewash(dir, &["plan", "--scenario", &file, "--out", name]);
+    for name in ["one", "pd", "pd-report", "paper", "paper-report"] {
+        platewash(dir, &["plan", "--scenario", &format!("{name}.toml"), "--out", name]);
     }
-    for (name, altered) in [("kitchen", "altered"), ("paper-report", "altered-report")] {
+    for (name, altered) in [("one", "altered"), ("paper-report", "altered-report")] {
         let text = std::fs::read_to_string(dir.join(name).join("plan.json")).unwrap();
         let changed = text.replacen("\"seed\":1", "\"seed\":2", 1);
         assert_ne!(changed, text);
@@ -79,7 +79,7 @@ fn a_job_ends_with_its_verdict_where_its_scenario_asks_for_that() {
     judge(
         dir,
         &[
-            ("run --scenario kitchen", 0, "PROVED"),
+            ("run --scenario one.toml", 0, "PROVED"),
             ("run --scenario far.toml", 3, "INFEASIBLE"),
             ("run --scenario far-report.toml", 0, "INFEASIBLE"),
             ("run --scenario same.toml", 3, "INFEASIBLE: plate 1 and plate 2 overlap"),
@@ -91,7 +91,7 @@ fn a_job_ends_with_its_verdict_where_its_scenario_asks_for_that() {
             ("run --scenario full.toml", 3, "INFEASIBLE"),
             ("run --scenario full-report.toml", 0, "INFEASIBLE"),
             ("run --scenario nowhere.toml", 2, ""),
-            ("plan --scenario kitchen", 0, planned),
+            ("plan --scenario one.toml", 0, planned),
             ("plan --scenario far.toml", 3, "INFEASIBLE"),
             ("plan --scenario far-report.toml", 0, "INFEASIBLE"),
             ("plan --scenario same.toml", 3, "INFEASIBLE"),
@@ -100,7 +100,7 @@ fn a_job_ends_with_its_verdict_where_its_scenario_asks_for_that() {
             ("plan --scenario full.toml", 3, "INFEASIBLE"),
             ("plan --scenario full-report.toml", 0, "INFEASIBLE"),
             ("plan --scenario nowhere.toml", 2, ""),
-            ("sweep --seeds 1..2 --scenario kitchen", 0, "seed,"),
+            ("sweep --seeds 1..2 --scenario one.toml", 0, "seed,"),
             ("sweep --seeds 1..2 --scenario far.toml", 3, "seed,"),
             ("sweep --seeds 1..2 --scenario far-report.toml", 0, "seed,"),
             ("sweep --seeds 1..2 --scenario same.toml", 3, "seed,"),
@@ -127,14 +127,14 @@ fn a_question_is_answered_by_its_exit_code_whatever_the_scenario_says() {
             ("layout --scenario told.toml", 0, "given"),
             ("validate --scenario paper-report.toml", 0, "paper-appendix: valid"),
             ("validate --scenario nowhere.toml", 2, ""),
-            ("verify kitchen/plan.json", 0, "PROVED"),
+            ("verify one/plan.json", 0, "PROVED"),
             ("verify paper-report/plan.json", 4, "NOT PROVED"),
-            ("verify kitchen/plan.json --against kitchen", 0, "PROVED"),
-            ("verify kitchen/plan.json --against pd.toml", 4, "OTHER JOB"),
+            ("verify one/plan.json --against one.toml", 0, "PROVED"),
+            ("verify one/plan.json --against pd.toml", 4, "OTHER JOB"),
             ("verify pd/plan.json --against pd-report.toml", 0, "PROVED"),
             ("verify paper/plan.json --against paper.toml", 4, "NOT PROVED"),
-            ("verify kitchen/plan.json --against full.toml", 3, ""),
-            ("verify kitchen/plan.json --against nowhere.toml", 2, ""),
+            ("verify one/plan.json --against full.toml", 3, ""),
+            ("verify one/plan.json --against nowhere.toml", 2, ""),
             ("verify altered/plan.json", 4, "NOT PROVED"),
             ("verify nowhere.json", 2, ""),
             ("layout --scenario kitchen", 0, "sampled"),
@@ -159,20 +159,20 @@ fn a_simulation_is_answered_by_its_exit_code_and_an_altered_plan_never_well() {
     judge(
         dir,
         &[
-            ("simulate kitchen/plan.json", 0, "WASHED"),
+            ("simulate one/plan.json", 0, "WASHED"),
             ("simulate pd/plan.json", 4, "NOT SWEPT"),
             ("simulate pd-report/plan.json", 4, "NOT SWEPT"),
             ("simulate paper/plan.json", 4, "NOT SWEPT"),
             ("simulate paper-report/plan.json", 4, "NOT SWEPT"),
             ("simulate altered/plan.json", 4, "ALTERED"),
             ("simulate altered-report/plan.json", 4, "ALTERED"),
-            ("simulate kitchen/plan.json --frequency 5000", 2, ""),
+            ("simulate one/plan.json --frequency 5000", 2, ""),
             ("simulate nowhere.json", 2, ""),
-            ("tune kitchen/plan.json --frequencies 30,5000 --dampings 1", 0, tuned),
+            ("tune one/plan.json --frequencies 30,5000 --dampings 1", 0, tuned),
             ("tune pd/plan.json --frequencies 15 --dampings 1", 4, spiral),
             ("tune pd-report/plan.json --frequencies 15 --dampings 1", 4, spiral),
             ("tune altered/plan.json --frequencies 30 --dampings 1", 4, tuned),
-            ("tune kitchen/plan.json --frequencies 5000,6000 --dampings 1", 2, tuned),
+            ("tune one/plan.json --frequencies 5000,6000 --dampings 1", 2, tuned),
             ("tune nowhere.json", 2, ""),
         ],
     );

@@ -35,20 +35,20 @@ fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
 }
 "#;
 
-/// A crate that is published.
+/// A crate of the workspace.
 #[derive(Debug, PartialEq, Eq)]
-struct Published {
+struct Member {
     name: String,
     /// Relative to the root of the repository; empty for the crate there.
     folder: PathBuf,
+    is_published: bool,
 }
 
 /// Fails unless the package of each published crate holds all of the crate's files that command and wheel are compiled from.
 pub fn complete() -> Result<()> {
-    let line = ["metadata", "--no-deps", "--format-version", "1"];
-    let crates = published(&Step::cargo("crates", &line).output()?)?;
+    let crates = members()?;
     let files = sources::compiled()?;
-    for one in &crates {
+    for one in crates.iter().filter(|one| one.is_published) {
         let line = ["package", "--list", "--allow-dirty", "--package", &one.name];
         let list = Step::cargo("files of a package", &line).output()?;
         if let Some(missing) = missing(one, &crates, &files, &list).first() {
@@ -60,34 +60,41 @@ pub fn complete() -> Result<()> {
             );
         }
     }
-    println!("    {} packages hold what is compiled from them", crates.len());
+    println!("    the packages hold what is compiled from them");
     Ok(())
 }
 
-/// The crates of cargo's account of the workspace that are published.
-fn published(metadata: &str) -> Result<Vec<Published>> {
+/// The crates of the workspace, by cargo's own account.
+fn members() -> Result<Vec<Member>> {
+    let line = ["metadata", "--no-deps", "--format-version", "1"];
+    members_of(&Step::cargo("crates", &line).output()?)
+}
+
+/// The crates of cargo's account of the workspace.
+fn members_of(metadata: &str) -> Result<Vec<Member>> {
     let metadata: Value = serde_json::from_str(metadata).context("cargo's account of the workspace")?;
     let packages = metadata["packages"]
         .as_array()
         .context("no packages in cargo's account")?;
     let mut crates = Vec::new();
-    // A crate with `publish = false` has an empty list of registries, others have none.
-    for package in packages.iter().filter(|package| package["publish"].is_null()) {
+    for package in packages {
         let text = |key: &str| package[key].as_str().with_context(|| format!("no {key} of a package"));
         let manifest = PathBuf::from(text("manifest_path")?);
         let place = manifest
             .strip_prefix(root())
             .context("a package outside of the checkout")?;
-        crates.push(Published {
+        crates.push(Member {
             name: text("name")?.to_owned(),
             folder: place.parent().unwrap_or(Path::new("")).to_owned(),
+            // With `publish = false` the list of registries is empty; else there is none.
+            is_published: package["publish"].is_null(),
         });
     }
     Ok(crates)
 }
 
 /// Files of a crate, relative to its folder, that are compiled and are not in the list of its package.
-fn missing(one: &Published, crates: &[Published], files: &[PathBuf], list: &str) -> Vec<PathBuf> {
+fn missing(one: &Member, crates: &[Member], files: &[PathBuf], list: &str) -> Vec<PathBuf> {
     let listed: Vec<PathBuf> = list.lines().map(PathBuf::from).collect();
     // A file belongs to the crate whose folder is the nearest around it.
     let is_ours = |file: &&PathBuf| {
@@ -111,9 +118,9 @@ pub fn used() -> Result<()> {
     for old in files_in(&packages)?.iter().filter(|name| name.ends_with(".crate")) {
         fs::remove_file(packages.join(old))?;
     }
-    let line = ["metadata", "--no-deps", "--format-version", "1"];
-    let crates = published(&Step::cargo("crates", &line).output()?)?;
-    let named = crates.iter().flat_map(|one| ["--package", &one.name]);
+    let crates = members()?;
+    let published = crates.iter().filter(|one| one.is_published);
+    let named = published.flat_map(|one| ["--package", &one.name]);
     let line = ["package", "--no-verify", "--allow-dirty", "--quiet"];
     let line: Vec<&str> = line.into_iter().chain(named).collect();
     Step::cargo("packages", &line).run()?;
@@ -181,26 +188,43 @@ mod tests {
 
     #[test]
     fn a_file_that_a_package_lacks_is_found() {
-        let one = |name: &str, folder: &str| Published {
+        let one = |name: &str, folder: &str, is_published: bool| Member {
             name: name.to_owned(),
             folder: folder.into(),
+            is_published,
         };
-        let crates = [one("whole", ""), one("part", "crates/part")];
-        let files = ["src/lib.rs", "crates/part/src/lib.rs", "crates/part/data.toml"].map(PathBuf::from);
+        let crates = [
+            one("whole", "", true),
+            one("part", "crates/part", true),
+            one("private", "crates/private", false),
+        ];
+        let files = [
+            "src/lib.rs",
+            "crates/part/src/lib.rs",
+            "crates/part/data.toml",
+            "crates/private/src/lib.rs",
+        ];
+        let files = files.map(PathBuf::from);
         assert!(missing(&crates[0], &crates, &files, "Cargo.toml\nsrc/lib.rs\n").is_empty());
         let found = missing(&crates[1], &crates, &files, "Cargo.toml\nsrc/lib.rs\n");
         assert_eq!(found, [PathBuf::from("data.toml")]);
     }
 
     #[test]
-    fn crates_that_are_not_published_are_left_out() {
+    fn crates_that_are_not_published_are_known() {
         let manifest = |folder: &str| root().join(folder).join("Cargo.toml").display().to_string();
         let metadata = serde_json::json!({ "packages": [
             { "name": "whole", "manifest_path": manifest(""), "publish": null },
             { "name": "private", "manifest_path": manifest("private"), "publish": [] },
         ]});
-        let found = published(&metadata.to_string()).unwrap();
-        assert_eq!(found.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(), ["whole"]);
-        assert_eq!(found[0].folder, Path::new(""));
+        let found = members_of(&metadata.to_string()).unwrap();
+        assert_eq!(
+            found.iter().map(|one| one.is_published).collect::<Vec<_>>(),
+            [true, false]
+        );
+        assert_eq!(
+            (found[0].folder.as_path(), found[1].folder.as_path()),
+            (Path::new(""), Path::new("private"))
+        );
     }
 }
