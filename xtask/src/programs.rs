@@ -13,15 +13,17 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Targets whose tests take longest, by the name of their crate and their own. They run first, so that no core is idle at the end.
-const LONGEST: [&str; 8] = [
+const LONGEST: [&str; 10] = [
     "platewash command",
     "platewash main",
     "platewash-certificate certificate",
-    "platewash-planner planner",
     "platewash-server server",
-    "platewash-simulator simulator",
-    "platewash-export export",
+    "platewash-export platewash_export",
     "platewash-workcell workcell",
+    "platewash-simulator simulator",
+    "platewash-kinematics kinematics",
+    "platewash-planner planner",
+    "platewash-scenario scenario",
 ];
 
 /// One compiled test program.
