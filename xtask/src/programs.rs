@@ -47,14 +47,7 @@ pub fn tested() -> Result<()> {
     let of_command = parsed(&command::messages()?)?;
     let all = ["test", "--release", "--workspace"];
     // Without examples: the only one is that of the extension, and would have pyo3 built once more, for another interpreter.
-    let tests = [
-        "--no-run",
-        "--lib",
-        "--bins",
-        "--tests",
-        "--message-format",
-        "json-render-diagnostics",
-    ];
+    let tests = ["--no-run", "--tests", "--message-format", "json-render-diagnostics"];
     let of_tests = parsed(&Step::cargo("compiling the tests", &[&all[..], &tests].concat()).output()?)?;
     let twice = compiled_twice(&of_command, &of_tests);
     if !twice.is_empty() {
