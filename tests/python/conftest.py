@@ -17,7 +17,7 @@ matplotlib.use("agg")  # No test opens a window.
 
 
 #: The files that take longest. They come first, so that with several processes none is still at a long file when the others are done.
-LONGEST = ["test_wheel_study_engines.py", "test_wheel_facade.py", "test_wheel_docs.py", "test_wheel_arguments.py", "test_wheel_command.py"]
+LONGEST = ["test_wheel_study_engines.py", "test_wheel_docs.py", "test_wheel_arguments.py", "test_wheel_command.py"]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

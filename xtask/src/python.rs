@@ -19,7 +19,7 @@ the Python tests need Python 3 with venv and pip.
 If it goes by another name, set PYTHON, as in PYTHON=python3.12.
 Without Python, `cargo xtask check --only lint` and `cargo xtask test --only rust` still work.";
 /// What type checkers say of the package: a part of `cargo xtask check`.
-const TYPES: &str = "tests/python/test_types.py";
+const TYPES: &str = "tests/python/test_wheel_types.py";
 
 /// Runs `tests/python` against the release build of the command.
 pub fn tests() -> Result<()> {
