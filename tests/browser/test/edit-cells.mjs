@@ -75,16 +75,14 @@ test("all tabs fit beside the scene, and every plate lies between toolbar and re
   const { page } = await edit(t, await folder(t), ["--scenario", "rack"], { size: { width: 1280, height: 800 } });
   const tabs = await page.locator(".tabs").evaluate(({ scrollWidth, clientWidth }) => ({ scrollWidth, clientWidth }));
   assert.ok(tabs.scrollWidth <= tabs.clientWidth, JSON.stringify(tabs));
-  const top = await page.locator(".toolbar").evaluate((element) => element.getBoundingClientRect().bottom);
-  const bottom = await page.locator(".readout").evaluate((element) => element.getBoundingClientRect().top);
-  const places = await page.evaluate(() => window.platewash.view.plates.map(({ pose }) => pose.position_m));
-  for (const place of places) {
-    const [, y] = await onScreen(page, place);
-    assert.ok(y > top && y < bottom, `${y} of ${top} to ${bottom}`);
-  }
+  await page.waitForFunction(() => {
+    const box = (of) => document.querySelector(of).getBoundingClientRect();
+    const [{ bottom: top }, { top: bottom }, { y }] = [box(".toolbar"), box(".readout"), box("canvas.scene")];
+    const places = window.platewash.view.plates.map(({ pose }) => window.platewash.project(pose.position_m));
+    return places.length === 3 && places.every((at) => at !== null && y + at[1] > top && y + at[1] < bottom);
+  });
   await page.setViewportSize({ width: 390, height: 844 });
-  const height = await page.locator("canvas.scene").evaluate((element) => element.clientHeight);
-  assert.ok(height >= 844 / 2 - 1, `${height}`);
+  await page.waitForFunction(() => document.querySelector("canvas.scene").clientHeight >= 844 / 2 - 1);
 });
 
 test("an obstacle is moved once it is clicked, and refused where it stands in a plate", async (t) => {
