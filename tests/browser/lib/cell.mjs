@@ -13,8 +13,13 @@ export async function edit(test, place, words = [], { size = SIZE } = {}) {
   return { server, ...opened };
 }
 
-/** Waits until nothing is asked any more and all answers are drawn. */
-export const settled = (page) => page.evaluate(() => window.platewash.edit.settled());
+/** Waits until nothing is asked any more and all answers are drawn, also where they changed the room that the scene has. */
+export const settled = (page) =>
+  page.evaluate(async () => {
+    await window.platewash.edit.settled();
+    // The scene is fitted after the frame that shows the answers, and drawn in the next.
+    await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+  });
 
 /** What the page says of the cell. */
 export const verdict = (page) => page.evaluate(() => window.platewash.edit.verdict());
