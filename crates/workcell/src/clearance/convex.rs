@@ -1,16 +1,19 @@
-//! Convex hulls, with a check that they are reliable.
+//! Convex hulls that hold their points, whatever the collision library makes of them.
 //!
-//! A hull from the collision library may be too small, down to a flat one for a body that is much wider than high, or bent inwards. So it
-//! is compared with its points. If it fails, it is computed once more from the same points scaled to be as high as wide: a hull stays a
-//! hull under any such map.
+//! A hull from the collision library may be too small, down to a flat one for a body that is much wider than high, or bent inwards. So a
+//! point is left out only where it is a mixture of corners that stay: weights of these corners, none below 0 and of sum 1, give the point.
+//! That needs no trust in the library. Points without such weights become corners. If there are some, the hull is computed once more from
+//! the same points scaled to be as high as wide: a hull stays a hull under any such map.
 //!
-//! The facets of a convex hull are available for display.
+//! The library merges neighbouring triangles with nearly the same normal to faces. The planes of such faces may lie off their corners, by
+//! millimetres for a sheet: they hold nothing. The triangles are kept as they were found.
 
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3, Vector3};
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
 use parry3d_f64::transformation::try_convex_hull;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Greatest number of distinct corners of a mesh. A hull with all of them takes seconds.
 pub(crate) const MOST_CORNERS: usize = 10_000;
@@ -18,11 +21,10 @@ pub(crate) const MOST_CORNERS: usize = 10_000;
 /// Greatest number of vertices of a mesh whose hull is computed. Beyond that it takes minutes.
 pub(crate) const MOST_VERTICES: usize = 50_000;
 
-/// Distance of a point outside of a face that counts as rounding, and below the least thickness of a hull, both as a part of its size.
-const HULL_ROUNDING: f64 = 1e-12;
+/// Least thickness of a hull, as a part of its size.
 const THINNEST_HULL: f64 = 1e-9;
 
-/// Greatest distance from the hull of a point that counts as within \[m\]: less than [`crate::clearance::motion`] allows for rounding.
+/// Greatest distance of a point from a mixture of corners that counts as the point itself \[m\]: less than [`crate::clearance::motion`] allows for rounding.
 const LEFT_OUT_M: f64 = 1e-10;
 
 /// Reason that points have no hull.
@@ -40,10 +42,12 @@ pub(crate) enum HullFault {
 pub(crate) struct ConvexHull {
     /// The hull as a solid of the collision library.
     pub solid: ConvexPolyhedron,
-    /// Points whose hull holds all points. The farthest point along a direction is among these, even if the solid is wrong, so that a gap
-    /// along a direction is never overstated.
+    /// Points whose hull holds all points, up to [`LEFT_OUT_M`]. The farthest point along a direction is among these, even if the solid is
+    /// wrong, so that a gap along a direction is never overstated.
     pub corners: Vec<Vector>,
-    /// True if the faces of the solid are those of the hull: its corners are complete.
+    /// Surface of the hull as the collision library found it, by the corners' indices, counter-clockwise as seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// True if the corners of the surface are all of the corners.
     pub is_sound: bool,
 }
 
@@ -54,80 +58,148 @@ impl ConvexHull {
             return Err(HullFault::ManyPoints(points.len()));
         }
         let frame = Frame::of(points).ok_or(HullFault::Flat)?;
-        let plain = ConvexPolyhedron::from_convex_hull(points);
-        match plain.as_ref().map_or(0, |solid| solid.points().len()) {
+        let plain = Surface::of(points);
+        match plain.as_ref().map_or(0, |surface| surface.corners.len()) {
             corners if corners > MOST_CORNERS => return Err(HullFault::ManyCorners(corners)),
             _ => {}
         }
-        let plain = plain.map(|solid| Self::checked(solid, points));
-        let hull = match plain {
+        let hull = match plain.and_then(|surface| surface.holding(points)) {
             Some(hull) if hull.is_sound => Some(hull),
             plain => {
-                let drawn_out = frame.hull(points).map(|solid| Self::checked(solid, points));
+                let drawn_out = frame.surface(points).and_then(|surface| surface.holding(points));
                 drawn_out.filter(|hull| hull.is_sound).or(plain)
             }
         };
         hull.ok_or(HullFault::Flat)
     }
 
-    /// Makes the hull of some points from a computed solid. Points outside the solid are added to its corners.
-    ///
-    /// Points are dropped only where the faces close the solid and every vertex lies behind each face. If such a solid holds a ball of
-    /// radius r about c, then a point p that lies at most ε beyond the faces is at most ε ‖p − c‖/r away from the solid: moved towards c by
-    /// the factor r/(r + ε), it lies behind all faces.
-    fn checked(solid: ConvexPolyhedron, points: &[Vector]) -> Self {
-        let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
-        let planes = planes(&solid);
-        // The middle of the vertices is within.
-        let middle = solid.points().iter().fold(Vector::ZERO, |sum, p| sum + *p) / solid.points().len() as f64;
-        let depth = planes.iter().map(|(normal, at)| at - normal.dot(middle));
-        let ball = depth.fold(f64::INFINITY, f64::min);
-        let rounding = (HULL_ROUNDING * size).min(LEFT_OUT_M * ball / (2.0 * size));
-        // NaN is outside.
-        let is_behind = |point: &Vector| planes.iter().all(|(normal, at)| normal.dot(*point) - at <= rounding);
-        if !(ball > 0.0 && is_closed(&solid) && solid.points().iter().all(is_behind)) {
-            let corners = points.to_vec();
-            return Self {
-                solid,
-                corners,
-                is_sound: false,
-            };
-        }
-        let outside: Vec<_> = points.iter().filter(|point| !is_behind(point)).copied().collect();
-        Self {
-            is_sound: outside.is_empty(),
-            corners: solid.points().iter().copied().chain(outside).collect(),
-            solid,
-        }
-    }
-
-    /// Returns the planes of its faces: outward unit normals and their distances from the origin \[m\]; empty for an unreliable hull.
+    /// Returns the planes of its faces: outward unit normals and their distances from the origin \[m\]. Corners may lie beyond them. Empty
+    /// for a hull whose surface does not hold its points.
     pub fn planes(&self) -> Vec<(Vector, f64)> {
-        if self.is_sound { planes(&self.solid) } else { Vec::new() }
+        if !self.is_sound {
+            return Vec::new();
+        }
+        let corner = |first: u32| self.solid.points()[self.solid.vertices_adj_to_face()[first as usize] as usize];
+        let plane = |normal: Vector, first: u32| (normal, normal.dot(corner(first)));
+        let faces = self.solid.faces().iter();
+        faces
+            .map(|face| plane(face.normal, face.first_vertex_or_edge))
+            .collect()
     }
 }
 
-fn planes(solid: &ConvexPolyhedron) -> Vec<(Vector, f64)> {
-    let corner = |first: u32| solid.points()[solid.vertices_adj_to_face()[first as usize] as usize];
-    let plane = |normal: Vector, first: u32| (normal, normal.dot(corner(first)));
-    let faces = solid.faces().iter();
-    faces
-        .map(|face| plane(face.normal, face.first_vertex_or_edge))
-        .collect()
+/// Surface of a hull as the collision library found it: some of the points, and triangles of them.
+struct Surface {
+    corners: Vec<Vector>,
+    triangles: Vec<[u32; 3]>,
 }
 
-/// True if the faces of a hull have no border: each edge belongs to two faces.
-fn is_closed(hull: &ConvexPolyhedron) -> bool {
-    let mut faces_of: HashMap<[u32; 2], usize> = HashMap::new();
-    for face in hull.faces() {
-        let first = face.first_vertex_or_edge as usize;
-        let corners = &hull.vertices_adj_to_face()[first..first + face.num_vertices_or_edges as usize];
-        let next = corners.iter().cycle().skip(1);
-        for (a, b) in corners.iter().zip(next) {
-            *faces_of.entry([*a.min(b), *a.max(b)]).or_default() += 1;
+impl Surface {
+    fn of(points: &[Vector]) -> Option<Self> {
+        let (corners, triangles) = guarded(|| try_convex_hull(points).ok()).flatten()?;
+        Some(Self { corners, triangles })
+    }
+
+    /// Makes a hull that holds some points. Those that are no mixtures of the surface's corners become corners.
+    fn holding(self, points: &[Vector]) -> Option<ConvexHull> {
+        let mixtures = Mixtures::of(&self);
+        let known: BTreeSet<_> = self.corners.iter().map(|corner| bits(*corner)).collect();
+        let is_outside = |point: &Vector| !known.contains(&bits(*point)) && !mixtures.have(*point);
+        let outside: Vec<_> = points.iter().copied().filter(is_outside).collect();
+        let solid = guarded(|| ConvexPolyhedron::from_convex_mesh(self.corners.clone(), &self.triangles)).flatten()?;
+        Some(ConvexHull {
+            solid,
+            is_sound: outside.is_empty(),
+            corners: self.corners.into_iter().chain(outside).collect(),
+            triangles: self.triangles,
+        })
+    }
+}
+
+/// Calls the collision library; `None` if it panics, as it does for some meshes.
+pub(crate) fn guarded<T>(call: impl FnOnce() -> T) -> Option<T> {
+    catch_unwind(AssertUnwindSafe(call)).ok()
+}
+
+/// Bits of a point's coordinates; those of 0 for −0.
+pub(crate) fn bits(point: Vector) -> [u64; 3] {
+    (point + Vector::ZERO).to_array().map(f64::to_bits)
+}
+
+/// Tetrahedra between the triangles of a surface and the middle of its corners.
+struct Mixtures {
+    /// Mean of the corners.
+    middle: Vector,
+    /// Triangles, each with the vector whose dot product with a point's place from the middle tells how far out the point is: 1 in the
+    /// triangle's plane.
+    faces: Vec<(Vector, [Vector; 3])>,
+}
+
+/// Share by which a point may be farther out of one triangle than of the farthest, and be looked for there.
+const NEARLY: f64 = 1e-9;
+
+impl Mixtures {
+    fn of(surface: &Surface) -> Self {
+        let middle = surface.corners.iter().fold(Vector::ZERO, |sum, p| sum + *p) / surface.corners.len() as f64;
+        let face = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|k| surface.corners[k as usize]);
+            let normal = (b - a).cross(c - a);
+            let outwards = normal / normal.dot(a - middle);
+            // A triangle without area, or through the middle, has no cone.
+            (normal.dot(a - middle) > 0.0 && outwards.is_finite()).then_some((outwards, [a, b, c]))
+        };
+        Self {
+            middle,
+            faces: surface.triangles.iter().filter_map(face).collect(),
         }
     }
-    !faces_of.is_empty() && faces_of.values().all(|count| *count == 2)
+
+    /// True if a point is a mixture of the middle and the corners of one triangle, up to [`LEFT_OUT_M`]. The middle is a mixture of all
+    /// corners. The triangle is proposed: it is the one that the ray from the middle through the point meets, if the surface is convex.
+    fn have(&self, point: Vector) -> bool {
+        let way = point - self.middle;
+        let farthest = self
+            .faces
+            .iter()
+            .map(|(outwards, _)| outwards.dot(way))
+            .fold(0.0, f64::max);
+        let mut met = self
+            .faces
+            .iter()
+            .filter(|(outwards, _)| outwards.dot(way) >= farthest - NEARLY);
+        met.any(|(_, triangle)| is_in_triangle(triangle, point) || self.is_in_cone(triangle, way))
+    }
+
+    /// True if a place from the middle is a mixture of the middle and the triangle's corners.
+    fn is_in_cone(&self, triangle: &[Vector; 3], way: Vector) -> bool {
+        let edges = triangle.map(|corner| corner - self.middle);
+        let column = |v: Vector| Vector3::new(v.x, v.y, v.z);
+        let solved = Matrix3::from_columns(&edges.map(column)).lu().solve(&column(way));
+        solved.is_some_and(|weights| is_mixture(&edges, weights.into(), way))
+    }
+}
+
+/// True if a point is a mixture of a triangle's corners.
+fn is_in_triangle(&[a, b, c]: &[Vector; 3], point: Vector) -> bool {
+    let (edges, way) = ([b - a, c - a], point - a);
+    // The weights of the point that is nearest in the triangle's plane.
+    let [bb, bc, cc] = [edges[0].dot(edges[0]), edges[0].dot(edges[1]), edges[1].dot(edges[1])];
+    let [along_b, along_c] = edges.map(|edge| edge.dot(way));
+    let area = bb * cc - bc * bc;
+    let weights = [
+        (cc * along_b - bc * along_c) / area,
+        (bb * along_c - bc * along_b) / area,
+    ];
+    is_mixture(&edges, weights, way)
+}
+
+/// True if a place from a corner is a mixture of that corner and the ends of some edges from it, with weights near these. False for NaN.
+fn is_mixture<const N: usize>(edges: &[Vector; N], weights: [f64; N], way: Vector) -> bool {
+    let weights = weights.map(|weight| weight.max(0.0));
+    let most = weights.iter().sum::<f64>().max(1.0);
+    let parts = edges.iter().zip(weights).map(|(edge, weight)| *edge * (weight / most));
+    let mixed = parts.fold(Vector::ZERO, |sum, part| sum + part);
+    (mixed - way).length() <= LEFT_OUT_M
 }
 
 /// Axes along which points extend, the longest first, with their extents.
@@ -161,18 +233,21 @@ impl Frame {
         })
     }
 
-    /// Computes the hull of points after scaling them to be as high as wide.
-    fn hull(&self, points: &[Vector]) -> Option<ConvexPolyhedron> {
+    /// Computes the surface of the hull of points after scaling them to be as high as wide.
+    fn surface(&self, points: &[Vector]) -> Option<Surface> {
         let [x, y, z] = [0, 1, 2].map(|k| self.axes[k] / self.lengths[k]);
         let drawn_out: Vec<_> = points
             .iter()
             .map(|p| *p - self.origin)
             .map(|p| Vector::new(p.dot(x), p.dot(y), p.dot(z)))
             .collect();
-        let (corners, faces) = try_convex_hull(&drawn_out).ok()?;
-        let [x, y, z] = [0, 1, 2].map(|k| self.axes[k] * self.lengths[k]);
-        let back = |p: Vector| self.origin + x * p.x + y * p.y + z * p.z;
-        ConvexPolyhedron::from_convex_mesh(corners.into_iter().map(back).collect(), &faces)
+        let found = Surface::of(&drawn_out)?;
+        let of: BTreeMap<_, _> = drawn_out.iter().map(|p| bits(*p)).zip(points).collect();
+        let corners = found.corners.iter().map(|p| of.get(&bits(*p)).copied().copied());
+        Some(Surface {
+            corners: corners.collect::<Option<_>>()?,
+            triangles: found.triangles,
+        })
     }
 }
 
@@ -194,10 +269,11 @@ pub struct TriangleMesh {
 #[must_use]
 pub fn hull_triangles(points: &[Point3<f64>]) -> Option<TriangleMesh> {
     let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-    let (corners, triangles) = ConvexHull::of(&vertices).ok()?.solid.to_trimesh();
-    let corners = corners.into_iter().map(|c| Point3::new(c.x, c.y, c.z));
-    let triangles = triangles
-        .into_iter()
+    let hull = ConvexHull::of(&vertices).ok()?;
+    let corners = hull.corners.iter().map(|c| Point3::new(c.x, c.y, c.z));
+    let triangles = hull
+        .triangles
+        .iter()
         .map(|triangle| triangle.map(|corner| corner as usize));
     Some(TriangleMesh {
         corners: corners.collect(),

@@ -30,15 +30,13 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
     let mut open = BinaryHeap::new();
     for part in parts {
         let corners: Vec<_> = part.iter().map(vector).collect();
-        let Ok(hull) = ConvexHull::of(&corners) else {
-            return f64::INFINITY;
+        let hull = match ConvexHull::of(&corners) {
+            Ok(hull) if hull.is_sound => hull,
+            // No point of a hull is farther from a corner, which is of the mesh, than the corners are from each other.
+            _ => return widest(&corners),
         };
-        let (points, faces) = hull.solid.to_trimesh();
-        open.extend(
-            faces
-                .iter()
-                .map(|face| mesh.cell(face.map(|k| points[k as usize]), &mut found_m)),
-        );
+        let faces = hull.triangles.iter();
+        open.extend(faces.map(|face| mesh.cell(face.map(|k| hull.corners[k as usize]), &mut found_m)));
     }
     for _ in 0..MOST_CUTS {
         match open.peek() {
@@ -49,6 +47,15 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
         open.extend(quarters.map(|corners| mesh.cell(corners, &mut found_m)));
     }
     open.peek().map_or(0.0, |cell| cell.bound_m)
+}
+
+/// Diagonal of the box about some points \[m\].
+fn widest(points: &[Vector]) -> f64 {
+    let (low, high) = points.iter().fold(
+        (Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)),
+        |(low, high), point| (low.min(*point), high.max(*point)),
+    );
+    (high - low).length()
 }
 
 /// Mesh from which distances are measured.

@@ -1,15 +1,17 @@
 //! Convex parts of a mesh: one hull, or several that together enclose its surface.
 //!
-//! The cuts of the mesh are a proposal (VHACD, Mamou & Ghorbel 2009, by the collision library): cells that may overlap. The piece of each
-//! triangle within a cell goes to the part of that cell, which is the hull of all its pieces. Then each triangle is cut by the planes of
-//! each part, and the rest that is in none of them is added to the nearest. So the parts enclose the surface for any proposal. A part
-//! without thickness, as of a mesh that is a sheet, gets one. A few parts are enclosed alike, in cells that are joined before (`few.rs`).
+//! The cuts of the mesh are a proposal (VHACD, Mamou & Ghorbel 2009, by the collision library): cells that may overlap, or leave something
+//! out. Each triangle is cut by their planes, cell by cell. A piece that is in a cell belongs to the part of that cell, and a piece that is
+//! in none to the nearest; all corners of a piece belong to the same part. A part is the hull of its pieces, so that it holds them, and the
+//! pieces make up the triangle: the parts enclose the surface, for any proposal. A part without thickness, as of a mesh that is a sheet,
+//! gets one. A few parts are enclosed alike, in cells that are joined before (`few.rs`).
 
 mod few;
+#[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests;
 
-use crate::clearance::convex::{ConvexHull, MOST_CORNERS, MOST_VERTICES, has_volume};
+use crate::clearance::convex::{ConvexHull, MOST_CORNERS, MOST_VERTICES, bits, guarded, has_volume};
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -81,6 +83,11 @@ pub enum SolidError {
         /// Number of triangles.
         found: usize,
     },
+    /// The collision library fails to decompose the mesh.
+    #[error(
+        "it cannot be cut into convex parts: the collision library fails; simplify the mesh, cut it into several, or let its hull stand for it"
+    )]
+    NotDecomposed,
 }
 
 /// Returns the corners of the convex parts of a mesh's triangles \[m\]. Every point of a triangle is in one of their hulls, up to rounding.
@@ -119,9 +126,9 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
             if found > MOST_TRIANGLES {
                 return Err(SolidError::TooMany { found });
             }
-            decomposed(&corners, &points, &cells(&corners, &CUTS))
+            enclosing(&corners, &cells(&corners, &CUTS)?)
         }
-        SolidParts::Few => few::parts(&corners, points),
+        SolidParts::Few => few::parts(&corners, points)?,
     };
     let point = |v: Vector| Point3::new(v.x, v.y, v.z);
     Ok(found
@@ -130,7 +137,7 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
         .collect())
 }
 
-/// Convex part: its corners, and the planes that it is behind.
+/// Convex part: its corners, and the planes that it is behind, or nearly so.
 struct Part {
     corners: Vec<Vector>,
     /// Outward unit normals and their distances from the origin; empty for an unreliable hull.
@@ -151,45 +158,48 @@ impl Part {
         }
     }
 
-    /// Cuts a polygon into the piece within the part and the pieces outside.
-    fn cut(&self, polygon: &[Vector], rounding: f64) -> (Vec<Vector>, Vec<Vec<Vector>>) {
-        let (mut within, mut without) = (polygon.to_vec(), Vec::new());
+    /// Cuts a polygon into a piece behind all planes, empty if there is none, and the other pieces. The pieces make up the polygon.
+    fn cut(&self, polygon: Vec<Vector>, rounding: f64) -> (Vec<Vector>, Vec<Vec<Vector>>) {
         if self.planes.is_empty() {
-            return (Vec::new(), vec![within]);
+            return (Vec::new(), vec![polygon]);
         }
+        let (mut within, mut without) = (polygon.clone(), Vec::new());
         for (normal, at) in &self.planes {
             let height = |p: &Vector| normal.dot(*p) - at;
             if within.iter().all(|p| height(p) <= rounding) {
                 continue;
             }
             let (behind, beyond) = split(&within, height);
+            if behind.len() < 3 {
+                // What is behind is an edge or a corner of what is beyond.
+                return (Vec::new(), vec![polygon]);
+            }
             without.push(beyond);
             within = behind;
-            if within.is_empty() {
-                break;
-            }
         }
         (within, without)
     }
 
     fn middle(&self) -> Vector {
-        self.corners.iter().fold(Vector::ZERO, |sum, p| sum + *p) / self.corners.len().max(1) as f64
+        middle(&self.corners)
     }
 }
 
-/// Splits a convex polygon into the pieces behind a plane and beyond it, both with the points in the plane.
+/// Splits a convex polygon into the pieces behind a plane and beyond it, both with the points in the plane, and with points of which
+/// neither is certain (NaN).
 fn split(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> (Vec<Vector>, Vec<Vector>) {
     let (mut behind, mut beyond) = (Vec::new(), Vec::new());
     for (i, p) in polygon.iter().enumerate() {
         let q = &polygon[(i + 1) % polygon.len()];
         let (here, there) = (height(p), height(q));
-        if here <= 0.0 {
+        let (is_beyond, is_behind) = (here > 0.0, here < 0.0);
+        if !is_beyond {
             behind.push(*p);
         }
-        if here >= 0.0 {
+        if !is_behind {
             beyond.push(*p);
         }
-        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+        if (is_behind && there > 0.0) || (is_beyond && there < 0.0) {
             let between = *p + (*q - *p) * (here / (here - there));
             behind.push(between);
             beyond.push(between);
@@ -198,59 +208,43 @@ fn split(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> (Vec<Vector>, V
     (behind, beyond)
 }
 
-fn decomposed(triangles: &[[Vector; 3]], points: &[Vector], cells: &[Part]) -> Vec<Vec<Vector>> {
-    let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
-    let rounding = ROUNDING * size;
-    let mut found: Vec<Vec<Vector>> = cells
-        .iter()
-        .map(|cell| {
-            let within = triangles.iter().flat_map(|triangle| cell.cut(triangle, rounding).0);
-            distinct(within)
-        })
-        .filter(|part| !part.is_empty())
-        .collect();
-    if found.is_empty() {
-        found.push(points.to_vec());
-    }
-    let mut parts: Vec<Part> = found.into_iter().map(|part| Part::around(thick(part))).collect();
-    // A rest in none of the parts is added, and everything else stays enclosed: parts only grow.
-    let mut missing: Vec<Vec<Vector>> = vec![Vec::new(); parts.len()];
-    for triangle in triangles {
-        for piece in uncovered(triangle, &parts, rounding) {
-            let middle = piece.iter().fold(Vector::ZERO, |sum, p| sum + *p) / piece.len() as f64;
-            let nearest = (0..parts.len()).min_by(|&a, &b| {
-                let far = |k: usize| (parts[k].middle() - middle).length();
-                far(a).total_cmp(&far(b))
-            });
-            missing[nearest.unwrap_or(0)].extend(piece);
-        }
-    }
-    parts
-        .drain(..)
-        .zip(missing)
-        .map(|(part, more)| {
-            if more.is_empty() {
-                return part.corners;
-            }
-            Part::around(distinct(part.corners.into_iter().chain(more))).corners
-        })
-        .collect()
+fn middle(points: &[Vector]) -> Vector {
+    points.iter().fold(Vector::ZERO, |sum, p| sum + *p) / points.len().max(1) as f64
 }
 
-/// Returns the pieces of a triangle that are in none of the parts.
-fn uncovered(triangle: &[Vector; 3], parts: &[Part], rounding: f64) -> Vec<Vec<Vector>> {
-    let mut left = vec![triangle.to_vec()];
-    for part in parts {
-        left = left.iter().flat_map(|piece| part.cut(piece, rounding).1).collect();
-        if left.is_empty() {
-            break;
+/// Returns the corners of parts that enclose the triangles, about one for each cell.
+fn enclosing(triangles: &[[Vector; 3]], cells: &[Part]) -> Vec<Vec<Vector>> {
+    let size = triangles.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
+    let middles: Vec<Vector> = cells.iter().map(Part::middle).collect();
+    let nearest = |piece: &[Vector]| {
+        let away = |k: usize| (middles[k] - middle(piece)).length();
+        let nearest = (0..cells.len()).min_by(|&a, &b| away(a).total_cmp(&away(b)));
+        nearest.unwrap_or(0)
+    };
+    let mut parts: Vec<Vec<Vector>> = vec![Vec::new(); cells.len().max(1)];
+    for triangle in triangles {
+        let mut left = vec![triangle.to_vec()];
+        for (cell, part) in cells.iter().zip(&mut parts) {
+            let pieces = std::mem::take(&mut left).into_iter();
+            for (within, without) in pieces.map(|piece| cell.cut(piece, ROUNDING * size)) {
+                part.extend(within);
+                left.extend(without);
+            }
+        }
+        for piece in left {
+            parts[nearest(&piece)].extend(piece);
         }
     }
-    left
+    let filled = parts.into_iter().filter(|part| !part.is_empty());
+    let hull = |part: Vec<Vector>| Part::around(thick(distinct(part.into_iter()))).corners;
+    filled.map(hull).collect()
 }
 
 /// Proposes parts of a mesh that are nearly convex.
-fn cells(triangles: &[[Vector; 3]], cuts: &Cuts) -> Vec<Part> {
+///
+/// # Errors
+/// [`SolidError::NotDecomposed`] where the collision library fails.
+fn cells(triangles: &[[Vector; 3]], cuts: &Cuts) -> Result<Vec<Part>, SolidError> {
     let corners: Vec<Vector> = triangles.iter().flatten().copied().collect();
     let indices: Vec<[u32; 3]> = (0..triangles.len() as u32)
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
@@ -261,9 +255,9 @@ fn cells(triangles: &[[Vector; 3]], cuts: &Cuts) -> Vec<Part> {
         max_convex_hulls: cuts.most_parts,
         ..VHACDParameters::default()
     };
-    let found = VHACD::decompose(&wanted, &corners, &indices, false);
-    let hulls = found.compute_convex_hulls(1).into_iter();
-    hulls.map(|(points, _)| Part::around(points)).collect()
+    let hulls = guarded(|| VHACD::decompose(&wanted, &corners, &indices, false).compute_convex_hulls(1));
+    let hulls = hulls.ok_or(SolidError::NotDecomposed)?.into_iter();
+    Ok(hulls.map(|(points, _)| Part::around(points)).collect())
 }
 
 /// Returns the points of a part with a volume unchanged; gives a part in a plane a thickness.
@@ -284,6 +278,6 @@ fn distinct(points: impl Iterator<Item = Vector>) -> Vec<Vector> {
     // Adding zero turns −0 into 0.
     points
         .map(|p| p + Vector::ZERO)
-        .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))
+        .filter(|p| seen.insert(bits(*p)))
         .collect()
 }

@@ -5,7 +5,7 @@
 //! [`directions`], a little too small: they shape a proposal, and nothing else.
 
 use crate::clearance::convex::ConvexHull;
-use crate::clearance::solid::{Cuts, Part, cells, decomposed, distinct};
+use crate::clearance::solid::{Cuts, Part, SolidError, cells, distinct, enclosing};
 use parry3d_f64::math::Vector;
 
 /// Cuts of a body that moves.
@@ -25,17 +25,20 @@ const ADDED: f64 = 0.003;
 const LEFT_OUT: f64 = 0.04;
 
 /// Returns the parts of a mesh with some points: a single one, the hull, for a mesh that is nearly convex.
-pub(super) fn parts(triangles: &[[Vector; 3]], points: Vec<Vector>) -> Vec<Vec<Vector>> {
-    let cells = joined(cells(triangles, &CUTS));
+///
+/// # Errors
+/// [`SolidError::NotDecomposed`].
+pub(super) fn parts(triangles: &[[Vector; 3]], points: Vec<Vector>) -> Result<Vec<Vec<Vector>>, SolidError> {
+    let cells = joined(cells(triangles, &CUTS)?);
     if cells.len() > 1 {
         let directions = directions();
         let volume = |points: &[Vector]| Outline::of(points, &directions).volume;
-        let parts = decomposed(triangles, &points, &cells);
+        let parts = enclosing(triangles, &cells);
         if parts.iter().map(|part| volume(part)).sum::<f64>() <= (1.0 - LEFT_OUT) * volume(&points) {
-            return parts;
+            return Ok(parts);
         }
     }
-    vec![Part::around(points).corners]
+    Ok(vec![Part::around(points).corners])
 }
 
 /// Joins cells of a mesh.
@@ -128,10 +131,9 @@ impl Outline {
         };
         let points = distinct(directions.iter().filter_map(farthest));
         let volume = ConvexHull::of(&points).map_or(0.0, |hull| {
-            let (corners, faces) = hull.solid.to_trimesh();
-            let corner = |k: u32| corners[k as usize] - points[0];
+            let corner = |k: u32| hull.corners[k as usize] - points[0];
             let sixfold = |face: &[u32; 3]| corner(face[0]).dot(corner(face[1]).cross(corner(face[2])));
-            faces.iter().map(sixfold).sum::<f64>() / 6.0
+            hull.triangles.iter().map(sixfold).sum::<f64>() / 6.0
         });
         Self { points, volume }
     }

@@ -1,11 +1,6 @@
-use crate::clearance::distance::bracketed;
 use crate::clearance::solid::*;
-use crate::clearance::{ITERATIVE_ERROR_M, part as convex};
 use crate::fixtures::is_thorough;
-use nalgebra::Vector3;
-use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use nalgebra::{DMatrix, Rotation3, Vector3};
 use proptest::prelude::*;
 
 type Mesh = Vec<[Point3<f64>; 3]>;
@@ -37,32 +32,88 @@ fn trough() -> Mesh {
     .concat()
 }
 
-/// Distance of a point outside of the nearest of some hulls, by their planes, at most 0 within one. For unreliable hulls it is the distance
-/// of the point to the hull of the corners, less its stated error.
+/// Distance of a point from the nearest of some hulls.
 fn outside(parts: &[Vec<Point3<f64>>], point: Point3<f64>) -> f64 {
-    let p = Vector::new(point.x, point.y, point.z);
-    let beyond = |part: &Vec<Point3<f64>>| {
-        let points: Vec<_> = part.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-        let planes = Part::around(points).planes;
-        if planes.is_empty() {
-            return distance(part, point) - ITERATIVE_ERROR_M;
-        }
-        planes
-            .iter()
-            .map(|(n, at)| n.dot(p) - at)
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
-    parts.iter().map(beyond).fold(f64::INFINITY, f64::min)
+    let from = |part: &Vec<Point3<f64>>| distance(part, point);
+    parts.iter().map(from).fold(f64::INFINITY, f64::min)
 }
 
-/// Distance of a point from a hull.
-fn distance(points: &[Point3<f64>], point: Point3<f64>) -> f64 {
-    let points = points.to_vec();
-    let hull = convex::Part::new(&Shape::Hull { points }, Frame::base()).unwrap();
-    let at = Frame::base().offset(&RigidTransform::from(&Pose::translation(point.x, point.y, point.z)));
-    let ball = convex::Part::ball(1e-12, at);
-    let poses = RobotModel::irb120().unwrap().fk(&JointVector::zeros());
-    bracketed(&hull.place(&poses), &ball.place(&poses)).0.distance
+/// Distance of a point from the nearest mixture of some corners that was found: weights, none below 0 and of sum 1, that give a point.
+/// They are looked for as the corners lie, and once they are drawn out to be as high as wide, which finds them for thin hulls.
+///
+/// Independent of the product's hulls: a distance of 0 proves that the point is in the hull, whatever was done wrong here.
+fn distance(corners: &[Point3<f64>], point: Point3<f64>) -> f64 {
+    let ways: Vec<Vector3<f64>> = corners.iter().map(|corner| corner - point).collect();
+    let middle = ways.iter().sum::<Vector3<f64>>() / ways.len() as f64;
+    let spread = DMatrix::from_fn(3, ways.len().max(3), |row, column| {
+        ways.get(column).map_or(0.0, |way| (way - middle)[row])
+    })
+    .svd(true, false);
+    let (axes, lengths) = (spread.u.unwrap(), spread.singular_values);
+    let drawn = |way: &Vector3<f64>| {
+        Vector3::from_fn(|k, _| match (axes.column(k).dot(way), lengths[k]) {
+            (along, length) if length > 0.0 => along / length,
+            (along, _) => along,
+        })
+    };
+    let drawn: Vec<_> = ways.iter().map(drawn).collect();
+    let mixed = |weights: Vec<(usize, f64)>| weights.iter().map(|&(k, w)| ways[k] * w).sum::<Vector3<f64>>();
+    [&ways, &drawn]
+        .map(|ways| mixed(mixture(ways)).norm())
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Weights of a mixture of corners near the origin. They are improved as long as a corner lies beyond it (Wolfe 1976).
+fn mixture(ways: &[Vector3<f64>]) -> Vec<(usize, f64)> {
+    let mixed = |weights: &[(usize, f64)]| weights.iter().map(|&(k, w)| ways[k] * w).sum::<Vector3<f64>>();
+    let shortest = (0..ways.len()).min_by(|&a, &b| ways[a].norm().total_cmp(&ways[b].norm()));
+    let mut weights = vec![(shortest.unwrap(), 1.0)];
+    let mut best = (f64::INFINITY, weights.clone());
+    for _ in 0..500 {
+        let way = mixed(&weights);
+        if way.norm() >= best.0 {
+            break;
+        }
+        best = (way.norm(), weights.clone());
+        let beyond = (0..ways.len()).min_by(|&a, &b| way.dot(&ways[a]).total_cmp(&way.dot(&ways[b])));
+        let next = beyond.unwrap();
+        if best.0 < 1e-15 || weights.iter().any(|&(k, _)| k == next) {
+            break;
+        }
+        weights.push((next, 0.0));
+        while let Some(wanted) = nearest_weights(&weights, ways) {
+            // As far towards the wanted weights as none falls below 0.
+            let share = |&((_, old), new): &((usize, f64), f64)| if new < 0.0 { old / (old - new) } else { 1.0 };
+            let pairs = || weights.iter().copied().zip(wanted.iter().copied());
+            let least = pairs().map(|pair| share(&pair)).fold(1.0, f64::min);
+            let moved: Vec<_> = pairs()
+                .map(|((k, old), new)| (k, (old + (new - old) * least).max(0.0)))
+                .collect();
+            let stay: Vec<_> = moved.iter().copied().filter(|&(_, w)| w > 1e-15).collect();
+            let done = stay.len() == weights.len() || stay.is_empty();
+            weights = if stay.is_empty() { moved } else { stay };
+            let sum: f64 = weights.iter().map(|&(_, w)| w).sum();
+            weights.iter_mut().for_each(|(_, w)| *w /= sum);
+            if done || least == 1.0 {
+                break;
+            }
+        }
+    }
+    best.1
+}
+
+/// Weights, of sum 1, of the point nearest to the origin in the plane of some corners.
+fn nearest_weights(weights: &[(usize, f64)], ways: &[Vector3<f64>]) -> Option<Vec<f64>> {
+    let first = ways[weights[0].0];
+    if weights.len() == 1 {
+        return Some(vec![1.0]);
+    }
+    let edges: Vec<_> = weights[1..].iter().map(|&(k, _)| ways[k] - first).collect();
+    let matrix = DMatrix::from_fn(3, edges.len(), |row, column| edges[column][row]);
+    let found = matrix.svd(true, true).solve(&-first, 1e-14).ok()?;
+    let rest: Vec<f64> = found.iter().copied().collect();
+    Some([vec![1.0 - rest.iter().sum::<f64>()], rest].concat())
 }
 
 #[test]
@@ -70,7 +121,7 @@ fn decomposition_keeps_a_trough_hollow() {
     let middle = Point3::new(0.25, 0.2, 0.12);
     let hull = solid_parts(&trough(), SolidParts::Hull).unwrap();
     assert_eq!((hull.len(), hull[0].len()), (1, 8));
-    assert!(outside(&hull, middle) < -0.05);
+    assert!(outside(&hull, middle) < 1e-12);
     let parts = solid_parts(&trough(), SolidParts::Decomposed).unwrap();
     assert!(outside(&parts, middle) > 0.05, "{} parts", parts.len());
     assert_eq!(parts, solid_parts(&trough(), SolidParts::Decomposed).unwrap());
@@ -128,35 +179,146 @@ fn thickens_sheets_and_rejects_flat_point_sets() {
     }
 }
 
+/// Meshes that are hard to enclose: flat or nearly flat sheets, heaps of boxes, loose and thin triangles, all turned anyhow and rounded to
+/// some decimals, as files are.
+fn meshes() -> impl Strategy<Value = Mesh> {
+    let sheet = (1..5usize, 1..5usize, -9.0..-3.0f64, any::<u64>())
+        .prop_map(|(wide, long, warp, seed)| sheet(wide, long, warp, seed));
+    let triangles = (
+        prop::collection::vec(prop::array::uniform9(-0.3..0.3f64), 1..6),
+        -7.0..0.0f64,
+    )
+        .prop_map(|(loose, thin)| {
+            let squeezed =
+                |c: [f64; 9]| [0, 3, 6].map(|k| Point3::new(c[k], c[k + 1], c[k + 2] * f64::powf(10.0, thin)));
+            loose.into_iter().map(squeezed).collect::<Mesh>()
+        });
+    let size = prop_oneof![0.005..0.3f64, 1e-6..1e-3f64];
+    let boxes = prop::collection::vec((prop::array::uniform3(-0.3..0.3f64), prop::array::uniform3(size)), 1..4);
+    let boxes = boxes.prop_map(|boxes| {
+        let mesh = |(low, size): ([f64; 3], [f64; 3])| cuboid(low, [0, 1, 2].map(|i| low[i] + size[i]));
+        boxes.into_iter().flat_map(mesh).collect::<Mesh>()
+    });
+    let mesh = prop_oneof![
+        4 => sheet.clone(),
+        1 => triangles.clone(),
+        1 => boxes.clone(),
+        1 => (sheet, triangles, boxes).prop_map(|(a, b, c)| [a, b, c].concat()),
+    ];
+    (mesh, prop::array::uniform3(-3.2..3.2f64), 3..10i32).prop_map(|(mesh, [roll, pitch, yaw], decimals)| {
+        let turn = Rotation3::from_euler_angles(roll, pitch, yaw);
+        let unit = f64::powi(10.0, decimals);
+        let rounded = |p: Point3<f64>| (turn * p).map(|c| (c * unit).round() / unit);
+        mesh.into_iter().map(|triangle| triangle.map(rounded)).collect()
+    })
+}
+
+/// A grid of squares, each of two triangles, with heights up to `10^warp` \[m\].
+fn sheet(wide: usize, long: usize, warp: f64, seed: u64) -> Mesh {
+    let height = |i: usize, j: usize| {
+        let mixed = (seed ^ (31 * i + j + 1) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        f64::powf(10.0, warp) * mixed as f64 / f64::powi(2.0, 24)
+    };
+    let corner = |i: usize, j: usize| Point3::new(0.2 * i as f64 - 0.3, 0.15 * j as f64 - 0.2, height(i, j));
+    let squares = (0..wide).flat_map(|i| (0..long).map(move |j| (i, j)));
+    let halves = |(i, j): (usize, usize)| {
+        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    squares.flat_map(halves).collect()
+}
+
+/// Points of each triangle: its corners, its middle, and some between.
+fn samples(mesh: &Mesh, shares: &[[f64; 2]]) -> Vec<Point3<f64>> {
+    let of = |[a, b, c]: &[Point3<f64>; 3]| {
+        let within = shares
+            .iter()
+            .map(|[s, t]| if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (*s, *t) });
+        let point = |(s, t): (f64, f64)| a + (b - a) * s + (c - a) * t;
+        within.map(point).chain([*a, *b, *c]).collect::<Vec<_>>()
+    };
+    mesh.iter().flat_map(of).collect()
+}
+
+fn vectors(points: &[Point3<f64>]) -> Vec<Vector> {
+    points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect()
+}
+
+/// Greatest distance of a point of the surface from the parts that counts as enclosed \[m\]: what [`distance`] misses in thin boxes, seen
+/// up to 1.2e-9.
+const ENCLOSED_M: f64 = 1e-8;
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: if is_thorough() { 4 } else { 2 }, ..ProptestConfig::default() })]
-    /// Every point of every triangle is in a part, for any proposal. The pieces are boxes in a heap, and loose triangles.
+    #![proptest_config(ProptestConfig { cases: if is_thorough() { 5000 } else { 200 }, ..ProptestConfig::default() })]
+    /// Every point of every triangle is in a part, for any cells in place of a decomposition, and in the hull.
+    #[test]
+    fn parts_enclose_the_surface_for_any_cells(
+        mesh in meshes(),
+        cells in prop::collection::vec(prop::collection::vec(prop::array::uniform3(-0.5..0.5f64), 4..9), 0..6),
+        shares in prop::collection::vec(prop::array::uniform2(0.0..1.0f64), 4),
+    ) {
+        let triangles: Vec<[Vector; 3]> = mesh.iter().map(|t| t.map(|p| Vector::new(p.x, p.y, p.z))).collect();
+        let cells: Vec<_> = cells
+            .iter()
+            .map(|cell| Part::around(cell.iter().map(|&[x, y, z]| Vector::new(x, y, z)).collect()))
+            .collect();
+        let points = |part: Vec<Vector>| part.into_iter().map(|v| Point3::new(v.x, v.y, v.z)).collect::<Vec<_>>();
+        let parts: Vec<_> = enclosing(&triangles, &cells).into_iter().map(points).collect();
+        let all: Vec<Point3<f64>> = mesh.iter().flatten().copied().collect();
+        let hull = points(Part::around(distinct(vectors(&all).into_iter())).corners);
+        for point in samples(&mesh, &shares) {
+            let beyond = outside(&parts, point);
+            prop_assert!(beyond <= ENCLOSED_M, "{beyond} {point}");
+            let beyond = distance(&hull, point);
+            prop_assert!(beyond <= ENCLOSED_M, "{beyond} {point} of the hull");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: if is_thorough() { 300 } else { 2 }, ..ProptestConfig::default() })]
+    /// The same with the cells that the collision library proposes.
     #[test]
     fn every_point_of_the_surface_is_enclosed(
-        boxes in prop::collection::vec((prop::array::uniform3(-0.3..0.3f64), prop::array::uniform3(0.005..0.3f64)), 1..4),
-        loose in prop::collection::vec(prop::array::uniform9(-0.3..0.3f64), 0..6),
-        shares in prop::collection::vec(prop::array::uniform2(0.0..1.0f64), 8),
+        mesh in meshes(),
+        shares in prop::collection::vec(prop::array::uniform2(0.0..1.0f64), 4),
     ) {
-        let mut mesh: Mesh = Vec::new();
-        for (low, size) in boxes {
-            let high = [0, 1, 2].map(|i| low[i] + size[i]);
-            mesh.extend(cuboid(low, high));
-        }
-        mesh.extend(loose.iter().map(|c| [0, 3, 6].map(|k| Point3::new(c[k], c[k + 1], c[k + 2]))));
         for wanted in [SolidParts::Hull, SolidParts::Decomposed, SolidParts::Few] {
-            let parts = solid_parts(&mesh, wanted).unwrap();
-            for [a, b, c] in &mesh {
-                let within = shares.iter().map(|[s, t]| {
-                    let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (*s, *t) };
-                    a + (b - a) * s + (c - a) * t
-                });
-                for point in within.chain([*a, *b, *c]) {
-                    let beyond = outside(&parts, point);
-                    prop_assert!(beyond <= 1e-9, "{beyond} {point} {wanted:?}");
-                }
+            let parts = match solid_parts(&mesh, wanted) {
+                Ok(parts) => parts,
+                // Rounding may make it flat, and the library may fail.
+                Err(SolidError::Flat | SolidError::NotDecomposed) => continue,
+                Err(why) => return Err(TestCaseError::fail(why.to_string())),
+            };
+            for point in samples(&mesh, &shares) {
+                let beyond = outside(&parts, point);
+                prop_assert!(beyond <= ENCLOSED_M, "{beyond} {point} {wanted:?}");
             }
         }
     }
+}
+
+/// Neighbouring triangles of a rounded sheet have nearly the same normal. Faces that are merged by their normals miss corners of these
+/// four by 2 to 5 µm, and surface between corners by more.
+#[test]
+fn a_rounded_sheet_is_enclosed() {
+    for k in [87, 90, 155, 208] {
+        let turn = Rotation3::from_euler_angles(0.0021 * f64::from(k), 0.7 + 0.0003 * f64::from(k), 1.1);
+        let rounded = |p: Point3<f64>| (turn * p).map(|c| (c * 1e5).round() / 1e5);
+        let mesh: Mesh = sheet(4, 4, -12.0, 1).into_iter().map(|t| t.map(rounded)).collect();
+        let points = distinct(vectors(&mesh.iter().flatten().copied().collect::<Vec<_>>()).into_iter());
+        let corners = Part::around(points).corners;
+        let hull: Vec<_> = corners.iter().map(|v| Point3::new(v.x, v.y, v.z)).collect();
+        for point in mesh.iter().flatten() {
+            let beyond = distance(&hull, *point);
+            assert!(beyond <= ENCLOSED_M, "{beyond} {point} {k}");
+        }
+    }
+}
+
+#[test]
+fn a_panic_of_the_collision_library_is_no_panic_here() {
+    assert_eq!(guarded(|| [1, 2].iter().position(|k| [0][*k] == 3)), None);
 }
 
 /// Too many corners are refused before a hull is computed, for every interpretation of the mesh; the greatest allowed number is not.
