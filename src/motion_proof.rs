@@ -89,6 +89,9 @@ pub struct MotionReport {
     pub rules: Vec<JudgedRule>,
     /// True where the clearance is broken, and a check of the points alone finds nothing.
     pub only_between_points: bool,
+    /// Names of the obstacles that reach into the base.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub in_base: Vec<String>,
     /// Links that keep clear of nothing, as their description has no shape for them.
     pub shapeless: Vec<String>,
     /// Clearance of each pair of bodies.
@@ -172,6 +175,7 @@ impl MotionReport {
             only_between_points: proof
                 .least_at_knots_m
                 .is_some_and(|least_m| least_m >= rules.clearance_m && least_m > 0.0),
+            in_base: proof.in_base.iter().map(|overlap| overlap.body.name()).collect(),
             shapeless: proof.shapeless,
             clearance,
             assumptions: assumptions(motion, workcell, arm, rules, &proof.excluded),
@@ -297,7 +301,13 @@ impl MotionReport {
                 true => "; at the points all is clear",
                 false => "",
             };
-            return format!("{a} and {b} {how} ({required}){at}{between}");
+            return match self.in_base.contains(b) {
+                true => format!(
+                    "{b} reaches {} mm into {a}, and neither moves",
+                    rounded(-1e3 * seen_m, 2)
+                ),
+                false => format!("{a} and {b} {how} ({required}){at}{between}"),
+            };
         }
         let bound = measure.bound.map_or("nothing".to_owned(), millimetres_down);
         format!(
@@ -439,7 +449,10 @@ fn excluded_words(excluded: &[Exclusion]) -> Option<String> {
             "as they touch in every configuration tried",
         ),
         (ExclusionReason::CarriesTool, "as one carries the other"),
-        (ExclusionReason::NeitherMoves, "as neither body moves"),
+        (
+            ExclusionReason::NeitherMoves,
+            "as neither body moves (none overlap; a floor at height 0 is not compared with the base)",
+        ),
         (
             ExclusionReason::KeepsItsHeight,
             "as the link keeps its height over the floor",
@@ -562,7 +575,7 @@ fn reason_words(reason: ExclusionReason) -> &'static str {
         ExclusionReason::Neighbours => "neighbours",
         ExclusionReason::AlwaysTouching => "they touch in every configuration tried",
         ExclusionReason::CarriesTool => "one carries the other",
-        ExclusionReason::NeitherMoves => "neither moves",
+        ExclusionReason::NeitherMoves => "neither moves (they do not overlap; a floor at height 0 is not compared)",
         ExclusionReason::KeepsItsHeight => "the link keeps its height over the floor",
     }
 }

@@ -4,7 +4,7 @@
 //! of speed is part of the bound of the clearance (24.3), and no acceleration limit holds where a speed jumps.
 
 use crate::clearance::exclusions::{bodies_named_twice, bodies_without_shape};
-use crate::clearance::pairs::{self, PairBound};
+use crate::clearance::pairs::{self, PairBound, PairRule};
 use crate::error::ProveError;
 use crate::motion::joints;
 use crate::motion::piece::Piece;
@@ -15,10 +15,10 @@ use crate::report::requirement::Requirement;
 use crate::subject::{self, JointLimits};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::ClearanceModel;
+use platewash_workcell::clearance::{ClearanceModel, FixedOverlap, standing_overlaps};
 use platewash_workcell::job::{JobError, check_workcell};
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-use platewash_workcell::workcell::{Exclusion, Workcell};
+use platewash_workcell::workcell::{Exclusion, Workcell, is_pair};
 
 /// Rules that a motion of an arm must keep, besides the limits of the arm's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +48,10 @@ pub struct ArmMotionProof {
     pub checks: Vec<Check>,
     /// Clearance of each pair.
     pub clearance: Vec<PairBound>,
-    /// Pairs of bodies that are not judged, with the reason of each.
+    /// Pairs of bodies that no moment need be judged for, with the reason of each. Of those that do not move, none overlap.
     pub excluded: Vec<Exclusion>,
+    /// Obstacles that reach into the base. None may, and each has a line in the clearance.
+    pub in_base: Vec<FixedOverlap>,
     /// Names of the links of the arm that keep clear of nothing, as neither they nor the links that move with them have a shape.
     pub shapeless: Vec<String>,
     /// Least distance at the knots of the motion \[m\], where the clearance is violated: a check of these alone finds no less.
@@ -126,21 +128,35 @@ pub fn prove_arm_motion(
     let pieces = long_enough(motion.pieces().iter().map(Piece::from).collect())?;
     let timeline = timeline(&pieces, pieces.len())?;
     let mut clearance = pairs::judge_all(arm, rules.clearance_m, &model, &timeline, cancel)?;
+    clearance.extend(pairs::judge_still(rules.clearance_m, &model));
+    let standing = standing_overlaps(arm, &seen, &[], None)?;
+    clearance.extend(standing.iter().map(reaching));
     cancel.check()?;
     let mut checks = joint_checks(arm, &pieces, rules);
     checks.extend(pairs::checks(rules.clearance_m, &clearance));
     let is_violated = checks.last().is_some_and(|check| check.status == Status::Violated);
     let least_at_knots_m = if is_violated {
-        least_at_knots_m(&model, motion.pieces())
+        let at_knots_m = least_at_knots_m(&model, motion.pieces());
+        // Pairs that no joint moves apart are as near there as elsewhere.
+        let still_m = model.still_pairs().into_iter().map(|still| still.pair.distance_m);
+        let all_m = at_knots_m
+            .into_iter()
+            .chain(still_m)
+            .chain(standing.iter().map(|overlap| -overlap.by_m));
+        all_m.min_by(f64::total_cmp)
     } else {
         None
     };
+    let excluded = excluded.into_iter();
+    let not_judged = excluded.filter(|left_out| !clearance.iter().any(|line| is_pair_of(left_out, line)));
+    let excluded = not_judged.collect();
     world.checks_to_world(&mut checks);
     world.pairs_to_world(&mut clearance);
     Ok(ArmMotionProof {
         checks,
         clearance,
         excluded,
+        in_base: standing,
         shapeless: bodies_without_shape(arm)
             .into_iter()
             .flatten()
@@ -148,6 +164,21 @@ pub fn prove_arm_motion(
             .collect(),
         least_at_knots_m,
     })
+}
+
+/// Returns the line of an obstacle that reaches into the base.
+fn reaching(FixedOverlap { body, other, by_m }: &FixedOverlap) -> PairBound {
+    PairBound {
+        pair: [other.clone(), body.name()],
+        rule: PairRule::Clearance,
+        working_on: Vec::new(),
+        required_m: None,
+        status: Status::Violated,
+        at_least_m: Some(-by_m),
+        seen_m: Some(-by_m),
+        time_s: Some(0.0),
+        place_m: None,
+    }
 }
 
 /// Checks that the rules are numbers to compare with.
@@ -204,6 +235,11 @@ fn jump(pieces: &[Piece], limits: &JointVector) -> Option<Check> {
             ..Check::measured(Requirement::JointAcceleration, measure, worst)
         })
     })
+}
+
+/// True if a line is of the two bodies of an exclusion.
+fn is_pair_of(excluded: &Exclusion, PairBound { pair: [a, b], .. }: &PairBound) -> bool {
+    is_pair(&excluded.pair, (a, b))
 }
 
 /// Least distance over all pairs at the ends of the pieces \[m\].

@@ -105,6 +105,7 @@ pub fn prove_motion(
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
     let tips = Tips::new(&carrier, &subject, &carrier.along(&pieces), None);
     let mut clearance = pairs::judge_all(arm, subject.limits.clearance_m, &model, &timeline, cancel)?;
+    pairs::add_still(subject.limits.clearance_m, &model, &mut clearance);
     cancel.check()?;
     let mut checks = Vec::from(joints::checks(&pieces, &subject.limits.joints, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));

@@ -1,8 +1,10 @@
 //! Motions of an arm alone, against dense samples.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{ArmMotionProof, MotionRules, ProveError, Requirement, Status, Timing, prove_arm_motion};
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, ITERATIVE_ERROR_M};
@@ -171,6 +173,67 @@ fn refuses_what_cannot_be_judged() {
     cancelled.cancel();
     let given_up = prove_arm_motion(&motion, &good, &arm, &rules(), &cancelled);
     assert!(matches!(given_up, Err(ProveError::Cancelled(_))));
+}
+
+/// Pairs whose distance no joint changes are judged once. By hand: link 1 has a mast whose top is 0.95 m over the floor, 5 mm are required.
+#[test]
+fn judges_pairs_that_no_joint_moves_apart() {
+    let mast = r#"<link name="link_1">
+    <collision name="mast"><origin xyz="-0.16 0 0.6"/><geometry><cylinder radius="0.015" length="0.7"/></geometry></collision>"#;
+    let text = IRB120_URDF.replace(r#"<link name="link_1">"#, mast);
+    let arm = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    let turned = UnitQuaternion::from_scaled_axis(Vector3::new(std::f64::consts::PI, 0.0, 0.0));
+    let half_space = |name: &str, z: f64, turn| {
+        let pose = Pose::from_parts(Vector3::new(0.0, 0.0, z).into(), turn);
+        Obstacle::new(name, ObstacleShape::HalfSpace, pose)
+    };
+    let ceiling = |z: f64| half_space("ceiling", z, turned);
+    let floor = |z: f64| half_space("floor", z, UnitQuaternion::identity());
+    let block = |z: f64| {
+        let shape = Shape::Box { half_m: [0.015; 3] };
+        Obstacle::new("block", ObstacleShape::Convex(shape), Pose::translation(0.0, 0.0, z))
+    };
+    let proof = |obstacles: Vec<Obstacle>| {
+        let cell = Workcell::without_tool(&arm, Pose::identity(), obstacles).unwrap();
+        judged(&lines(&[joint_1(0.0), joint_1(0.3)], 2.0), &cell, &arm, &rules())
+    };
+    let line_of = |proof: &ArmMotionProof, pair: [&str; 2]| {
+        let line = proof.clearance.iter().find(|line| line.pair == pair);
+        line.map(|line| (line.status, line.at_least_m.unwrap()))
+    };
+    let fine = proof(vec![floor(0.0), ceiling(0.956), block(-0.015)]);
+    assert_eq!(fine.status(), Status::Proved, "{:?}", fine.checks);
+    let (_, kept_m) = line_of(&fine, ["link_1", "ceiling"]).unwrap();
+    assert!((kept_m - 0.006).abs() < 1e-9, "{kept_m}");
+    assert!(
+        fine.check(Requirement::Clearance)
+            .unwrap()
+            .measure
+            .unwrap()
+            .bound
+            .unwrap()
+            <= kept_m
+    );
+    assert!(
+        fine.excluded
+            .iter()
+            .all(|left_out| left_out.pair[0] != "link_1" || left_out.pair[1] != "ceiling")
+    );
+    assert_eq!(fine.in_base, []);
+    for (obstacle, pair) in [
+        (ceiling(0.954), ["link_1", "ceiling"]),
+        (ceiling(0.9), ["link_1", "ceiling"]),
+        (floor(0.2), ["link_1", "floor"]),
+        (floor(0.001), ["base_link", "floor"]),
+        (block(0.02), ["base_link", "block"]),
+    ] {
+        let broken = proof(vec![obstacle]);
+        assert_eq!(broken.status(), Status::Violated);
+        assert_eq!(line_of(&broken, pair).unwrap().0, Status::Violated, "{pair:?}");
+        // A check of the points finds it, too.
+        assert!(broken.least_at_knots_m.unwrap() < CLEARANCE_M);
+        assert_eq!(broken.in_base.is_empty(), pair[0] != "base_link" && pair[1] != "floor");
+    }
 }
 
 fn vector(size: f64) -> impl Strategy<Value = JointVector> {

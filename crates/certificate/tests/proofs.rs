@@ -3,8 +3,12 @@
 use crate::maker::{good, irb120, resealed};
 use platewash_certificate::Requirement::{Clearance, JointSpeed, TipSpeed};
 use platewash_certificate::{CertifyError, PairRule, ProveError, Status, certify, prove, prove_motion};
+use platewash_kinematics::Pose;
+use platewash_kinematics::geometry::Shape;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
+use platewash_workcell::clearance::exclusions;
 use platewash_workcell::plan::Process;
+use platewash_workcell::tool::ToolBody;
 use std::collections::BTreeSet;
 
 #[test]
@@ -112,7 +116,16 @@ fn reports_the_basis_of_the_verdict() {
     for (line, expected) in told.iter().zip(expected) {
         assert!(line.starts_with(expected), "{line}\n{expected}");
     }
-    assert_eq!(told.len(), 16, "{table}");
+    assert_eq!(told.len(), 17, "{table}");
+    assert!(
+        told[15].starts_with("  not checked   disabled by the SRDF: ")
+            && told[15].ends_with("; stands on the ground: \"base_link\" – \"floor\""),
+        "{table}"
+    );
+    assert_eq!(
+        told[16],
+        "  checked once  neither moves: \"base_link\" – \"post\"; stays at its height: \"link_1\" – \"floor\""
+    );
     let robot = irb120();
     let hash = &robot.sha256()[..12];
     assert!(
@@ -145,4 +158,29 @@ fn the_certificate_does_not_depend_on_the_planner() {
         assert_eq!(ours, allowed, "{section}");
     }
     assert!(!manifest.contains_key("build-dependencies") && !manifest.contains_key("target"));
+}
+
+/// Joint 6 turns a round body of the tool on the spot beside link 5, so that no moment need be judged; but the pair is.
+#[test]
+fn a_round_tool_in_the_link_behind_the_flange_is_in_the_way() {
+    let mut plan = good();
+    let world = &mut plan.job.workcell;
+    world.tool.bodies.push(ToolBody {
+        name: "ring".to_owned(),
+        shape: Shape::Cylinder {
+            radius_m: 0.03,
+            half_length_m: 0.02,
+        },
+        pose: Pose::translation(0.0, 0.0, 0.0),
+    });
+    world.exclusions = exclusions(&irb120(), &world.tool, &world.obstacles).unwrap();
+    let pair = ["link_5".to_owned(), "ring".to_owned()];
+    assert!(world.exclusions.iter().any(|left_out| left_out.pair == pair));
+    let certificate = prove(&resealed(plan), &irb120()).unwrap();
+    let check = certificate.check(Clearance).unwrap();
+    assert_eq!(check.status, Status::Violated);
+    assert_eq!(check.worst.pair.as_ref(), Some(&pair), "{check:?}");
+    // In front of the flange it is not, and has no line.
+    let whole = prove(&good(), &irb120()).unwrap();
+    assert!(whole.clearance.iter().all(|line| line.pair != ["link_5", "handle"]));
 }

@@ -395,6 +395,7 @@ fn keys_of_cause(error: &PlanError) -> Vec<TriedKey> {
             let all = [&MIN_DISTANCE, &PLATE_RADIUS, &COUNT, &PLATE_HEIGHT, &MOUNT];
             all.into_iter().map(Number).collect()
         }
+        PlanError::Job(JobError::StillNear { .. }) => vec![Number(&CLEARANCE), Number(&LENGTH), Number(&MOUNT)],
         _ => Vec::new(),
     };
     all.sort_by_key(|tried| tried.key() == CLEARANCE.key);

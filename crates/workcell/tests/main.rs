@@ -31,6 +31,7 @@ mod plate_load;
 mod plates_beside;
 mod random;
 mod region;
+mod still_pairs;
 mod surface;
 mod touching_pairs;
 mod trajectory;

@@ -18,8 +18,8 @@ use crate::subject::Subject;
 use crate::washing::reach;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
-use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::clearance::motion::{PairKind, PartPairs};
+use platewash_workcell::clearance::{ClearanceModel, StillPair};
 use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -86,7 +86,8 @@ struct Task {
     working_on: Vec<usize>,
 }
 
-/// Judges every pair, with one line for each rule that a pair is under. The `waived` pairs, by index, are only reported.
+/// Judges every pair, with one line for each rule that a pair is under. The `waived` pairs, by index, are only reported. Pairs whose
+/// distance no joint changes have a line where they break their rule, or are nearer than all others.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -99,17 +100,21 @@ pub(crate) fn judge(
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
     let tasks = tasks(subject, model, waived, timeline, schedule);
-    judge_tasks(
-        subject.robot,
-        subject.limits.clearance_m,
-        model,
-        &tasks,
-        timeline,
-        cancel,
-    )
+    let limit_m = subject.limits.clearance_m;
+    let mut lines = judge_tasks(subject.robot, limit_m, model, &tasks, timeline, cancel)?;
+    add_still(limit_m, model, &mut lines);
+    Ok(lines)
 }
 
-/// Judges every pair of a motion at which nothing may touch: one line for each pair.
+/// Adds the lines of pairs whose distance no joint changes, if they break their rule or are nearer than all others.
+pub(crate) fn add_still(limit_m: f64, model: &ClearanceModel, lines: &mut Vec<PairBound>) {
+    let must = lines.iter().filter(|line| line.rule == PairRule::Clearance);
+    let least = must.filter_map(|line| line.seen_m).fold(f64::INFINITY, f64::min);
+    let keeps_more = |line: &PairBound| line.status.is_kept() && line.seen_m.is_some_and(|seen_m| seen_m > least);
+    lines.extend(judge_still(limit_m, model).into_iter().filter(|line| !keeps_more(line)));
+}
+
+/// Judges every pair of a motion at which nothing may touch, but for those whose distance no joint changes: one line for each pair.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -129,6 +134,28 @@ pub(crate) fn judge_all(
     };
     let tasks: Vec<_> = (0..model.pair_count()).map(task).collect();
     judge_tasks(robot, limit_m, model, &tasks, timeline, cancel)
+}
+
+/// Judges the pairs whose distance no joint changes.
+pub(crate) fn judge_still(limit_m: f64, model: &ClearanceModel) -> Vec<PairBound> {
+    let of_pair = |StillPair { pair, at_least_m, .. }: &StillPair| {
+        let found = PairDistance {
+            seen_m: pair.distance_m,
+            place_m: pair.place_m,
+            ..PairDistance::with_bound(*at_least_m)
+        };
+        let rule = rule_of(pair.reduced_by_m);
+        line(
+            (&pair.a, &pair.b),
+            (rule, &[]),
+            Some(found),
+            limit_m - pair.reduced_by_m,
+        )
+    };
+    let all = model.still_pairs();
+    // What stands in front of the flange is nearer than others by intent.
+    let counts = all.iter().filter(|still| !still.is_mounted || !still.is_clear(limit_m));
+    counts.map(of_pair).collect()
 }
 
 fn judge_tasks(
@@ -191,13 +218,20 @@ fn judge_tasks(
     let names = model.pair_names();
     let lines = tasks.iter().zip(found);
     Ok(lines
-        .map(|(task, found)| line(names[task.pair], task, found, limit_of(task)))
+        .map(|(task, found)| {
+            let rule = (task.rule, &task.working_on[..]);
+            line(names[task.pair], rule, found, limit_of(task))
+        })
         .collect())
 }
 
 /// Rule of a pair that the job does not waive.
 fn usual_rule(model: &ClearanceModel, pair: usize) -> PairRule {
-    match model.reduced_by_m_of(pair) {
+    rule_of(model.reduced_by_m_of(pair))
+}
+
+fn rule_of(reduced_by_m: f64) -> PairRule {
+    match reduced_by_m {
         0.0 => PairRule::Clearance,
         _ => PairRule::Reduced,
     }
@@ -224,20 +258,25 @@ fn least_seen(found: &[Option<PairDistance>], tasks: &[Task]) -> f64 {
     seen.fold(f64::INFINITY, f64::min)
 }
 
-fn line((a, b): (&str, &str), task: &Task, found: Option<PairDistance>, limit_m: f64) -> PairBound {
+fn line(
+    (a, b): (&str, &str),
+    (rule, working_on): (PairRule, &[usize]),
+    found: Option<PairDistance>,
+    limit_m: f64,
+) -> PairBound {
     let measured = found.filter(|f| f.seen_m.is_finite());
     let judged =
         |found: PairDistance| Check::measured(Requirement::Clearance, measure(limit_m, &found), WorstCase::default());
-    let status = match (task.rule, found.map_or(Status::NotProved, |found| judged(found).status)) {
+    let status = match (rule, found.map_or(Status::NotProved, |found| judged(found).status)) {
         (PairRule::Touching, _) => Status::Proved,
         (PairRule::Waived, Status::Violated | Status::NotProved) => Status::Waived,
         (_, status) => status,
     };
     PairBound {
         pair: [a.to_owned(), b.to_owned()],
-        rule: task.rule,
-        working_on: task.working_on.clone(),
-        required_m: (task.rule == PairRule::Reduced).then_some(limit_m),
+        rule,
+        working_on: working_on.to_vec(),
+        required_m: (rule == PairRule::Reduced).then_some(limit_m),
         status,
         at_least_m: found.map(|f| f.at_least_m).filter(|b| b.is_finite()),
         seen_m: measured.map(|f| f.seen_m),

@@ -240,7 +240,11 @@ impl VerdictBasis {
             contact(&self.workcell.tool, &self.requirements, self.dry_run.as_ref()).map(|what| ("contact", what)),
         );
         lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
-        lines.push(("not checked", left_out(&self.workcell.exclusions)));
+        let (once, never) = self.left_out();
+        lines.push(("not checked", grouped(&never)));
+        if !once.is_empty() {
+            lines.push(("checked once", grouped(&once)));
+        }
         if !self.waived_pairs.is_empty() {
             let pairs = self
                 .waived_pairs
@@ -251,7 +255,35 @@ impl VerdictBasis {
         }
         lines
     }
+
+    /// Returns the pairs that are checked once, as their distance does not change, and those that are not checked; both with the reason in
+    /// words.
+    fn left_out(&self) -> (Vec<LeftOut<'_>>, Vec<LeftOut<'_>>) {
+        let obstacles = self.workcell.obstacles_from_base();
+        let is_ground = |name: &String| obstacles.iter().any(|o| o.name == *name && o.is_plain_floor());
+        let told = self
+            .workcell
+            .exclusions
+            .iter()
+            .map(|Exclusion { pair, reason }| match reason {
+                ExclusionReason::Srdf => (false, 0, "disabled by the SRDF", pair),
+                ExclusionReason::Neighbours => (false, 1, "neighbours", pair),
+                ExclusionReason::AlwaysTouching => (false, 2, "always touching", pair),
+                ExclusionReason::CarriesTool => (false, 3, "carries the tool", pair),
+                ExclusionReason::NeitherMoves if pair.iter().any(is_ground) => (false, 4, "stands on the ground", pair),
+                ExclusionReason::NeitherMoves => (true, 5, "neither moves", pair),
+                ExclusionReason::KeepsItsHeight => (true, 6, "stays at its height", pair),
+            });
+        let mut told: Vec<_> = told.collect();
+        told.sort_by_key(|(_, order, ..)| *order);
+        let (once, never): (Vec<_>, Vec<_>) = told.into_iter().partition(|(is_checked, ..)| *is_checked);
+        let [once, never] = [once, never].map(|all| all.into_iter().map(|(_, _, words, pair)| (words, pair)).collect());
+        (once, never)
+    }
 }
+
+/// Reason for leaving a pair out, in words, and the pair.
+type LeftOut<'a> = (&'static str, &'a [String; 2]);
 
 impl fmt::Display for VerdictBasis {
     /// Some compact lines; a name stands before the first of its lines.
@@ -579,28 +611,13 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
     (!told.is_empty()).then(|| told.join("; "))
 }
 
-/// Groups the excluded pairs by reason, in words.
-fn left_out(pairs: &[Exclusion]) -> String {
-    let reasons = [
-        (ExclusionReason::Srdf, "disabled by the SRDF"),
-        (ExclusionReason::Neighbours, "neighbours"),
-        (ExclusionReason::AlwaysTouching, "always touching"),
-        (ExclusionReason::CarriesTool, "carries the tool"),
-        (ExclusionReason::NeitherMoves, "neither moves"),
-        (ExclusionReason::KeepsItsHeight, "stays at its height"),
-    ];
-    let of = |reason| {
-        pairs
-            .iter()
-            .filter(move |e| e.reason == reason)
-            .map(|exclusion| pair_text(&exclusion.pair))
-            .collect::<Vec<_>>()
+/// Groups neighbouring pairs by reason, in words.
+fn grouped(pairs: &[LeftOut<'_>]) -> String {
+    let group = |group: &[LeftOut<'_>]| {
+        let pairs: Vec<_> = group.iter().map(|(_, pair)| pair_text(pair)).collect();
+        format!("{}: {}", group[0].0, pairs.join(", "))
     };
-    let said = reasons.map(|(reason, words)| (of(reason), words));
-    let said = said.into_iter().filter(|(pairs, _)| !pairs.is_empty());
-    let said: Vec<_> = said
-        .map(|(pairs, words)| format!("{words}: {}", pairs.join(", ")))
-        .collect();
+    let said: Vec<_> = pairs.chunk_by(|a, b| a.0 == b.0).map(group).collect();
     if said.is_empty() {
         "no pair".to_owned()
     } else {

@@ -10,7 +10,7 @@ use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{JobError, JobTerms, Overlap, WashJob};
+use platewash_workcell::job::{JobTerms, Overlap, WashJob};
 use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::trajectory::Trajectory;
 use platewash_workcell::wash_path::WashPath;
@@ -151,10 +151,7 @@ pub fn check(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
     let cancel = CancelToken::new();
     let watch = Watch::silent(&cancel);
     let seen = &*terms.seen_from_base();
-    let overlaps = terms.standing_overlaps(arm)?;
-    if !overlaps.is_empty() {
-        return Err(JobError::Standing(overlaps).into());
-    }
+    terms.check_standing(arm)?;
     check_apart(arm, terms)?;
     Pipeline::new(arm, (seen, &terms.workcell.mount), &seen.plates, &watch)?.check_homes()
 }

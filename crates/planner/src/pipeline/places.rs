@@ -302,7 +302,7 @@ fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> R
         return Ok(Some(overlap.to_string()));
     }
     match WashJob::new(arm.clone(), terms) {
-        Err(standing @ JobError::Standing(_)) => Ok(Some(standing.to_string())),
+        Err(standing @ (JobError::Standing(_) | JobError::StillNear { .. })) => Ok(Some(standing.to_string())),
         job => {
             let unwashable = Pipeline::of(&job?, watch)?.first_unwashable()?;
             Ok(unwashable)

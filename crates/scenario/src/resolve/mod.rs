@@ -217,10 +217,7 @@ impl Scenario {
         };
         if start.is_none() {
             // A body in an impossible place leaves no home either, and is the better reason.
-            let overlaps = terms.standing_overlaps(arm)?;
-            if !overlaps.is_empty() {
-                return Err(JobError::Standing(overlaps).into());
-            }
+            terms.check_standing(arm)?;
             let found = suggest_home(arm, &terms, &CancelToken::new())?.q_rad();
             terms.home_rad = [found, end.unwrap_or(found)];
         }

@@ -10,7 +10,7 @@ use crate::words::plate_name;
 use crate::workcell::{Obstacle, ObstacleShape};
 use nalgebra::Vector3;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{BodyPoses, Frame, JointVector, Pose, RobotModel};
+use platewash_kinematics::{BodyPoses, Frame, Pose, RobotModel};
 
 /// Body for which clearances are computed.
 #[derive(Debug, Clone)]
@@ -26,15 +26,6 @@ impl Body {
     /// True if one of its parts is the convex hull of a mesh.
     pub fn has_hull(&self) -> bool {
         self.parts.iter().any(Part::is_hull)
-    }
-
-    /// True if the body never gets away from an obstacle: the base, and over a half-space also the body that joint 1 turns there.
-    pub fn never_leaves(&self, obstacle: &Self, robot: &RobotModel) -> bool {
-        match self.kind {
-            BodyKind::Link(0) => true,
-            BodyKind::Link(1) => obstacle.kind == BodyKind::Floor && keeps_its_height(robot, obstacle),
-            _ => false,
-        }
     }
 
     /// Returns the parts to examine first: all parts, or the one that holds them.
@@ -111,19 +102,22 @@ pub(crate) fn is_of_arm(bodies: &[Body], name: &str) -> bool {
     bodies.iter().any(|body| body.name == name && body.kind.is_of_arm())
 }
 
-/// True if joint 1 turns about the normal of a half-space, so that the body it moves keeps its height over it.
-pub(crate) fn keeps_its_height(robot: &RobotModel, floor: &Body) -> bool {
-    let poses = robot.fk(&JointVector::zeros());
-    let [axis_1, ..] = poses.joint_axes();
-    let upright = |part: &Part| axis_1.dot(&part.rigid(&poses).rotation.column(2)).abs() > 1.0 - 1e-12;
-    floor.parts.iter().all(upright)
-}
-
 /// Returns the bodies of a world without plates.
 pub(crate) fn world(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Body>, ClearanceError> {
+    world_with(robot, |_| true, tool, obstacles)
+}
+
+/// Returns the bodies of a world without plates, and of the links only those on the arm's bodies that count.
+pub(crate) fn world_with<'a>(
+    robot: &RobotModel,
+    counts: impl Fn(usize) -> bool,
+    tool: &Tool,
+    obstacles: impl IntoIterator<Item = &'a Obstacle>,
+) -> Result<Vec<Body>, ClearanceError> {
     tool.check_mount(robot)?;
     let mut bodies = Vec::new();
-    for link in robot.links().iter().filter(|link| !link.collision.is_empty()) {
+    let links = robot.links().iter().filter(|link| counts(link.frame.body()));
+    for link in links.filter(|link| !link.collision.is_empty()) {
         let parts = link
             .collision
             .iter()

@@ -4,20 +4,22 @@
 //! one of the directions tried shows it: those of their faces and axes, of their nearest points, and the one in which the collision library
 //! would push them apart. The least value found is stated as the overlap.
 //!
-//! The margins of obstacles do not count here, as they apply to moving bodies. Nor does the arm count in the floor at height 0 that a job
-//! has by default.
+//! What stands may touch what it stands on, and neither moves. So these pairs need no clearance, and the margins of obstacles, which say
+//! how much more a moving body keeps, do not count. The floor at height 0 that a job has by default may reach into the base: it is the
+//! ground that the base stands on, or higher, and moving bodies keep clear of it.
 //!
 //! The distance of two plates, which do not move, is computed here, too.
 
 #[cfg(test)]
 mod tests;
 
-use crate::clearance::body::{Body, BodyKind, obstacle_body, place, plate_body, world};
+use crate::clearance::body::{Body, BodyKind, obstacle_body, place, plate_body, world_with};
 use crate::clearance::distance::bracketed;
 use crate::clearance::model::{ClearanceError, ClearanceModel, from_base};
 use crate::clearance::part::{Core, Extent, Part, PlacedPart};
 use crate::dry_run::DryRun;
 use crate::plate::Plate;
+use crate::tool::Tool;
 use crate::words::{plate_name, printable};
 use crate::workcell::{Obstacle, ObstacleShape, Workcell};
 use nalgebra::Vector6;
@@ -40,6 +42,17 @@ pub enum FixedBody {
     Plate(usize),
 }
 
+impl FixedBody {
+    /// Name of the body.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Obstacle(name) | Self::Parts(name) => name.clone(),
+            Self::Plate(index) => plate_name(*index),
+        }
+    }
+}
+
 impl fmt::Display for FixedBody {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -60,9 +73,8 @@ pub struct FixedOverlap {
     pub by_m: f64,
 }
 
-/// Finds the obstacles of a workcell that reach into its plates, except those that they hold, or into the bodies of the arm that never get
-/// away from them: its base, and for half-spaces also the body that joint 1 turns above them. Also finds the plates that reach into the
-/// base. Plates that are level with the base are checked with [`BaseFootprint::gap_m`]. The raised plates of a dry run are ignored, as
+/// Finds the obstacles of a workcell that reach into its plates, except those that they hold, or into the base of the arm. Also finds the
+/// plates that reach into the base. Plates that are level with the base are checked with [`BaseFootprint::gap_m`]. The raised plates of a dry run are ignored, as
 /// nothing is there; its real ones are those of its parent.
 ///
 /// [`BaseFootprint::gap_m`]: crate::layout::BaseFootprint::gap_m
@@ -84,10 +96,10 @@ pub fn standing_overlaps(
     let poses = robot.fk(&JointVector::zeros());
     let standing = if dry_run.is_some() { &[] } else { plates };
     let tilted: Vec<_> = (0..standing.len()).filter(|&i| !standing[i].is_level()).collect();
-    // If all plates lie level on the plain floor, no link counts: the arm's bodies are not needed.
+    // If all plates lie level on the plain floor, the base does not count.
     let arm = match tilted.is_empty() && counting.iter().all(|obstacle| obstacle.is_plain_floor()) {
         true => Vec::new(),
-        false => world(robot, &workcell.tool, &[])?,
+        false => world_with(robot, |body| body == 0, &Tool::none(robot), &[])?,
     };
     let mut bodies: Vec<Body> = Vec::with_capacity(standing.len());
     for (i, plate) in standing.iter().enumerate() {
@@ -101,8 +113,7 @@ pub fn standing_overlaps(
             margin_m: 0.0,
             ..obstacle.clone()
         })?;
-        // The default floor does not count the parts of an arm that reach below its own ground.
-        let stays = |link: &&Body| !obstacle.is_plain_floor() && link.never_leaves(&body, robot);
+        let stays = |link: &&Body| !obstacle.is_plain_floor() && link.kind == BodyKind::Link(0);
         let free = bodies
             .iter()
             .enumerate()
@@ -174,7 +185,7 @@ fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
 }
 
 /// Upper bound on the depth by which two parts overlap \[m\]; 0 or less if they do not.
-fn depth(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> f64 {
+pub(crate) fn depth(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> f64 {
     let (found, at_least) = bracketed(a, b);
     if a.outwards().is_some() || b.outwards().is_some() || at_least > 0.0 {
         return -found.distance;

@@ -18,6 +18,7 @@
 //! | a body of many parts, from the outside in | `tree.rs` |
 //! | which pairs are checked, and why the others are not; links that touch, as an SRDF | `pairs.rs` |
 //! | the distance of two parts: quickly, and between bounds | `distance.rs` |
+//! | pairs whose distance no joint changes, judged once | `still.rs` |
 //! | all pairs at one configuration | `model.rs` |
 //! | a quick yes or no for planners | `washing.rs` |
 //! | the convex parts of a mesh | `solid.rs` |
@@ -37,6 +38,7 @@ pub mod motion;
 mod pairs;
 mod part;
 mod solid;
+mod still;
 #[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests;
@@ -49,6 +51,7 @@ pub use crate::clearance::fixed_bodies::{FixedBody, FixedOverlap, gap_of_plates,
 pub use crate::clearance::model::{ClearanceError, ClearanceModel, NearestBodies, PairClearance, is_clear};
 pub use crate::clearance::pairs::{TouchingPairs, exclusions};
 pub use crate::clearance::solid::{SolidError, SolidParts, solid_parts};
+pub use crate::clearance::still::{StillPair, still_pairs};
 
 /// Greatest gap between the bounds of a stated distance between solids \[m\].
 pub const ITERATIVE_ERROR_M: f64 = distance::ERROR_M;

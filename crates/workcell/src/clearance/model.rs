@@ -8,6 +8,7 @@ use crate::clearance::distance::{Separation, bracketed};
 use crate::clearance::far::{Crowd, Pairs};
 use crate::clearance::pairs;
 use crate::clearance::part::PlacedPart;
+use crate::clearance::still::{Still, still};
 use crate::clearance::tree::Order;
 use crate::plate::Plate;
 use crate::words::printable;
@@ -82,6 +83,8 @@ pub struct ClearanceModel {
     /// Spheres that hold the bodies.
     pub(crate) balls: Vec<Ball>,
     pub(crate) pairs: Vec<(usize, usize)>,
+    /// Pairs whose distance no joint changes. Pairs that are checked may be among them.
+    pub(crate) still: Vec<Still>,
     /// Pairs that need not keep all of the required clearance.
     pub(crate) reduced: pairs::ReducedPairs,
     /// Pairs with bounded obstacles, and below all others.
@@ -110,10 +113,12 @@ impl ClearanceModel {
             bodies.push(body);
         }
         let pairs = pairs::choose(&bodies, &workcell.exclusions);
-        let reduced = pairs::reduced(&bodies, &pairs, &workcell.reduced_clearances)?;
+        let still = still(robot, &workcell.tool, &bodies);
+        let reduced = pairs::reduced(&bodies, &pairs, &still, &workcell.reduced_clearances)?;
         let (crowd, others) = Crowd::among(&bodies, &pairs, &robot.fk(&JointVector::zeros()));
         Ok(Self {
             pairs,
+            still,
             reduced,
             crowd,
             others,

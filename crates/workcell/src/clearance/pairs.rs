@@ -2,24 +2,20 @@
 //!
 //! Pairs of links that need no check are found if there is no list of them, and can be written as an SRDF.
 //!
-//! Bodies of a tool that joint 6 turns on the spot are recognised.
+//! Pairs whose distance no joint changes are left out here, and judged once: see [`crate::clearance::still`].
 
-use crate::clearance::body::{Body, BodyKind, is_of_arm, keeps_its_height, part_pairs, place, world};
+use crate::clearance::body::{Body, BodyKind, is_of_arm, part_pairs, place, world};
 use crate::clearance::distance::separation;
 use crate::clearance::model::ClearanceError;
+use crate::clearance::still::{CARRIER, Still, height_change_m, turn_m};
 use crate::tool::Tool;
 use crate::workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
-use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use platewash_kinematics::{JointVector, RobotModel};
 use serde::Serialize;
 use std::fmt::Write;
 
 /// Number of configurations sampled to find pairs that always touch.
 pub(crate) const SAMPLES: usize = 64;
-
-/// Body of the arm that carries joint 6. It is checked against the bodies that joint 6 moves relative to it.
-const CARRIER: usize = 5;
 
 /// Returns all pairs (indices of bodies) that can meet, without the excluded ones.
 pub(crate) fn choose(bodies: &[Body], exclusions: &[Exclusion]) -> Vec<(usize, usize)> {
@@ -39,9 +35,11 @@ pub(crate) type ReducedPairs = Vec<((usize, usize), f64)>;
 pub(crate) fn reduced(
     bodies: &[Body],
     pairs: &[(usize, usize)],
+    once: &[Still],
     stated: &[ReducedClearance],
 ) -> Result<ReducedPairs, ClearanceError> {
     let mut found = ReducedPairs::new();
+    let judged = || pairs.iter().copied().chain(once.iter().map(|still| still.pair));
     for ReducedClearance { pair, by_m, at_stop } in stated {
         let refused = |fault| {
             let pair = pair.clone();
@@ -50,28 +48,33 @@ pub(crate) fn reduced(
         if !at_stop && !pair.iter().all(|name| is_of_arm(bodies, name)) {
             return refused("one of them is not a body of the arm or its tool with a collision shape");
         }
-        let is_named = |&&(a, b): &&(usize, usize)| is_pair(pair, (&bodies[a].name, &bodies[b].name));
-        match pairs.iter().find(is_named) {
+        let is_named = |&(a, b): &(usize, usize)| is_pair(pair, (&bodies[a].name, &bodies[b].name));
+        match judged().find(is_named) {
             None => return refused("the pair is not checked"),
-            Some(pair) if found.iter().any(|(other, _)| other == pair) => return refused("it is stated twice"),
-            Some(pair) => found.push((*pair, *by_m)),
+            Some(pair) if found.iter().any(|(other, _)| *other == pair) => return refused("it is stated twice"),
+            Some(pair) => found.push((pair, *by_m)),
         }
     }
     Ok(found)
 }
 
-/// Returns the pairs that need not keep clear, with the reason: those that follow from an arm, its SRDF, its tool and its obstacles.
+/// Returns the pairs that no configuration need be checked for, with the reason: those that follow from an arm, its SRDF, its tool and its
+/// obstacles.
 ///
 /// With an SRDF these are the pairs of links that it disables; without one, neighbours and pairs that touch in every sampled configuration.
 /// Further pairs: the tool and the flange; bodies of the tool that are round about axis 6 and the link that carries joint 6, as they turn
-/// on the spot there; the base and the obstacles, which both stand still; a half-space and the body that joint 1 turns about its normal.
+/// on the spot there; the base and the obstacles, which both stand still; a half-space and the body that joint 1 turns about its normal. The
+/// distances that do not change are judged once: [`ClearanceModel::still_pairs`], and [`standing_overlaps`] for what stands.
+///
+/// [`ClearanceModel::still_pairs`]: crate::clearance::ClearanceModel::still_pairs
+/// [`standing_overlaps`]: crate::clearance::standing_overlaps
 ///
 /// # Errors
 /// [`ClearanceError`] for an invalid shape.
 pub fn exclusions(robot: &RobotModel, tool: &Tool, obstacles: &[Obstacle]) -> Result<Vec<Exclusion>, ClearanceError> {
     let bodies = world(robot, tool, obstacles)?;
     let pairs: Vec<_> = candidates(&bodies).collect();
-    let moves = |body: &Body| !turns_on_the_spot(robot, tool, body);
+    let moves = |body: &Body| turn_m(body).is_none();
     let mut reasons: Vec<_> = pairs
         .iter()
         .map(|&(a, b)| reason(robot, &bodies[a], &bodies[b], moves))
@@ -109,22 +112,6 @@ fn can_meet(a: &Body, b: &Body) -> bool {
     }
 }
 
-/// True if all bodies of the tool with the name of this one are round about axis 6.
-fn turns_on_the_spot(robot: &RobotModel, tool: &Tool, body: &Body) -> bool {
-    let flange = tool.mounting_frame(robot);
-    match body.kind {
-        BodyKind::Tool => {
-            let mut named = tool.bodies.iter().filter(|other| other.name == body.name);
-            named.all(|other| is_round_about_axis_6(&flange, &other.shape, &other.pose))
-        }
-        BodyKind::Sponge => {
-            let (shape, pose) = tool.sponge.free_body();
-            is_round_about_axis_6(&flange, &shape, &pose)
-        }
-        _ => false,
-    }
-}
-
 /// Returns the reason that a pair need not keep clear, as far as the bodies alone decide it. `moves` tells if a body of the tool moves
 /// relative to the one that carries joint 6.
 fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
@@ -139,7 +126,7 @@ fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body)
         (Link(i), Tool | Sponge) => carrying_reason(i, second, moves),
         (Tool | Sponge, Link(i)) => carrying_reason(i, first, moves),
         (Link(0), Floor | Obstacle) => Some(ExclusionReason::NeitherMoves),
-        (Link(1), Floor) => keeps_its_height(robot, second).then_some(ExclusionReason::KeepsItsHeight),
+        (Link(1), Floor) => height_change_m(robot, first, second).map(|_| ExclusionReason::KeepsItsHeight),
         _ => None,
     }
 }
@@ -242,24 +229,6 @@ fn escaped(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
-}
-
-/// Greatest distance of a body from axis 6 that counts as round about it \[m\], and greatest angle of its axis \[rad\]: the rounding of
-/// descriptions with five digits of an angle.
-const OFF: f64 = 1e-4;
-
-/// True if a body at `T_flange_body` of a mounting frame is round about axis 6, to [`OFF`]. Its distance from the body that carries joint 6
-/// is then the same in every configuration.
-pub(crate) fn is_round_about_axis_6(flange: &Frame, shape: &Shape, pose: &Pose) -> bool {
-    // Axis 6 is z of the frame of its body.
-    let body = flange.on_body().then(&RigidTransform::from(pose));
-    let is_on_axis = body.translation.xy().norm() <= OFF;
-    let is_along = body.rotation.column(2).xy().norm() <= OFF;
-    match shape {
-        Shape::Sphere { .. } => is_on_axis,
-        Shape::Cylinder { .. } | Shape::Capsule { .. } => is_on_axis && is_along,
-        Shape::Box { .. } | Shape::Hull { .. } => false,
-    }
 }
 
 #[cfg(test)]

@@ -85,6 +85,16 @@ impl Part {
         matches!(&self.core, Core::Solid(solid, _) if solid.as_convex_polyhedron().is_some())
     }
 
+    /// True for a ball.
+    pub fn is_ball(&self) -> bool {
+        matches!(self.core, Core::Segment(half) if half == 0.0)
+    }
+
+    /// True for a ball, and for a capsule or a cylinder, which are round about z of their frame.
+    pub fn is_round(&self) -> bool {
+        matches!(self.core, Core::Segment(_) | Core::Solid(_, Extent::Cylinder(..)))
+    }
+
     /// Builds the part of a link's shape. Fails for a mesh that has no volume or is too large.
     pub fn new(shape: &Shape, frame: Frame) -> Result<Self, HullFault> {
         Ok(match shape {

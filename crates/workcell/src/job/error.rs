@@ -1,6 +1,6 @@
 //! Errors of a job.
 
-use crate::clearance::{ClearanceError, FixedBody, FixedOverlap};
+use crate::clearance::{ClearanceError, FixedBody, FixedOverlap, StillPair};
 use crate::layout::MAX_PLATES;
 use crate::obstacle::ObstacleFault;
 use crate::plate::GREATEST_M;
@@ -75,6 +75,14 @@ pub enum JobError {
     /// Obstacles reach into plates or the arm's base, or plates reach into the base.
     #[error("{}", overlaps(.0))]
     Standing(Vec<FixedOverlap>),
+    /// Pairs of moving bodies are too near each other whose distance no joint changes.
+    #[error("{}", too_near(.pairs, *.required_m))]
+    StillNear {
+        /// The pairs.
+        pairs: Vec<StillPair>,
+        /// Clearance that is required of most pairs \[m\].
+        required_m: f64,
+    },
     /// A run of the paper's program is marked as a dry run.
     #[error("a run of the paper's program is not a dry run")]
     PaperDryRun,
@@ -135,6 +143,23 @@ fn overlaps(all: &[FixedOverlap]) -> String {
         String::new()
     };
     format!("{}{more}", few.join("; "))
+}
+
+fn too_near(pairs: &[StillPair], required_m: f64) -> String {
+    let one = |still: &StillPair| {
+        let [a, b] = [&still.pair.a, &still.pair.b].map(|name| printable(name));
+        let required = match still.is_mounted {
+            true => "no contact is allowed".to_owned(),
+            false => format!("{} are required", millimetres(still.pair.required_m(required_m))),
+        };
+        let kept = if still.at_least_m > 0.0 {
+            format!("keeps {} from", millimetres(still.at_least_m))
+        } else {
+            format!("reaches {} into", millimetres(-still.at_least_m))
+        };
+        format!("{a} {kept} {b} at every configuration, and {required}: no motion changes that")
+    };
+    pairs.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 /// End of a motion.

@@ -4,7 +4,7 @@
 //!
 //! Overlaps of plates with each other and with the arm's base are found here.
 
-use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_overlaps};
+use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_overlaps, still_pairs};
 use crate::dry_run::DryRun;
 use crate::job::error::JobError;
 use crate::job::measured_shape::MeasuredShape;
@@ -147,6 +147,25 @@ impl JobTerms {
     pub fn standing_overlaps(&self, arm: &RobotModel) -> Result<Vec<FixedOverlap>, ClearanceError> {
         let seen = self.seen_from_base();
         standing_overlaps(arm, &seen.workcell, &seen.plates, seen.dry_run.as_ref())
+    }
+
+    /// Checks that the bodies can be where they are at all: that none of those that stand overlap, and that the moving ones whose distance no
+    /// joint changes keep the required clearance.
+    ///
+    /// # Errors
+    /// [`JobError::Standing`], [`JobError::StillNear`]; [`ClearanceError`] for an invalid shape.
+    pub fn check_standing(&self, arm: &RobotModel) -> Result<(), JobError> {
+        let overlaps = self.standing_overlaps(arm)?;
+        if !overlaps.is_empty() {
+            return Err(JobError::Standing(overlaps));
+        }
+        let required_m = self.requirements.clearance_m;
+        let mut pairs = still_pairs(arm, &self.workcell)?;
+        pairs.retain(|still| !still.is_clear(required_m));
+        if pairs.is_empty() {
+            return Ok(());
+        }
+        Err(JobError::StillNear { pairs, required_m })
     }
 
     /// Checks that the terms can be computed with. NaN and infinity are refused.

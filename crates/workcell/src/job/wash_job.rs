@@ -37,10 +37,7 @@ impl WashJob {
                 return Err(JobError::Home { end, violation });
             }
         }
-        let overlaps = terms.standing_overlaps(&arm)?;
-        if !overlaps.is_empty() {
-            return Err(JobError::Standing(overlaps));
-        }
+        terms.check_standing(&arm)?;
         let from_base = match terms.seen_from_base() {
             Cow::Borrowed(_) => None,
             Cow::Owned(seen) => Some(Box::new(seen)),
