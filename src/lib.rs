@@ -18,6 +18,7 @@
 #[cfg(feature = "command")]
 pub mod cli;
 mod motion_proof;
+mod motion_stop;
 mod report;
 mod spirals;
 mod sweep;
@@ -41,7 +42,7 @@ pub use platewash_viewer as viewer;
 pub use platewash_workcell as workcell;
 
 // The way through: a scenario states a job, a job is planned, a plan is proved and simulated.
-pub use motion_proof::{MotionReport, prove_motion};
+pub use motion_proof::{MotionReport, judged_motion, prove_motion};
 pub use platewash_certificate::{Certificate, Certified, Check, ProveError, Requirement, certify, prove};
 pub use platewash_planner::{PlanError, PlannedJob, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};

@@ -1,9 +1,10 @@
 //! The proof of a motion of an arm alone, of any planner: for people and as data.
 
+use crate::motion_stop::{end_speeds, with_stop};
 use platewash_certificate::{
     ArmMotionProof, Check, Measure, MotionRules, PairBound, ProveError, Requirement, Status, Timing, prove_arm_motion,
 };
-use platewash_export::trajectory::{Interpolation, PointMotion};
+use platewash_export::trajectory::{ExactTime, Interpolation, PointMotion};
 use platewash_kinematics::words::{decimals_down, distinct_decimals, rounded};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
@@ -35,6 +36,12 @@ pub struct MotionMoment {
     pub point: usize,
     /// Share of the piece from that point to the next that is done, 0 to 1: in time, or of the line where the points have no times.
     pub share: f64,
+    /// Time since the last point \[s\], while the arm stops behind it; `None` before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopping_s: Option<f64>,
+    /// The time with all of its decimals.
+    #[serde(skip)]
+    exact: Option<ExactTime>,
     /// Joint positions \[rad\].
     pub q_rad: [f64; AXES],
 }
@@ -83,6 +90,16 @@ pub struct MotionReport {
     pub span_s: Option<[f64; 2]>,
     /// Required clearance \[m\].
     pub required_clearance_m: f64,
+    /// Greatest joint speeds at the first and at the last point \[rad/s\]; `None` where the points have no times.
+    pub end_speeds_rad_s: Option<[f64; 2]>,
+    /// Duration of the stop behind the last point \[s\]; `None` where none is judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop_s: Option<f64>,
+    /// Times of the first and the last point, with all of their decimals, and the time between them \[s\].
+    #[serde(skip)]
+    span: Option<[ExactTime; 2]>,
+    #[serde(skip)]
+    duration_s: f64,
     /// Names of the obstacles.
     pub obstacles: Vec<String>,
     /// The rules, each with its result.
@@ -98,6 +115,9 @@ pub struct MotionReport {
     pub clearance: Vec<PairBound>,
     /// Pairs of bodies that are not judged, with the reason of each.
     pub excluded: Vec<Exclusion>,
+    /// What the file states beside the motion, of which the verdict says nothing; one clause each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Assumptions of the verdict; one sentence each.
     pub assumptions: Vec<String>,
     /// The rules as the certificate has them, with times from that of the first point.
@@ -136,15 +156,28 @@ pub fn prove_motion(
     let rules = MotionRules {
         clearance_m,
         acceleration_rad_s2,
-        timing: motion.start_s.map_or(Timing::Free, |_| Timing::Stated),
+        rests_outside: motion.interpolation == Interpolation::Linear,
+        timing: motion.start.map_or(Timing::Free, |_| Timing::Stated),
     };
-    let proof = prove_arm_motion(&motion.motion, workcell, arm, &rules, cancel)?;
-    Ok(MotionReport::new(motion, workcell, arm, &rules, proof))
+    let judged = judged_motion(motion, acceleration_rad_s2.as_ref());
+    let proof = prove_arm_motion(&judged, workcell, arm, &rules, cancel)?;
+    Ok(MotionReport::new((motion, &judged), workcell, arm, &rules, proof))
+}
+
+/// Returns the motion that is judged: through the points, and to rest behind the last one where the points state speeds and there are
+/// acceleration limits \[rad/s²\], at which the arm brakes.
+#[must_use]
+pub fn judged_motion(motion: &PointMotion, acceleration_rad_s2: Option<&JointVector>) -> PiecewiseMotion {
+    let states_speeds = motion.start.is_some() && motion.interpolation != Interpolation::Linear;
+    match acceleration_rad_s2.filter(|limits| states_speeds && limits.iter().all(|limit| *limit > 0.0)) {
+        Some(limits) => with_stop(&motion.motion, limits),
+        None => motion.motion.clone(),
+    }
 }
 
 impl MotionReport {
     fn new(
-        motion: &PointMotion,
+        (motion, whole): (&PointMotion, &PiecewiseMotion),
         workcell: &Workcell,
         arm: &RobotModel,
         rules: &MotionRules,
@@ -155,7 +188,9 @@ impl MotionReport {
             Status::Proved => MotionVerdict::Proved,
             Status::NotProved | Status::Waived => MotionVerdict::NotProved,
         };
-        let shift = |time_s: Option<f64>| time_s.and_then(|t_s| Some(t_s + motion.start_s?));
+        let start_s = motion.start.map(ExactTime::seconds);
+        let shift = |time_s: Option<f64>| time_s.and_then(|t_s| Some(t_s + start_s?));
+        let stop_s = whole.duration_s() - motion.motion.duration_s();
         let mut clearance = proof.clearance;
         for pair in &mut clearance {
             pair.time_s = shift(pair.time_s);
@@ -167,19 +202,28 @@ impl MotionReport {
             robot: arm.name().to_owned(),
             points: motion.motion.pieces().len() + 1,
             interpolation: motion.interpolation.word(),
-            span_s: motion
-                .start_s
-                .map(|start_s| [start_s, start_s + motion.motion.duration_s()]),
+            span_s: start_s.map(|start_s| [start_s, start_s + motion.motion.duration_s()]),
+            span: motion
+                .start
+                .map(|start| [start, start.later(motion.motion.duration_s())]),
+            duration_s: motion.motion.duration_s(),
+            end_speeds_rad_s: start_s.map(|_| end_speeds(&motion.motion)),
+            stop_s: (stop_s > 0.0).then_some(stop_s),
             required_clearance_m: rules.clearance_m,
-            rules: proof.checks.iter().map(|check| judged(check, motion, arm)).collect(),
+            rules: proof
+                .checks
+                .iter()
+                .map(|check| judged(check, (motion, whole), arm))
+                .collect(),
             only_between_points: proof
                 .least_at_knots_m
                 .is_some_and(|least_m| least_m >= rules.clearance_m && least_m > 0.0),
             in_base: proof.in_base.iter().map(|overlap| overlap.body.name()).collect(),
             shapeless: proof.shapeless,
             clearance,
-            assumptions: assumptions(motion, workcell, arm, rules, &proof.excluded),
+            assumptions: assumptions(motion, workcell, arm, (rules, stop_s), &proof.excluded),
             excluded: proof.excluded,
+            notes: motion.notes.clone(),
             obstacles: workcell
                 .obstacles
                 .iter()
@@ -204,11 +248,13 @@ impl MotionReport {
             (MotionVerdict::Proved, _) => {
                 let bound_m = self.bound_m().map(|m| m.max(self.required_clearance_m));
                 let least = bound_m.map_or_else(String::new, |m| format!("at least {}", millimetres_down(m)));
-                let span = self.span_s.map_or("for any timing".to_owned(), |[from, to]| {
-                    format!("over {} s", rounded(to - from, 6))
+                let span = self.span_s.map_or("for any timing".to_owned(), |_| {
+                    format!("over {} s", rounded(self.duration_s, 6))
                 });
                 format!(
-                    "PROVED: a motion through {points} {span} keeps its joint limits, and clearance {least} ({required})"
+                    "PROVED: a motion through {points} {span} keeps its joint limits, and clearance {least} ({required}){}{}",
+                    self.ends_words(),
+                    self.notes.iter().map(|note| format!("; {note}")).collect::<String>()
                 )
             }
             (MotionVerdict::Broken, Some(rule)) => format!("BROKEN: {}", self.fault_words(rule, arm)),
@@ -218,6 +264,26 @@ impl MotionReport {
                 count_with_noun(self.shapeless.len(), "link"),
                 self.shapeless.join(", ")
             ),
+        }
+    }
+
+    /// Speeds at the ends, and what is judged behind them; empty for a motion from rest to rest.
+    fn ends_words(&self) -> String {
+        let [start, end] = self.end_speeds_rad_s.unwrap_or_default();
+        let at = |speed: f64| format!("{} rad/s", rounded(speed, 4));
+        let starts = (start > 0.0).then(|| format!("it starts at {}", at(start)));
+        let ends = (end > 0.0).then(|| match self.stop_s {
+            Some(stop_s) => format!(
+                "it ends at {} and stops within {} s, judged, too",
+                at(end),
+                rounded(stop_s, 4)
+            ),
+            None => format!("it ends at {}, and what follows is not judged", at(end)),
+        });
+        let told: Vec<_> = starts.into_iter().chain(ends).collect();
+        match told.is_empty() {
+            true => String::new(),
+            false => format!("; {}", told.join("; ")),
         }
     }
 
@@ -317,12 +383,20 @@ impl MotionReport {
     }
 }
 
+/// A joint position for people: six digits, none beyond the ninth decimal \[rad\].
+fn position(q_rad: f64) -> f64 {
+    let shown = rounded(q_rad, 6);
+    let shown = (shown * 1e9).round() / 1e9;
+    // Adding zero turns −0 into 0.
+    shown + 0.0
+}
+
 /// A length in millimetres, rounded down to hundredths.
 fn millimetres_down(length_m: f64) -> String {
     format!("{} mm", decimals_down(1e3 * length_m, 2))
 }
 
-fn judged(check: &Check, motion: &PointMotion, arm: &RobotModel) -> JudgedRule {
+fn judged(check: &Check, motion: (&PointMotion, &PiecewiseMotion), arm: &RobotModel) -> JudgedRule {
     JudgedRule {
         requirement: check.requirement,
         status: check.status,
@@ -332,26 +406,33 @@ fn judged(check: &Check, motion: &PointMotion, arm: &RobotModel) -> JudgedRule {
             .joint
             .and_then(|joint| Some(arm.joints().get(joint)?.name.clone())),
         pair: check.worst.pair.clone(),
-        worst: check
-            .worst
-            .time_s
-            .and_then(|t_s| moment(&motion.motion, motion.start_s, t_s)),
+        worst: check.worst.time_s.and_then(|t_s| moment(motion, t_s)),
         place_m: check.worst.place_m,
     }
 }
 
 /// The moment of a motion at a time from its start \[s\].
-fn moment(motion: &PiecewiseMotion, start_s: Option<f64>, t_s: f64) -> Option<MotionMoment> {
-    let point = motion
-        .pieces()
-        .partition_point(|piece| piece.t_s[0] <= t_s)
-        .saturating_sub(1);
-    let piece = motion.pieces().get(point)?;
+fn moment((motion, whole): (&PointMotion, &PiecewiseMotion), t_s: f64) -> Option<MotionMoment> {
+    let pieces = motion.motion.pieces().len();
+    let begun = whole.pieces().partition_point(|piece| piece.t_s[0] <= t_s);
+    let index = match t_s <= motion.motion.duration_s() {
+        true => begun.min(pieces),
+        false => begun,
+    }
+    .saturating_sub(1);
+    let piece = whole.pieces().get(index)?;
     let [q, _] = piece.at(t_s);
+    let (point, share, stopping_s) = match index < pieces {
+        true => (index, ((t_s - piece.t_s[0]) / piece.length_s()).clamp(0.0, 1.0), None),
+        false => (pieces, 0.0, Some(t_s - motion.motion.duration_s())),
+    };
+    let exact = motion.start.map(|start| start.later(t_s));
     Some(MotionMoment {
-        time_s: start_s.map(|start_s| start_s + t_s),
+        time_s: exact.map(ExactTime::seconds),
         point,
-        share: ((t_s - piece.t_s[0]) / piece.length_s()).clamp(0.0, 1.0),
+        share,
+        stopping_s,
+        exact,
         q_rad: q.into(),
     })
 }
@@ -361,10 +442,10 @@ fn assumptions(
     motion: &PointMotion,
     workcell: &Workcell,
     arm: &RobotModel,
-    rules: &MotionRules,
+    (rules, stop_s): (&MotionRules, f64),
     excluded: &[Exclusion],
 ) -> Vec<String> {
-    let timed = motion.start_s.is_some();
+    let timed = motion.start.is_some();
     let mut all = vec![
         controller_words(motion.interpolation, timed).to_owned(),
         "The motion begins at the first point; how the arm gets there is not judged.".to_owned(),
@@ -379,6 +460,14 @@ fn assumptions(
             }
         ),
     ];
+    if stop_s > 0.0 {
+        all.push(
+            "Behind the last point each joint brakes on its own, at its stated acceleration limit, until it rests."
+                .to_owned(),
+        );
+    } else if rules.acceleration_rad_s2.is_some() && rules.rests_outside {
+        all.push("The arm rests before the first point and after the last.".to_owned());
+    }
     let fixed: BTreeMap<_, _> = arm.fixed_joints().iter().chain(&motion.fixed).collect();
     if !fixed.is_empty() {
         let words: Vec<_> = fixed.iter().map(|(name, at)| format!("{name} at {at}")).collect();
@@ -465,7 +554,17 @@ fn excluded_words(excluded: &[Exclusion]) -> Option<String> {
 impl fmt::Display for MotionMoment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(time_s) = self.time_s {
-            write!(f, "at {} s, ", rounded(time_s, 7))?;
+            match self.exact {
+                Some(exact) => write!(f, "at {exact} s, ")?,
+                None => write!(f, "at {} s, ", rounded(time_s, 7))?,
+            }
+        }
+        if let Some(stopping_s) = self.stopping_s {
+            return write!(
+                f,
+                "{} s after the last point, while the arm stops",
+                rounded(stopping_s, 7)
+            );
         }
         match self.share {
             0.0 => write!(f, "at point {}", self.point),
@@ -487,7 +586,7 @@ impl fmt::Display for MotionReport {
         writeln!(f, "{}", self.headline)?;
         let worst = self.at_fault().or(self.rules.last()).and_then(|rule| rule.worst);
         if let Some(moment) = worst {
-            let q: Vec<_> = moment.q_rad.iter().map(|q| rounded(*q, 6).to_string()).collect();
+            let q: Vec<_> = moment.q_rad.iter().map(|q| position(*q).to_string()).collect();
             writeln!(f, "joint positions there [rad]: {}", q.join(", "))?;
         }
         writeln!(
@@ -534,8 +633,8 @@ impl fmt::Display for MotionReport {
 impl MotionReport {
     fn span_words(&self) -> String {
         let points = count_with_noun(self.points, "point");
-        match self.span_s {
-            Some([from, to]) => format!("{points} from {} s to {} s", rounded(from, 7), rounded(to, 7)),
+        match self.span {
+            Some([from, to]) => format!("{points} from {from} s to {to} s"),
             None => format!("{points} without times"),
         }
     }

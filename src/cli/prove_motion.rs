@@ -17,7 +17,7 @@ use platewash::scenario::{ArmError, MeshPlaces, Note, ObstacleText, RobotSection
 use platewash::viewer::page::html;
 use platewash::viewer::view::{ArmMotion, View};
 use platewash::workcell::workcell::Workcell;
-use platewash::{Failure, JointVector, Pose, RobotModel, prove_motion};
+use platewash::{Failure, JointVector, Pose, RobotModel, judged_motion, prove_motion};
 use std::path::PathBuf;
 
 /// Longest trajectory that is read \[bytes\].
@@ -172,7 +172,7 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
     });
     let motion = file.motion(&arm, choice)?;
     let limits = arguments.acceleration_limits.map(JointVector::from);
-    if limits.is_some() && motion.start_s.is_none() {
+    if limits.is_some() && motion.start.is_none() {
         bail!("--acceleration-limits: {name} has no times, so nothing is known of accelerations; leave it out");
     }
     let proved = options.during("proving the motion", || {
@@ -185,7 +185,7 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
     if let Some(file) = &arguments.page {
         let shown = ArmMotion {
             name: &name,
-            motion: &motion.motion,
+            motion: &judged_motion(&motion, limits.as_ref()),
             workcell: &cell,
             robot: &arm,
             clearance_m: arguments.clearance,

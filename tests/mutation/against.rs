@@ -61,7 +61,7 @@ const WORLD: [Case; 17] = [
         }
     }),
     Case(r#"workcell.tool.bodies["handle"].pose.position_m[2]"#, true, |j| {
-        j.workcell.tool.bodies[0].pose.translation.z -= 1e-3
+        j.workcell.tool.bodies[0].pose.translation.z += 1e-3
     }),
     Case("workcell.tool.sponge.radius_m", true, |j| {
         j.workcell.tool.sponge.radius_m += 1e-4

@@ -27,6 +27,8 @@ pub struct MotionRules {
     pub clearance_m: f64,
     /// Greatest joint accelerations \[rad/s²\]; `None` to judge none.
     pub acceleration_rad_s2: Option<JointVector>,
+    /// True if the arm rests before the motion and after it: a speed at either end is a jump, and no acceleration limit holds.
+    pub rests_outside: bool,
     /// Meaning of the motion's times.
     pub timing: Timing,
 }
@@ -39,6 +41,10 @@ pub enum Timing {
     /// The times only order the positions. Neither speeds nor accelerations are judged; positions and clearance hold for any timing.
     Free,
 }
+
+/// Error of the length of a piece as a part of the time at its end: each of two times is rounded when it is read and when it is counted from
+/// the first.
+const TIME_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Proof about a motion of an arm.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +102,7 @@ impl ArmMotionProof {
 /// let cell = Workcell::without_tool(&arm, Pose::identity(), Vec::new())?;
 /// let ends = [JointVector::zeros(), JointVector::repeat(0.5)];
 /// let motion = PiecewiseMotion::new(vec![MotionPiece::line([0.0, 1.0], ends)])?;
-/// let rules = MotionRules { clearance_m: 0.005, acceleration_rad_s2: None, timing: Timing::Stated };
+/// let rules = MotionRules { clearance_m: 0.005, acceleration_rad_s2: None, rests_outside: false, timing: Timing::Stated };
 /// let proof = prove_arm_motion(&motion, &cell, &arm, &rules, &CancelToken::new())?;
 /// assert_eq!(proof.status(), Status::Proved);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -125,7 +131,8 @@ pub fn prove_arm_motion(
         ..seen
     };
     let model = ClearanceModel::new(arm, &seen, &[])?;
-    let pieces = long_enough(motion.pieces().iter().map(Piece::from).collect())?;
+    let piece = |piece: &MotionPiece| Piece::from(piece).with_length_within(TIME_ROUNDING * piece.t_s[1]);
+    let pieces = long_enough(motion.pieces().iter().map(piece).collect())?;
     let timeline = timeline(&pieces, pieces.len())?;
     let mut clearance = pairs::judge_all(arm, rules.clearance_m, &model, &timeline, cancel)?;
     clearance.extend(pairs::judge_still(rules.clearance_m, &model));
@@ -207,19 +214,31 @@ fn joint_checks(arm: &RobotModel, pieces: &[Piece], rules: &MotionRules) -> Vec<
         checks.push(speed);
     }
     if let Some(limits) = stated {
-        checks.push(jump(pieces, &limits).unwrap_or(acceleration));
+        checks.push(jump(pieces, &limits, rules.rests_outside).unwrap_or(acceleration));
     }
     checks
 }
 
-/// Returns the violated check of accelerations at the first knot where a speed jumps by more than its rounding, if there is one.
-fn jump(pieces: &[Piece], limits: &JointVector) -> Option<Check> {
-    pieces.windows(2).find_map(|pair| {
-        let by = pair[0].jump_to(&pair[1]);
+/// Returns the violated check of accelerations at the first knot where a speed jumps by more than its rounding, if there is one. Where the
+/// arm rests outside of the motion, the ends count, too.
+fn jump(pieces: &[Piece], limits: &JointVector, rests_outside: bool) -> Option<Check> {
+    let inside = pieces.windows(2).map(|pair| {
         let rounding = pair[0].rounding().speed + pair[1].rounding().speed;
+        (pair[1].start_s, pair[0].jump_to(&pair[1]), rounding)
+    });
+    let outside = |piece: Option<&Piece>, end: usize| {
+        let piece = piece.filter(|_| rests_outside)?;
+        let time_s = piece.start_s + if end == 0 { 0.0 } else { piece.length_s };
+        Some((time_s, piece.end_speeds()[end].abs(), piece.rounding().speed))
+    };
+    let jumps = outside(pieces.first(), 0)
+        .into_iter()
+        .chain(inside)
+        .chain(outside(pieces.last(), 1));
+    let mut jumps = jumps.map(|(time_s, by, rounding)| {
         let joint = (0..AXES).find(|&joint| by[joint] > rounding[joint])?;
         let worst = WorstCase {
-            time_s: Some(pair[1].start_s),
+            time_s: Some(time_s),
             joint: Some(joint),
             ..WorstCase::default()
         };
@@ -234,7 +253,8 @@ fn jump(pieces: &[Piece], limits: &JointVector) -> Option<Check> {
             status: Status::Violated,
             ..Check::measured(Requirement::JointAcceleration, measure, worst)
         })
-    })
+    });
+    jumps.find_map(|jump| jump)
 }
 
 /// True if a line is of the two bodies of an exclusion.

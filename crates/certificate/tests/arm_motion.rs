@@ -31,6 +31,7 @@ fn rules() -> MotionRules {
     MotionRules {
         clearance_m: CLEARANCE_M,
         acceleration_rad_s2: None,
+        rests_outside: false,
         timing: Timing::Stated,
     }
 }
@@ -123,6 +124,7 @@ fn no_acceleration_limit_holds_where_a_speed_jumps() {
     let straight = lines(&[joint_1(0.0), joint_1(0.1), joint_1(0.2)], 1.0);
     assert_eq!(check(&straight, &stated).unwrap().status, Status::Proved);
     let free = MotionRules {
+        rests_outside: false,
         timing: Timing::Free,
         ..stated
     };
@@ -135,6 +137,7 @@ fn speeds_are_judged_where_times_are_stated_alone() {
     let cell = cell(&arm, Pose::identity());
     let fast = lines(&[joint_1(0.0), joint_1(0.2)], 1e-3);
     let free = MotionRules {
+        rests_outside: false,
         timing: Timing::Free,
         ..rules()
     };

@@ -198,6 +198,9 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
             corner_m: if rests { None } else { Some(0.0) },
         });
     }
+    if let Some(places) = speeds {
+        check_rest(&table, places, &points)?;
+    }
     let [_, .., last] = &mut points[..] else {
         let (line, column) = (points.last().map_or(1, |point| point.place.line), None);
         let reason = format!("expected two rows at least, found {}", points.len());
@@ -219,6 +222,20 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         tool: None,
         checks_start: false,
     })
+}
+
+/// Checks that the arm rests in the first row and in the last, as the text beside the table says.
+fn check_rest(table: &NumberTable<'_>, places: [usize; AXES], points: &[ReadPoint]) -> Result<(), TableError> {
+    let ends = [("first", points.first()), ("last", points.last())];
+    for (which, point) in ends.into_iter().filter_map(|(which, point)| Some((which, point?))) {
+        let speeds = point.qd_rad_s.iter().flatten();
+        if let Some((place, speed)) = places.into_iter().zip(speeds).find(|(_, speed)| **speed != 0.0) {
+            let reason =
+                format!("expected a speed of 0 in the {which} row, in which the arm rests; found {speed} rad/s");
+            return table.refused(point.place.line, place, reason);
+        }
+    }
+    Ok(())
 }
 
 /// The share of the plan's speed: the same in every row.

@@ -189,3 +189,30 @@ fn exports_a_table_with_its_explanation() {
         assert!(words.contains(said), "{said}: {words}");
     }
 }
+
+/// The text beside a table promises rest at both ends.
+#[test]
+fn a_table_that_begins_or_ends_at_speed_is_refused() {
+    let rest = "0,0,0,0,0,0";
+    let table = |first: &str, last: &str| {
+        let names: Vec<_> = (1..7)
+            .map(|k| format!("q{k}_rad"))
+            .chain((1..7).map(|k| format!("qd{k}_rad_s")))
+            .collect();
+        read(&format!(
+            "t_s,{}\n0,{rest},{first}\n1,{rest},0.1,0,0,0,0,0\n2,{rest},{last}\n",
+            names.join(",")
+        ))
+    };
+    assert!(table(rest, rest).is_ok());
+    let refused = table(rest, "0,0,0.5,0,0,0").unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "x.csv:4: column 10 (qd3_rad_s): expected a speed of 0 in the last row, in which the arm rests; found 0.5 rad/s"
+    );
+    let refused = table("0,0,0,0,0,-1e-3", rest).unwrap_err().to_string();
+    assert!(
+        refused.starts_with("x.csv:2: column 13 (qd6_rad_s): expected a speed of 0 in the first row"),
+        "{refused}"
+    );
+}

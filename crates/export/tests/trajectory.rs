@@ -1,6 +1,8 @@
 //! Trajectories of files: what is read, and what is refused with its line.
 
-use platewash_export::trajectory::{Interpolation, JointPoints, PointMotion, PointsError, TrajectoryFile};
+use platewash_export::trajectory::{ExactTime, Interpolation, JointPoints, PointMotion, PointsError, TrajectoryFile};
+use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 
 fn arm() -> RobotModel {
@@ -45,7 +47,10 @@ fn reads_messages_with_joints_by_name() {
     let goal = format!("trajectory:\n{indented}path_tolerance: []\ngoal_time_tolerance: {{sec: 1, nanosec: 0}}\n");
     for text in [bare.clone(), format!("{bare}---\n"), robot, goal] {
         let found = motion("a.yaml", &text).unwrap();
-        assert_eq!((found.interpolation, found.start_s), (Interpolation::Cubic, Some(0.5)));
+        assert_eq!(
+            (found.interpolation, found.start.map(ExactTime::seconds)),
+            (Interpolation::Cubic, Some(0.5))
+        );
         let [piece] = found.motion.pieces() else {
             panic!("{found:?}")
         };
@@ -97,14 +102,21 @@ fn reads_tables_by_column() {
                 1,0,0,0,0,0,0,0,0,0,0,0,0\n2,1,0.2,0.3,0.4,0.5,0.6,0.7,0,0,0,0,0\n";
     let found = motion("a.csv", full).unwrap();
     assert_eq!(
-        (found.interpolation, found.start_s, found.motion.duration_s()),
+        (
+            found.interpolation,
+            found.start.map(ExactTime::seconds),
+            found.motion.duration_s()
+        ),
         (Interpolation::Cubic, Some(1.0), 1.0)
     );
     assert_eq!(found.motion.pieces()[0].qd_rad_s[1][0], 0.7);
     // Names of joints, in any order, without times; with a comment.
     let named = "# a path\njoint_2,joint_1,joint_3,joint_4,joint_5,joint_6\n0,0,0,0,0,0\n0.2,0.1,0.3,0.4,0.5,0.6\n0.2,0.1,0.3,0.4,0.5,0.6\n";
     let found = motion("A.CSV", named).unwrap();
-    assert_eq!((found.interpolation, found.start_s), (Interpolation::Linear, None));
+    assert_eq!(
+        (found.interpolation, found.start.map(ExactTime::seconds)),
+        (Interpolation::Linear, None)
+    );
     let pieces = found.motion.pieces();
     assert_eq!(pieces[0].q_rad[1], JointVector::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
     assert_eq!((pieces.len(), pieces[1].t_s), (2, [1.0, 2.0]));
@@ -323,4 +335,144 @@ fn refuses_arrays_that_do_not_fit() {
         ..JointPoints::default()
     };
     assert!(matches!(error(close), PointsError::TimeOrder { point: 2, .. }));
+}
+
+/// A message of two points, the second a millisecond after the first, and where it begins.
+fn millisecond(sec: u64, nanosec: u64) -> String {
+    let end = nanosec + 1_000_000;
+    format!(
+        "joint_names: [joint_1, joint_2, joint_3, joint_4, joint_5, joint_6]\npoints:\n- positions: {ZEROS}\n  time_from_start: {{sec: {sec}, \
+         nanosec: {nanosec}}}\n- positions: [0.004363, 0.0, 0.0, 0.0, 0.0, 0.0]\n  time_from_start: {{sec: {sec}, nanosec: {end}}}\n"
+    )
+}
+
+/// Times are subtracted before they are rounded: the motion is the same wherever they begin.
+#[test]
+fn times_of_a_clock_make_the_same_motion() {
+    let from_0 = motion("a.yaml", &millisecond(0, 0)).unwrap();
+    for (sec, nanosec) in [
+        (1_700_000_000, 1_300_039),
+        (4_000_000_000, 998_999_999),
+        (1, 123_456_789),
+    ] {
+        let found = motion("a.yaml", &millisecond(sec, nanosec)).unwrap();
+        assert_eq!(found.motion, from_0.motion);
+        assert_eq!(
+            found.start.unwrap().to_string(),
+            format!("{sec}.{:0>9}", nanosec).trim_end_matches('0')
+        );
+    }
+    let head = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n";
+    let table = |from: &str, to: &str| motion("a.csv", &format!("{head}{from},0,0,0,0,0,0\n{to},0.1,0,0,0,0,0\n"));
+    let near = table("0", "0.0001").unwrap();
+    for (from, to) in [
+        ("999999.0001", "999999.0002"),
+        ("1700000000.3", "1700000000.3001"),
+        ("-0.00005", "5e-5"),
+    ] {
+        let found = table(from, to).unwrap();
+        assert_eq!(found.motion, near.motion, "{from}");
+    }
+    // A nanosecond apart, ten digits before the point.
+    assert!(table("1700000000.000000001", "1700000000.000000002").is_ok());
+    let refused = table("1700000000.000000002", "1700000000.000000001").unwrap_err();
+    assert_eq!(
+        refused,
+        "a.csv:3: column 1 (t_s): 1700000000.000000001 s must come after 1700000000.000000002 s, the time of the row before"
+    );
+    for wrong in ["nan", "inf", "", "1e99", "1;5", "0x1"] {
+        let refused = table("0", wrong).unwrap_err();
+        assert!(refused.contains("expected a time in seconds"), "{refused}");
+    }
+}
+
+/// A joint without limits, in a path without times: planners keep it within half a turn of 0.
+#[test]
+fn a_long_turn_of_a_joint_without_limits_is_refused() {
+    let text = IRB120_URDF.replace(
+        r#"<joint name="joint_6" type="revolute">"#,
+        r#"<joint name="joint_6" type="continuous">"#,
+    );
+    let endless = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    let made = |arm: &RobotModel, to: f64, t_s: Option<Vec<f64>>| {
+        let turned = |q: f64| JointVector::from([0.0, 0.0, 0.0, 0.0, 0.0, q]);
+        let points = JointPoints {
+            q_rad: vec![turned(2.9), turned(to)],
+            t_s,
+            ..JointPoints::default()
+        };
+        points.motion(arm, None)
+    };
+    let refused = made(&endless, -2.9, None).unwrap_err();
+    assert!(matches!(refused, PointsError::LongTurn { point: 1, .. }));
+    let said = refused.to_string();
+    assert!(
+        said.contains("turns by -5.8 rad") && said.contains("mean the 0.483185 rad the other way"),
+        "{said}"
+    );
+    assert!(made(&endless, -0.2, None).is_ok(), "less than half a turn");
+    assert!(made(&endless, -2.9, Some(vec![0.0, 9.0])).is_ok(), "times tell which");
+    assert!(made(&arm(), -2.9, None).is_ok(), "limits tell which");
+}
+
+#[test]
+fn what_a_header_says_is_read_or_refused() {
+    let with = |header: &str| format!("header: {header}\n{}", message(SECOND));
+    for plain in [
+        "{stamp: {sec: 0, nanosec: 0}, frame_id: base}",
+        "{seq: 7, stamp: {secs: 0, nsecs: 0}, frame_id: ''}",
+        "{}",
+    ] {
+        assert_eq!(
+            motion("a.yaml", &with(plain)).unwrap().notes,
+            Vec::<String>::new(),
+            "{plain}"
+        );
+    }
+    let stamped = motion("a.yaml", &with("{stamp: {sec: 1700000000, nanosec: 5}, frame_id: ''}")).unwrap();
+    assert!(
+        stamped.notes[0].starts_with("its header.stamp is 1700000000.000000005 s: "),
+        "{:?}",
+        stamped.notes
+    );
+    let robot = format!(
+        "joint_trajectory:\n  header: {{stamp: {{sec: 1}}}}\n{}",
+        message(SECOND)
+            .lines()
+            .map(|line| format!("  {line}\n"))
+            .collect::<String>()
+    );
+    assert_eq!(motion("a.yaml", &robot).unwrap().notes.len(), 1);
+    assert!(error("a.yaml", &with("{stamp: {sec: 1, nsecs: 2}}")).contains("found keys of both"));
+    assert!(error("a.yaml", &with("{stamp: {}}")).contains("expected a Duration with sec"));
+    assert!(error("a.yaml", &with("{when: 3}")).contains("expected a Header"));
+}
+
+/// Only the table of a plan has accelerations that are none of its motion, and then it is said.
+#[test]
+fn accelerations_are_used_or_named() {
+    let table = |more: &str, cells: &str| {
+        let rates: String = (1..7)
+            .map(|k| format!(",qd{k}_rad_s"))
+            .chain((1..7).map(|k| format!(",qdd{k}_rad_s2")))
+            .collect();
+        let row = |t: i32, q: f64| format!("{t},{q},0,0,0,0,0,0,0,0,0,0,0,50,0,0,0,0,0{cells}\n");
+        let text = format!(
+            "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad{rates}{more}\n{}{}",
+            row(0, 0.0),
+            row(1, 0.1)
+        );
+        motion("a.csv", &text).unwrap()
+    };
+    let plain = table("", "");
+    assert_eq!((plain.interpolation, plain.notes.len()), (Interpolation::Quintic, 0));
+    // A column of the same name as one of ours makes no plan of it.
+    assert_eq!(table(",segment,plate", ",1,1"), plain);
+    let plan = table(",segment,plate,tip_x_m,tip_y_m,tip_z_m", ",1,1,0,0,0");
+    assert_eq!(plan.interpolation, Interpolation::Cubic);
+    assert!(
+        plan.notes[0].starts_with("its accelerations are not used"),
+        "{:?}",
+        plan.notes
+    );
 }

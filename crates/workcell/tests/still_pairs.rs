@@ -64,7 +64,13 @@ fn a_link_over_a_level_half_space_keeps_the_required_clearance() {
     assert!(judged(near.clone()).is_clear(REQUIRED_M));
     near.margin_m = 0.0051;
     assert!(!judged(near).is_clear(REQUIRED_M));
-    assert!(judged(floor(0.0)).is_clear(REQUIRED_M));
+    // The arm stands on the floor at height 0 of its base by intent: only contact counts.
+    let ground = judged(floor(0.0));
+    assert!(
+        ground.only_contact && ground.is_clear(0.5) && ground.at_least_m < 0.5,
+        "{ground:?}"
+    );
+    assert!(!judged(floor(1e-3)).is_clear(0.5));
     assert!(!judged(floor(0.3)).is_clear(REQUIRED_M));
 }
 
@@ -110,7 +116,7 @@ fn a_round_tool_that_reaches_behind_the_flange_keeps_clear() {
     assert_eq!(found(with_ring(0.08, [0.0, 0.03])), []);
     let behind = found(with_ring(0.08, [-0.04, 0.03]));
     let ring = of(&behind, "link_5", "ring");
-    assert!(!ring.is_mounted && !ring.is_clear(REQUIRED_M), "{ring:?}");
+    assert!(!ring.only_contact && !ring.is_clear(REQUIRED_M), "{ring:?}");
     assert!(ring.at_least_m <= 0.0, "{ring:?}");
     // Less clearance may be stated for it, but contact is never allowed.
     let mut less = cell(&arm, with_ring(0.08, [-0.04, 0.03]), Vec::new());
@@ -137,7 +143,7 @@ fn a_round_tool_in_front_of_the_flange_does_not_touch_the_link_behind() {
     };
     // By hand: the fork begins 95 mm beside axis 6. Nearer than the clearance is fine, contact is not.
     let near = found(0.09);
-    assert!(near.is_mounted && (near.at_least_m - 0.005).abs() < 1e-5, "{near:?}");
+    assert!(near.only_contact && (near.at_least_m - 0.005).abs() < 1e-5, "{near:?}");
     assert!(near.is_clear(REQUIRED_M));
     assert!(!found(0.1).is_clear(REQUIRED_M));
 }

@@ -154,7 +154,9 @@ pub(crate) fn judge_still(limit_m: f64, model: &ClearanceModel) -> Vec<PairBound
     };
     let all = model.still_pairs();
     // What stands in front of the flange is nearer than others by intent.
-    let counts = all.iter().filter(|still| !still.is_mounted || !still.is_clear(limit_m));
+    let counts = all
+        .iter()
+        .filter(|still| !still.only_contact || !still.is_clear(limit_m));
     counts.map(of_pair).collect()
 }
 

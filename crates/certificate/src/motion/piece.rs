@@ -21,6 +21,10 @@
 //! between those of the next derivative; where rounding hides one, the derivative is of the wrong sign by no more than its own rounding, and
 //! by what the next derivatives hide in turn. The sum of all is at most 57 700 u M h for positions, and less for the others; the brackets,
 //! 2⁻³² h wide, add less than 1 u. 2¹⁶ u = 2¹⁵ ε holds for all of them.
+//!
+//! Where the times of a motion were rounded, h is off by more than u: by δh. With each 1/h that a coefficient has, its terms are off by δ as a
+//! part of themselves. For a cubic |δ(2c₂)| ≤ 2 (6|m| + 2|v₀| + |v₁|) δ/h ≤ 12 M δ/h and |δ(6c₃u)| ≤ 6 (6|m| + 2|v₀| + 2|v₁|) δ/h
+//! ≤ 36 M δ/h, so that 48 M δ holds. For a quintic the same sum over 6c₃u, 12c₄u² and 20c₅u³ is less than 4096 M δ.
 
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::piecewise::MotionPiece;
@@ -69,6 +73,9 @@ const ROUNDING: f64 = 100.0 * f64::EPSILON;
 
 /// Same for a quintic, relative to |m| + |v₀| + |v₁| + h |a₀| + h |a₁|: 2¹⁶ u.
 const ROUNDING_OF_QUINTIC: f64 = 32_768.0 * f64::EPSILON;
+
+/// Effect of an error of the length, relative to that error as a part of the length and to the same sum: for a cubic and for a quintic.
+const OF_LENGTH: [f64; 2] = [48.0, 4096.0];
 
 /// Number of halvings of the time between two zeros of a derivative.
 const HALVINGS: u32 = 32;
@@ -158,6 +165,23 @@ impl Piece {
             end_speed: v1,
             rounding: Rounding::new(all * ROUNDING_OF_QUINTIC, h, [q0, q1]),
         }
+    }
+
+    /// Returns the piece for a length that is known to `by_s` only \[s\].
+    pub fn with_length_within(mut self, by_s: f64) -> Self {
+        let ([q0, v0, ..], h) = (&self.c, self.length_s);
+        let ends = [*q0, self.position(h)];
+        let mean = (ends[1] - ends[0]) / h;
+        let rates = mean.abs() + v0.abs() + self.end_speed.abs();
+        let [of_cubic, of_quintic] = OF_LENGTH;
+        let more = match self.zeros {
+            None => rates * of_cubic,
+            Some(_) => (rates + (self.acceleration(0.0).abs() + self.acceleration(h).abs()) * h) * of_quintic,
+        };
+        let more = Rounding::new(more * (by_s / h), h, ends);
+        self.rounding.speed += more.speed;
+        self.rounding.acceleration += more.acceleration;
+        self
     }
 
     /// Returns bounds on the rounding of positions, speeds and accelerations.
@@ -265,6 +289,11 @@ impl Piece {
     /// plan, which share their knots.
     pub fn jump_to(&self, next: &Self) -> JointVector {
         (next.c[1] - self.end_speed).abs()
+    }
+
+    /// Speeds at the start and at the end, as the knots state them \[rad/s\].
+    pub fn end_speeds(&self) -> [JointVector; 2] {
+        [self.c[1], self.end_speed]
     }
 
     /// Times at which a joint's position, speed or acceleration may be extreme \[s\].

@@ -421,6 +421,10 @@ impl<'n, 'a> Fields<'n, 'a> {
             .map(|entry| &entry.value)
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
     pub(crate) fn needed(&self, key: &str) -> Result<&'n Node<'a>, Fault> {
         self.get(key).ok_or_else(|| {
             Fault::new(

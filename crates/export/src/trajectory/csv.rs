@@ -4,15 +4,18 @@
 //! out. Other columns of this program's own tables are not read.
 
 use crate::dialect::{ProgramFile, ReadError};
-use crate::trajectory::{JointPoints, check_fixed, check_fixed_names};
+use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::{MAX_ROWS, STATE};
-use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
-use platewash_workcell::words::without_mark;
+use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
+use platewash_workcell::words::{quoted, shortened, without_mark};
 
-/// Greatest magnitude of a number \[s, rad, rad/s, rad/s²\].
+/// Greatest magnitude of a number \[rad, rad/s, rad/s²\].
 const GREATEST: f64 = 1e6;
+
+/// Most characters of a cell in a message.
+const LONGEST: usize = 20;
 
 const TIME: [&str; 1] = ["t_s"];
 
@@ -109,8 +112,8 @@ impl Columns {
     }
 
     fn points(&self, table: &NumberTable<'_>) -> Result<(JointPoints, Vec<usize>), TableError> {
-        // The motion of a plan is made of cubics, whose accelerations its table has, too.
-        let is_plan = table.places(&PLACE).is_some();
+        // The motion of a plan is made of cubics; its table has their accelerations, too, at rows that are none of their ends.
+        let is_plan = table.places(&PLACE).is_some() && table.places(&TIP).is_some();
         let place = |name: &str| table.places(&[name]).map(|[place]| place);
         let places = [0, 1, 2].map(|rate: usize| self.axes[rate].each_ref().map(|name| place(name)));
         let time = table.places(&TIME);
@@ -122,9 +125,14 @@ impl Columns {
         for row in table.rows() {
             let row = row?;
             if let Some(place) = time {
-                let [t_s] = row.numbers(place)?;
-                row.check_after(place[0], t_s, times.last().copied())?;
-                times.push(t_s);
+                let t = read_time(&row, place[0])?;
+                if let Some(before) = times.last().filter(|before| t <= **before) {
+                    return row.refused(
+                        place[0],
+                        format!("{t} s must come after {before} s, the time of the row before"),
+                    );
+                }
+                times.push(t);
             }
             for (name, place, at) in &still {
                 let [found] = row.numbers([*place])?;
@@ -142,13 +150,38 @@ impl Columns {
         }
         let has = |rate: usize| (0..AXES).any(|joint| self.at[joint].is_none() && places[rate][joint].is_some());
         let [q_rad, speeds, accelerations] = all;
+        let notes = match is_plan && has(2) {
+            true => vec![
+                "its accelerations are not used, as a table with the columns segment, plate and tip_x_m to tip_z_m is of a plan, which is made \
+                 of cubics"
+                    .to_owned(),
+            ],
+            false => Vec::new(),
+        };
+        let start = times.first().copied().unwrap_or_default();
         let points = JointPoints {
             q_rad,
-            t_s: time.map(|_| times),
+            t_s: time.map(|_| times.iter().map(|t| t.since(start)).collect()),
+            start,
+            notes,
             qd_rad_s: has(1).then_some(speeds),
             qdd_rad_s2: (has(2) && !is_plan).then_some(accelerations),
             ..JointPoints::default()
         };
         Ok((points, lines))
     }
+}
+
+/// Returns the time in a cell, with all of its digits.
+fn read_time(row: &Row<'_>, place: usize) -> Result<ExactTime, TableError> {
+    ExactTime::parse(row.text(place)).map_or_else(
+        || {
+            let found = quoted(&shortened(row.text(place), LONGEST));
+            row.refused(
+                place,
+                format!("expected a time in seconds, with a point for decimals; found {found}"),
+            )
+        },
+        Ok,
+    )
 }

@@ -4,31 +4,41 @@
 //! | --- | --- |
 //! | points; the motion between them; reading by a file's name | here |
 //! | tables: times, positions, speeds and accelerations as CSV | `csv` |
+//! | times, as exactly as they are written | `time` |
 //! | ROS messages as YAML and JSON: `JointTrajectory`, `RobotTrajectory`, `FollowJointTrajectory` goals | `ros` |
 
 mod csv;
 mod ros;
+mod time;
+
+pub use crate::trajectory::time::ExactTime;
 
 use crate::dialect::{ProgramFile, ReadError};
 use platewash_kinematics::urdf::FixedJoints;
+use platewash_kinematics::words::rounded;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::trajectory::KnotError;
 use platewash_workcell::words::quoted;
+use std::f64::consts::{PI, TAU};
 
 /// Points that an arm reaches one after the other, with the joints in the arm's order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointPoints {
     /// Joint positions \[rad\].
     pub q_rad: Vec<JointVector>,
-    /// Times \[s\], in ascending order; `None` where the points have none.
+    /// Times after [`JointPoints::start`] \[s\], in ascending order; `None` where the points have none.
     pub t_s: Option<Vec<f64>>,
+    /// Time from which the others count: that of the first point in a file, and else 0.
+    pub start: ExactTime,
     /// Joint speeds \[rad/s\]; `None` where the points have none.
     pub qd_rad_s: Option<Vec<JointVector>>,
     /// Joint accelerations \[rad/s²\]; `None` where the points have none.
     pub qdd_rad_s2: Option<Vec<JointVector>>,
     /// Joints that were stated not to move, axes of the arm or not.
     pub fixed: FixedJoints,
+    /// What a file states beside the motion that a reader of the verdict should know; one clause each.
+    pub notes: Vec<String>,
 }
 
 /// Motion of each joint between two points.
@@ -64,10 +74,12 @@ pub struct PointMotion {
     pub motion: PiecewiseMotion,
     /// Motion between two points.
     pub interpolation: Interpolation,
-    /// Time of the first point \[s\]; `None` where the points have no times.
-    pub start_s: Option<f64>,
+    /// Time of the first point; `None` where the points have no times.
+    pub start: Option<ExactTime>,
     /// Joints that were stated not to move, axes of the arm or not.
     pub fixed: FixedJoints,
+    /// What the file states beside the motion: [`JointPoints::notes`].
+    pub notes: Vec<String>,
 }
 
 /// Reason that points are no motion. Points are counted from 0.
@@ -122,6 +134,20 @@ pub enum PointsError {
         /// Limits of the joint \[rad\].
         limits_rad: [f64; 2],
     },
+    /// A path without times turns a joint that has no limits by more than half a turn.
+    #[error(
+        "point {point}: joint {joint} has no limits and turns by {} rad from the point before; planners that keep such joints within half a \
+         turn of 0 mean the {} rad the other way: state positions that do not jump by a whole turn, a point between, or times",
+        rounded(*.by_rad, 6), rounded(other_way(*.by_rad), 6)
+    )]
+    LongTurn {
+        /// Index of the point.
+        point: usize,
+        /// Name of the joint.
+        joint: String,
+        /// Turn from the point before \[rad\].
+        by_rad: f64,
+    },
     /// The points have speeds and no times, or accelerations and no speeds.
     #[error("the points have {what} and no {missing}; give {missing}, or leave the {what} out")]
     Without {
@@ -149,6 +175,11 @@ fn needs(choice: Interpolation) -> &'static str {
     }
 }
 
+/// The turn to the same place the other way \[rad\].
+fn other_way(by_rad: f64) -> f64 {
+    by_rad - TAU.copysign(by_rad)
+}
+
 /// Rounds limits \[rad\] for a message.
 fn told(limits_rad: &[f64; 2]) -> [f64; 2] {
     limits_rad.map(|limit| (1e4 * limit).round() / 1e4)
@@ -159,14 +190,17 @@ impl PointsError {
     #[must_use]
     pub fn point(&self) -> Option<usize> {
         match self {
-            Self::NotFinite { point } | Self::TimeOrder { point, .. } | Self::Degrees { point, .. } => Some(*point),
+            Self::NotFinite { point }
+            | Self::TimeOrder { point, .. }
+            | Self::Degrees { point, .. }
+            | Self::LongTurn { point, .. } => Some(*point),
             _ => None,
         }
     }
 }
 
 /// Least distance beyond a joint's limits at which a position may be one in degrees \[rad\].
-const FAR_RAD: f64 = std::f64::consts::PI;
+const FAR_RAD: f64 = PI;
 
 impl JointPoints {
     /// Returns the motion through the points. Without a choice it is quintic where there are speeds and accelerations, cubic where there are
@@ -181,9 +215,9 @@ impl JointPoints {
             (Some(_), None) => Interpolation::Cubic,
             (None, _) => Interpolation::Linear,
         });
-        let start_s = self.t_s.as_ref().and_then(|all| all.first()).copied();
-        let time = |k: usize| match (&self.t_s, start_s) {
-            (Some(all), Some(start_s)) => all[k] - start_s,
+        let first_s = self.t_s.as_ref().and_then(|all| all.first()).copied();
+        let time = |k: usize| match (&self.t_s, first_s) {
+            (Some(all), Some(first_s)) => all[k] - first_s,
             _ => k as f64,
         };
         let [speeds, accelerations] = self.rates_for(interpolation)?;
@@ -212,8 +246,9 @@ impl JointPoints {
         Ok(PointMotion {
             motion,
             interpolation,
-            start_s,
+            start: first_s.map(|first_s| self.start.later(first_s)),
             fixed: self.fixed.clone(),
+            notes: self.notes.clone(),
         })
     }
 
@@ -255,7 +290,7 @@ impl JointPoints {
         }
         match expected {
             0 | 1 => Err(PointsError::TooFew { found: expected }),
-            _ => Ok(()),
+            _ => self.long_turn(arm).map_or(Ok(()), Err),
         }
     }
 
@@ -294,6 +329,21 @@ impl JointPoints {
             t_s: time(point),
             before_s: time(point.saturating_sub(1)),
         }
+    }
+
+    /// Finds the first turn of more than half a turn of a joint without limits, in a path without times.
+    fn long_turn(&self, arm: &RobotModel) -> Option<PointsError> {
+        let limits = arm.limits();
+        let is_endless = |joint: &usize| limits.lower[*joint].is_infinite() && limits.upper[*joint].is_infinite();
+        let endless: Vec<usize> = (0..AXES).filter(is_endless).collect();
+        let pairs = self.q_rad.windows(2).filter(|_| self.t_s.is_none());
+        let mut turns = pairs.enumerate().flat_map(|(k, both)| {
+            let turn = both[1] - both[0];
+            endless.iter().map(move |&joint| (k + 1, joint, turn[joint]))
+        });
+        let (point, joint, by_rad) = turns.find(|(.., by_rad)| by_rad.abs() > PI)?;
+        let joint = arm.joints()[joint].name.clone();
+        Some(PointsError::LongTurn { point, joint, by_rad })
     }
 
     /// Finds the first position far beyond the joint's limits, where all positions are within their limits if they are read as degrees.

@@ -1,14 +1,15 @@
 //! Trajectories as ROS messages in YAML or JSON, of ROS 1 and ROS 2: `trajectory_msgs/JointTrajectory`, `moveit_msgs/RobotTrajectory`, and
 //! goals of `control_msgs/action/FollowJointTrajectory`.
 //!
-//! Joints are matched by name. Headers, tolerances and efforts are not read.
+//! Joints are matched by name. A stamp that is not zero becomes a note. Frame and number of a header, tolerances and efforts change nothing of
+//! the positions that are asked of the joints, and are not read.
 
 use crate::dialect::{ProgramFile, ReadError};
 use crate::ros2::node::{Fault, Node};
 use crate::ros2::number::ParsedNumber;
 use crate::ros2::read::{Fields, document, entries, list, parse_number, refused, text};
-use crate::ros2::write::{NS_PER_S, seconds_between};
-use crate::trajectory::{JointPoints, check_fixed, check_fixed_names};
+use crate::ros2::write::NS_PER_S;
+use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{Joint, JointVector, RobotModel};
 use platewash_workcell::words::quoted;
@@ -89,9 +90,10 @@ fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
 fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<usize>), Fault> {
     let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
     let columns = joints.columns(fields.needed("joint_names")?)?;
+    let stamp = fields.get("header").map(stamp).transpose()?.unwrap_or_default();
     let nodes = list(fields.needed("points")?)?;
     let (mut points, mut lines) = (JointPoints::default(), Vec::new());
-    let (mut times_ns, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut times, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
         let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
@@ -104,12 +106,12 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
         speeds.extend(row("velocities")?);
         accelerations.extend(row("accelerations")?);
         if let Some(time) = point.get("time_from_start") {
-            times_ns.push(duration_ns(time)?);
+            times.push(duration(time)?);
         }
         for (what, found) in [
             ("velocities", speeds.len()),
             ("accelerations", accelerations.len()),
-            ("time_from_start", times_ns.len()),
+            ("time_from_start", times.len()),
         ] {
             if found != 0 && found != points.q_rad.len() {
                 let reason =
@@ -117,21 +119,32 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
                 return Err(Fault::new(node.line, reason));
             }
         }
-        if let [.., before, found] = times_ns[..]
+        if let [.., before, found] = times[..]
             && found <= before
         {
-            let [before_s, found_s] = [before, found].map(|ns| seconds_between(0, ns));
             let line = point.get("time_from_start").map_or(node.line, |time| time.line);
-            let reason = format!("expected a time after {before_s} s, that of the point before; found {found_s} s");
+            let reason = format!("expected a time after {before} s, that of the point before; found {found} s");
             return Err(Fault::new(line, reason));
         }
         lines.push(node.line);
     }
-    let second = |ns: &i128| seconds_between(0, *ns);
-    points.t_s = (!times_ns.is_empty()).then(|| times_ns.iter().map(second).collect());
+    if stamp != ExactTime::default() {
+        points.notes.push(format!(
+            "its header.stamp is {stamp} s: a controller that takes it later than that enters in its midst, which is not judged"
+        ));
+    }
+    points.start = times.first().copied().unwrap_or_default();
+    let after = |time: &ExactTime| time.since(points.start);
+    points.t_s = (!times.is_empty()).then(|| times.iter().map(after).collect());
     points.qd_rad_s = (!speeds.is_empty()).then_some(speeds);
     points.qdd_rad_s2 = (!accelerations.is_empty()).then_some(accelerations);
     Ok((points, lines))
+}
+
+/// Reads the stamp of a header.
+fn stamp(header: &Node<'_>) -> Result<ExactTime, Fault> {
+    let fields = Fields::of(header, "a Header", &["stamp", "frame_id", "seq"])?;
+    fields.get("stamp").map_or(Ok(ExactTime::default()), duration)
 }
 
 impl Joints<'_> {
@@ -223,15 +236,22 @@ fn number(node: &Node<'_>) -> Result<f64, Fault> {
     }
 }
 
-/// A duration of ROS 2 (`sec`, `nanosec`) or ROS 1 (`secs`, `nsecs`) \[ns\].
-fn duration_ns(node: &Node<'_>) -> Result<i128, Fault> {
+/// A duration of ROS 2 (`sec`, `nanosec`) or ROS 1 (`secs`, `nsecs`).
+fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
     let fields = Fields::of(node, "a Duration", &["sec", "nanosec", "secs", "nsecs"])?;
+    if fields.is_empty() {
+        return Err(Fault::new(node.line, "expected a Duration with sec; it is missing"));
+    }
+    let has = |keys: [&str; 2]| keys.into_iter().any(|key| fields.get(key).is_some());
+    if has(["sec", "nanosec"]) && has(["secs", "nsecs"]) {
+        let reason =
+            "expected a Duration of ROS 2 with sec and nanosec, or of ROS 1 with secs and nsecs; found keys of both";
+        return Err(Fault::new(node.line, reason));
+    }
+    // What is left out is 0, as in messages.
     let whole = |keys: [&str; 2]| {
         let Some(node) = keys.into_iter().find_map(|key| fields.get(key)) else {
-            return Err(Fault::new(
-                node.line,
-                format!("expected a Duration with {}; it is missing", keys[0]),
-            ));
+            return Ok(0);
         };
         match parse_number(node) {
             ParsedNumber::Whole(found) if found >= 0 => Ok(i128::from(found)),
@@ -244,5 +264,6 @@ fn duration_ns(node: &Node<'_>) -> Result<i128, Fault> {
             }
         }
     };
-    Ok(whole(["sec", "secs"])? * i128::from(NS_PER_S) + whole(["nanosec", "nsecs"])?)
+    let ns = whole(["sec", "secs"])? * i128::from(NS_PER_S) + whole(["nanosec", "nsecs"])?;
+    ExactTime::of_nanoseconds(ns).ok_or_else(|| Fault::new(node.line, "expected a time of at most 1e15 s; found more"))
 }

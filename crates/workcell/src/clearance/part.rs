@@ -85,6 +85,13 @@ impl Part {
         matches!(&self.core, Core::Solid(solid, _) if solid.as_convex_polyhedron().is_some())
     }
 
+    /// True for the half-space below height 0 of the base, without a margin.
+    pub fn is_ground(&self) -> bool {
+        let identity = RigidTransform::identity();
+        let is_at_origin = self.frame.body() == 0 && *self.frame.on_body() == identity;
+        matches!(self.core, Core::HalfSpace) && self.radius == 0.0 && is_at_origin
+    }
+
     /// True for a ball.
     pub fn is_ball(&self) -> bool {
         matches!(self.core, Core::Segment(half) if half == 0.0)

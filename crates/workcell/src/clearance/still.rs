@@ -4,8 +4,9 @@
 //! about axis 6 on the spot, beside the link that carries the joint. Both are so up to the rounding of descriptions: the distance that is
 //! stated is less by what a turn can change.
 //!
-//! They keep the required clearance, as all pairs do, with one exception. A body of the tool in front of the flange stands against it by
-//! intent, and the link that carries joint 6 is as near as the flange is thick: there only contact counts. The shape of that link may
+//! They keep the required clearance, as all pairs do, with two exceptions, where only contact counts. An arm stands on the ground, the floor at
+//! height 0 of its base, by intent, and its links are as high over it as they are made. A body of the tool in front of the flange stands
+//! against it by intent, and the link that carries joint 6 is as near as the flange is thick. The shape of that link may
 //! even reach through the flange, as shapes hold more than the link; such a part is none that the tool could meet before it meets the flange.
 
 use crate::clearance::body::{Body, BodyKind, place, world_with};
@@ -37,15 +38,15 @@ pub struct StillPair {
     pub pair: PairClearance,
     /// Lower bound on the distance at every configuration \[m\]; less than 0 by the depth of an overlap, or more.
     pub at_least_m: f64,
-    /// True if only contact counts: a body of the tool in front of the flange, beside the link that carries joint 6.
-    pub is_mounted: bool,
+    /// True if only contact counts: a link over the ground that the arm stands on, and a body of the tool in front of the flange.
+    pub only_contact: bool,
 }
 
 impl StillPair {
     /// True if the pair keeps what is required of it where `required_m` is required of most pairs \[m\].
     #[must_use]
     pub fn is_clear(&self, required_m: f64) -> bool {
-        if self.is_mounted {
+        if self.only_contact {
             return self.at_least_m >= -TOUCH_M;
         }
         is_clear(self.at_least_m, self.pair.required_m(required_m))
@@ -96,6 +97,8 @@ pub(crate) struct Still {
     change_m: f64,
     /// The flange, where the second body is in front of it.
     mounted_on: Option<Frame>,
+    /// True if the second body is the ground.
+    is_on_ground: bool,
 }
 
 impl Still {
@@ -144,7 +147,7 @@ impl Still {
                 reduced_by_m: reduced_by_m(a, b),
             },
             at_least_m: least_m - self.change_m,
-            is_mounted: self.mounted_on.is_some(),
+            only_contact: self.mounted_on.is_some() || self.is_on_ground,
         })
     }
 }
@@ -165,6 +168,7 @@ pub(crate) fn still(robot: &RobotModel, tool: &Tool, bodies: &[Body]) -> Vec<Sti
             pair: (a, b),
             change_m,
             mounted_on,
+            is_on_ground: second.parts.iter().all(Part::is_ground),
         })
     };
     // Links come first among bodies, and half-spaces after the tool.

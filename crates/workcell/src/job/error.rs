@@ -148,7 +148,7 @@ fn overlaps(all: &[FixedOverlap]) -> String {
 fn too_near(pairs: &[StillPair], required_m: f64) -> String {
     let one = |still: &StillPair| {
         let [a, b] = [&still.pair.a, &still.pair.b].map(|name| printable(name));
-        let required = match still.is_mounted {
+        let required = match still.only_contact {
             true => "no contact is allowed".to_owned(),
             false => format!("{} are required", millimetres(still.pair.required_m(required_m))),
         };
