@@ -115,7 +115,8 @@ pub struct MotionReport {
     pub clearance: Vec<PairBound>,
     /// Pairs of bodies that are not judged, with the reason of each.
     pub excluded: Vec<Exclusion>,
-    /// What the file states beside the motion, of which the verdict says nothing; one clause each.
+    /// What the verdict says nothing of, and a reader of it should know: what the file states beside the motion, and pairs that the SRDF leaves
+    /// out and that meet; one clause each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// Assumptions of the verdict; one sentence each.
@@ -191,6 +192,11 @@ impl MotionReport {
         let start_s = motion.start.map(ExactTime::seconds);
         let shift = |time_s: Option<f64>| time_s.and_then(|t_s| Some(t_s + start_s?));
         let stop_s = whole.duration_s() - motion.motion.duration_s();
+        let met = |([a, b], t_s): &([String; 2], f64)| {
+            let at = moment((motion, whole), *t_s).map_or_else(String::new, |moment| format!(" {moment}"));
+            format!("{a} and {b} meet{at}, which the SRDF leaves out of the proof")
+        };
+        let meeting: Vec<_> = proof.disabled_meeting.iter().map(met).collect();
         let mut clearance = proof.clearance;
         for pair in &mut clearance {
             pair.time_s = shift(pair.time_s);
@@ -223,7 +229,7 @@ impl MotionReport {
             clearance,
             assumptions: assumptions(motion, workcell, arm, (rules, stop_s), &proof.excluded),
             excluded: proof.excluded,
-            notes: motion.notes.clone(),
+            notes: [motion.notes.clone(), meeting].concat(),
             obstacles: workcell
                 .obstacles
                 .iter()

@@ -18,7 +18,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, FixedOverlap, standing_overlaps};
 use platewash_workcell::job::{JobError, check_workcell};
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-use platewash_workcell::workcell::{Exclusion, Workcell, is_pair};
+use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell, is_pair};
 
 /// Rules that a motion of an arm must keep, besides the limits of the arm's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,6 +56,9 @@ pub struct ArmMotionProof {
     pub clearance: Vec<PairBound>,
     /// Pairs of bodies that no moment need be judged for, with the reason of each. Of those that do not move, none overlap.
     pub excluded: Vec<Exclusion>,
+    /// Pairs of links that the SRDF leaves out and that meet in this motion, although they share no joint, do not touch in every
+    /// configuration, and the SRDF does not say that they touch by default; each with a moment at which they do \[s\].
+    pub disabled_meeting: Vec<([String; 2], f64)>,
     /// Obstacles that reach into the base. None may, and each has a line in the clearance.
     pub in_base: Vec<FixedOverlap>,
     /// Names of the links of the arm that keep clear of nothing, as neither they nor the links that move with them have a shape.
@@ -126,15 +129,21 @@ pub fn prove_arm_motion(
     let world = World::of(&workcell.mount);
     let seen = workcell.seen_from_base().into_owned();
     let excluded = seen.own_exclusions(arm)?;
+    // Pairs that should not meet are looked at, too.
+    let (suspects, others): (Vec<_>, Vec<_>) = excluded.iter().cloned().partition(|pair| may_not_meet(arm, pair));
     let seen = Workcell {
-        exclusions: excluded.clone(),
+        exclusions: others,
         ..seen
     };
     let model = ClearanceModel::new(arm, &seen, &[])?;
+    let is_suspect = |(_, pair): &(usize, (&str, &str))| suspects.iter().any(|other| is_pair(&other.pair, *pair));
+    let (watched, judged): (Vec<_>, Vec<_>) = model.pair_names().into_iter().enumerate().partition(is_suspect);
+    let [watched, judged] = [watched, judged].map(|all| all.into_iter().map(|(index, _)| index).collect::<Vec<_>>());
     let piece = |piece: &MotionPiece| Piece::from(piece).with_length_within(TIME_ROUNDING * piece.t_s[1]);
     let pieces = long_enough(motion.pieces().iter().map(piece).collect())?;
     let timeline = timeline(&pieces, pieces.len())?;
-    let mut clearance = pairs::judge_all(arm, rules.clearance_m, &model, &timeline, cancel)?;
+    let mut clearance = pairs::judge_some(arm, rules.clearance_m, &model, &judged, &timeline, cancel)?;
+    let disabled_meeting = pairs::meeting(arm, &model, &watched, &timeline, cancel)?;
     clearance.extend(pairs::judge_still(rules.clearance_m, &model));
     let standing = standing_overlaps(arm, &seen, &[], None)?;
     clearance.extend(standing.iter().map(reaching));
@@ -143,7 +152,11 @@ pub fn prove_arm_motion(
     checks.extend(pairs::checks(rules.clearance_m, &clearance));
     let is_violated = checks.last().is_some_and(|check| check.status == Status::Violated);
     let least_at_knots_m = if is_violated {
-        let at_knots_m = least_at_knots_m(&model, motion.pieces());
+        let judged = Workcell {
+            exclusions: excluded.clone(),
+            ..seen.clone()
+        };
+        let at_knots_m = least_at_knots_m(&ClearanceModel::new(arm, &judged, &[])?, motion.pieces());
         // Pairs that no joint moves apart are as near there as elsewhere.
         let still_m = model.still_pairs().into_iter().map(|still| still.pair.distance_m);
         let all_m = at_knots_m
@@ -163,6 +176,7 @@ pub fn prove_arm_motion(
         checks,
         clearance,
         excluded,
+        disabled_meeting,
         in_base: standing,
         shapeless: bodies_without_shape(arm)
             .into_iter()
@@ -171,6 +185,22 @@ pub fn prove_arm_motion(
             .collect(),
         least_at_knots_m,
     })
+}
+
+/// Reasons of an SRDF for pairs that touch by the shapes of their links, as MoveIt's assistant writes them.
+const TOUCHING: [&str; 3] = ["Adjacent", "Default", "Always"];
+
+/// True for a pair of links that the SRDF leaves out although nothing tells that they touch by design.
+fn may_not_meet(arm: &RobotModel, Exclusion { pair: [a, b], reason }: &Exclusion) -> bool {
+    let body = |name: &String| {
+        arm.links()
+            .iter()
+            .find(|link| link.name == *name)
+            .map(|link| link.frame.body())
+    };
+    let share_a_joint = body(a).zip(body(b)).is_none_or(|(a, b)| a.abs_diff(b) <= 1);
+    let stated = arm.disabled_pairs().and_then(|disabled| disabled.reason(a, b));
+    *reason == ExclusionReason::Srdf && !share_a_joint && stated.is_some_and(|stated| !TOUCHING.contains(&stated))
 }
 
 /// Returns the line of an obstacle that reaches into the base.

@@ -456,3 +456,26 @@ fn meshes_are_looked_for_only_where_they_count() {
     );
     assert!(robot.is_ok());
 }
+
+/// Soft limits of a safety controller are inside of the hard ones, where it states some.
+#[test]
+fn soft_limits_count() {
+    let limit = r#"<limit lower="-1.91986" upper="1.91986""#;
+    assert!(IRB120_URDF.contains(limit), "joint 2");
+    let with = |safety: &str| {
+        let start = IRB120_URDF.find(limit).unwrap();
+        let end = start + IRB120_URDF[start..].find("/>").unwrap() + 2;
+        let text = format!("{}{safety}{}", &IRB120_URDF[..end], &IRB120_URDF[end..]);
+        RobotModel::from_urdf(&text, &MeshSource::none()).map(|arm| [arm.limits().lower[1], arm.limits().upper[1]])
+    };
+    let soft = |words: &str| with(&format!(r#"<safety_controller {words} k_velocity="10"/>"#)).unwrap();
+    assert_eq!(soft(r#"soft_lower_limit="-1" soft_upper_limit="1.5""#), [-1.0, 1.5]);
+    assert_eq!(soft(r#"soft_lower_limit="-3" soft_upper_limit="1""#), [-1.91986, 1.0]);
+    assert_eq!(
+        soft(r#"soft_lower_limit="-1""#),
+        [-1.0, 0.0],
+        "one that is left out is 0"
+    );
+    assert_eq!(soft(""), [-1.91986, 1.91986], "none");
+    assert!(with(r#"<safety_controller soft_lower_limit="2" soft_upper_limit="3" k_velocity="1"/>"#).is_err());
+}

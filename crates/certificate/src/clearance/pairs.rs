@@ -125,15 +125,70 @@ pub(crate) fn judge_all(
     timeline: &Timeline<'_>,
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
+    let all: Vec<_> = (0..model.pair_count()).collect();
+    judge_some(robot, limit_m, model, &all, timeline, cancel)
+}
+
+/// Judges some pairs of a motion, by index, as [`judge_all`] does.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn judge_some(
+    robot: &RobotModel,
+    limit_m: f64,
+    model: &ClearanceModel,
+    some: &[usize],
+    timeline: &Timeline<'_>,
+    cancel: &CancelToken,
+) -> Result<Vec<PairBound>, Cancelled> {
     let whole = 0..timeline.count();
-    let task = |pair| Task {
-        pair,
-        rule: usual_rule(model, pair),
+    let task = |pair: &usize| Task {
+        pair: *pair,
+        rule: usual_rule(model, *pair),
         during: Some(vec![whole.clone()]),
         working_on: Vec::new(),
     };
-    let tasks: Vec<_> = (0..model.pair_count()).map(task).collect();
+    let tasks: Vec<_> = some.iter().map(task).collect();
     judge_tasks(robot, limit_m, model, &tasks, timeline, cancel)
+}
+
+/// Finds those of some pairs, by index, that are in contact at a moment of a motion, and apart in a configuration; each with its first such
+/// moment that was found \[s\]. A pair that is not found may still meet.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn meeting(
+    robot: &RobotModel,
+    model: &ClearanceModel,
+    some: &[usize],
+    timeline: &Timeline<'_>,
+    cancel: &CancelToken,
+) -> Result<Vec<([String; 2], f64)>, Cancelled> {
+    let (poses, whole) = (ArmPoses::new(robot, timeline), 0..timeline.count());
+    let goal = Goal {
+        limit_m: 0.0,
+        enough_m: None,
+        only_contact: true,
+        budget: LEAST_BUDGET,
+    };
+    let meets = |pair: &usize| {
+        let found = Search::run(
+            &poses,
+            cancel,
+            &model.parts_of(*pair),
+            std::slice::from_ref(&whole),
+            goal,
+        );
+        Some((*pair, found)).filter(|(pair, found)| found.seen_m <= 0.0 && !model.touches_in_samples(*pair))
+    };
+    let found: Vec<_> = some.par_iter().map(meets).collect();
+    cancel.check()?;
+    let names = model.pair_names();
+    let named = |(pair, found): (usize, PairDistance)| {
+        let (a, b) = names[pair];
+        ([a.to_owned(), b.to_owned()], found.time_s)
+    };
+    Ok(found.into_iter().flatten().map(named).collect())
 }
 
 /// Judges the pairs whose distance no joint changes.
@@ -176,6 +231,7 @@ fn judge_tasks(
         let goal = Goal {
             limit_m: limit_of(task),
             enough_m,
+            only_contact: false,
             budget,
         };
         Search::run(&poses, cancel, parts, during, goal)

@@ -39,6 +39,8 @@ pub(crate) struct Goal {
     pub limit_m: f64,
     /// Bound that is accurate enough, where a smaller one is not \[m\]; by default it follows from the pair's own distance.
     pub enough_m: Option<f64>,
+    /// True if it is enough to know whether the pair meets.
+    pub only_contact: bool,
     /// Number of intervals that may be examined.
     pub budget: usize,
 }
@@ -71,6 +73,9 @@ impl PairDistance {
 impl Goal {
     /// Returns the least bound that is good enough beside the least distance found, with the allowed gap as a part `coarse` of that.
     fn needed(&self, seen: f64, coarse: f64) -> f64 {
+        if self.only_contact {
+            return if seen > 0.0 { FLOOR_M.min(0.5 * seen) } else { f64::NEG_INFINITY };
+        }
         let broken = seen < self.limit_m - ITERATIVE_ERROR_M || seen <= 0.0;
         if broken {
             return seen - 10.0 * FINE_M;
@@ -429,7 +434,7 @@ mod tests {
             let pieces = lines(&(0..=rows).map(position).collect::<Vec<_>>());
             let timeline = Timeline::new(&pieces);
             let cancel = CancelToken::new();
-            let goal = Goal { limit_m: 0.0, enough_m: Some(1e-3), budget: 4000 };
+            let goal = Goal { limit_m: 0.0, enough_m: Some(1e-3), only_contact: false, budget: 4000 };
             let all = 0..pieces.len();
             for pair in 0..model.pair_count() {
                 let parts = model.parts_of(pair);

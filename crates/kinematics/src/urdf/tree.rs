@@ -214,8 +214,20 @@ fn missing(joint: &urdf_rs::Joint) -> UrdfError {
     }
 }
 
+/// Returns the position limits of a joint: those of `limit`, within the soft ones of `safety_controller`. Soft limits of 0 are none, as they
+/// are where the file leaves them out.
 fn positions(joint: &urdf_rs::Joint) -> Result<[f64; 2], UrdfError> {
-    let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+    let (mut lower, mut upper) = (joint.limit.lower, joint.limit.upper);
+    if let Some(soft) = &joint.safety_controller
+        && [soft.soft_lower_limit, soft.soft_upper_limit] != [0.0; 2]
+    {
+        finite(
+            &format!("joint '{}'", joint.name),
+            "soft limits",
+            &[soft.soft_lower_limit, soft.soft_upper_limit],
+        )?;
+        (lower, upper) = (lower.max(soft.soft_lower_limit), upper.min(soft.soft_upper_limit));
+    }
     let at = format!("joint '{}'", joint.name);
     finite(&at, "limit (lower, upper)", &[lower, upper])?;
     if lower >= upper {

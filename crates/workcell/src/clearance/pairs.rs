@@ -6,7 +6,7 @@
 
 use crate::clearance::body::{Body, BodyKind, is_of_arm, part_pairs, place, world};
 use crate::clearance::distance::separation;
-use crate::clearance::model::ClearanceError;
+use crate::clearance::model::{ClearanceError, ClearanceModel};
 use crate::clearance::still::{CARRIER, Still, height_change_m, turn_m};
 use crate::tool::Tool;
 use crate::workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
@@ -149,6 +149,16 @@ fn always_touching(robot: &RobotModel, bodies: &[Body], pairs: &[(usize, usize)]
         });
     }
     open
+}
+
+impl ClearanceModel {
+    /// True if a pair, by index, touches in each of some configurations spread over the limits of the joints, as links that share a joint or
+    /// surround each other do.
+    #[must_use]
+    pub fn touches_in_samples(&self, pair: usize) -> bool {
+        let pairs = [self.pairs[pair]];
+        !always_touching(&self.robot, &self.bodies, &pairs, vec![0]).is_empty()
+    }
 }
 
 /// Returns evenly spread configurations within the limits: an additive sequence on the generalised golden ratio (Roberts 2018), the first
