@@ -192,15 +192,10 @@ const TOUCHING: [&str; 3] = ["Adjacent", "Default", "Always"];
 
 /// True for a pair of links that the SRDF leaves out although nothing tells that they touch by design.
 fn may_not_meet(arm: &RobotModel, Exclusion { pair: [a, b], reason }: &Exclusion) -> bool {
-    let body = |name: &String| {
-        arm.links()
-            .iter()
-            .find(|link| link.name == *name)
-            .map(|link| link.frame.body())
-    };
-    let share_a_joint = body(a).zip(body(b)).is_none_or(|(a, b)| a.abs_diff(b) <= 1);
     let stated = arm.disabled_pairs().and_then(|disabled| disabled.reason(a, b));
-    *reason == ExclusionReason::Srdf && !share_a_joint && stated.is_some_and(|stated| !TOUCHING.contains(&stated))
+    *reason == ExclusionReason::Srdf
+        && !arm.share_a_joint(a, b)
+        && stated.is_some_and(|stated| !TOUCHING.contains(&stated))
 }
 
 /// Returns the line of an obstacle that reaches into the base.

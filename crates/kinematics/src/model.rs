@@ -29,6 +29,8 @@ use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 pub struct Joint {
     /// Name in the description.
     pub name: String,
+    /// Name of the link that carries the joint.
+    pub parent: String,
     /// Name of the link that the joint moves.
     pub child: String,
 }
@@ -154,6 +156,21 @@ impl RobotModel {
     #[must_use]
     pub fn last_link_frame(&self) -> Frame {
         self.last_link
+    }
+
+    /// True if two links share one of the six joints. A link without a shape is stood for by those that are fixed to it.
+    #[must_use]
+    pub fn share_a_joint(&self, a: &str, b: &str) -> bool {
+        let link = |name: &str| self.links.iter().find(|link| link.name == name);
+        let has_shape = |name: &str| link(name).is_some_and(|link| !link.collision.is_empty());
+        let is_end = |end: &str, name: &str| {
+            let are_fixed = || Some(link(end)?.frame.body() == link(name)?.frame.body());
+            end == name || (!has_shape(end) && are_fixed() == Some(true))
+        };
+        let joins = |Joint { parent, child, .. }: &Joint| {
+            (is_end(parent, a) && is_end(child, b)) || (is_end(parent, b) && is_end(child, a))
+        };
+        self.joints.iter().any(joins)
     }
 
     /// Returns the arm without its list of link pairs that need no collision check.

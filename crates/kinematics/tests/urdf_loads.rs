@@ -3,6 +3,7 @@
 use crate::urdf::{edited, joint, load, with_joint};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel, ToolFrame, ToolFrameError};
 use std::f64::consts::FRAC_PI_2;

@@ -1,7 +1,7 @@
 //! Obstacles around an arm.
 
 use crate::pose;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use serde::{Deserialize, Serialize};
@@ -39,6 +39,15 @@ pub enum ObstacleShape {
     Convex(Shape),
     /// Union of the convex hulls of some lists of points \[m\].
     Parts(Vec<Vec<Point3<f64>>>),
+}
+
+/// Greatest angle \[rad\] and greatest distance \[m\] from a level plane at height 0 that are rounding.
+const LEVEL: f64 = 1e-9;
+const SAME_HEIGHT_M: f64 = 1e-9;
+
+/// True if a plane with a normal through a point is level at height 0.
+pub(crate) fn is_ground_plane(normal: &Vector3<f64>, point: &Vector3<f64>) -> bool {
+    normal.z > 0.0 && normal.xy().norm() <= LEVEL && normal.dot(point).abs() <= SAME_HEIGHT_M
 }
 
 impl Obstacle {
@@ -82,10 +91,12 @@ impl Obstacle {
         (!grows).then_some(ObstacleFault::HeldTwice)
     }
 
-    /// True for a level floor at height 0 without a margin, the floor of a room that states nothing else.
+    /// True for a level floor at height 0, wherever its frame stands in the plane: in the frame of an arm's base, the ground that the arm
+    /// stands on.
     #[must_use]
-    pub fn is_plain_floor(&self) -> bool {
-        self.shape == ObstacleShape::HalfSpace && self.pose == Pose::identity() && self.margin_m == 0.0
+    pub fn is_ground(&self) -> bool {
+        let up = self.pose.rotation * Vector3::z();
+        self.shape == ObstacleShape::HalfSpace && is_ground_plane(&up, &self.pose.translation.vector)
     }
 }
 

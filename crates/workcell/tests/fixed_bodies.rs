@@ -127,3 +127,84 @@ fn a_plate_in_the_base_is_named_however_it_is_turned() {
         assert!((wrong[0].by_m - by_m).abs() < 1e-6, "{}", wrong[0].by_m);
     }
 }
+
+/// Plates of many triangles, turned and rounded as files are, with a corner deep in the base. The collision library makes faces without a
+/// normal of some, along which nothing is apart.
+#[test]
+fn a_mesh_deep_in_the_base_is_named_however_it_is_turned() {
+    for seed in 0..150 {
+        let k = f64::from(seed);
+        let turn = UnitQuaternion::from_euler_angles(0.37 * k, 0.61 * k, 0.83 * k);
+        let corner = |i: usize, j: usize, up: usize| {
+            // The corner (0, 0, 0) is 50 mm over the foot, on axis 1.
+            let local = Vector3::new(0.1 * i as f64, 0.1 * j as f64, 0.004 * up as f64);
+            let at = turn * local + Vector3::new(0.0, 0.0, 0.05);
+            nalgebra::Point3::from(at.map(|c| (c * 1e6).round() / 1e6))
+        };
+        let grid = (0..9).flat_map(|i| (0..9).map(move |j| (i, j)));
+        let points: Vec<_> = grid.flat_map(|(i, j)| [corner(i, j, 0), corner(i, j, 1)]).collect();
+        let shapes = [
+            ObstacleShape::Convex(Shape::Hull { points: points.clone() }),
+            ObstacleShape::Parts(vec![points.clone(), points]),
+        ];
+        for shape in shapes {
+            let wrong = found(vec![Obstacle::new("plate", shape, Pose::identity())]);
+            assert!(
+                wrong.iter().any(|w| w.other == "base_link" && w.by_m > 1e-3),
+                "{seed}: {wrong:?}"
+            );
+        }
+    }
+}
+
+/// The ground is the plane at height 0 of the base, wherever the frame of the half-space stands in it.
+#[test]
+fn the_ground_may_reach_into_the_base() {
+    let robot = RobotModel::irb120().unwrap();
+    let turned = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, 1.0));
+    let plane = |pose: Pose| Obstacle::new("floor", ObstacleShape::HalfSpace, pose);
+    let mut ground = plane(Pose::from_parts(Vector3::new(1.0, -2.0, 0.0).into(), turned));
+    ground.margin_m = 0.05;
+    assert!(ground.is_ground());
+    assert!(!plane(Pose::translation(0.0, 0.0, 1e-6)).is_ground());
+    let upside_down = UnitQuaternion::from_scaled_axis(Vector3::new(std::f64::consts::PI, 0.0, 0.0));
+    assert!(!plane(Pose::from_parts(Vector3::zeros().into(), upside_down)).is_ground());
+    // Also where the arm is mounted elsewhere, turned.
+    let mut terms = kitchen_terms(&robot, vec![]);
+    terms.workcell.mount = Pose::from_parts(Vector3::new(1.0, 0.5, 0.0).into(), turned);
+    terms.workcell.obstacles = vec![ground];
+    assert_eq!(terms.standing_overlaps(&robot).unwrap(), []);
+    let still = still_pairs(&robot, &terms.workcell).unwrap();
+    assert!(
+        still.iter().all(|pair| pair.only_contact && pair.is_clear(0.5)),
+        "{still:?}"
+    );
+}
+
+/// A sheet gets a thickness, with which it reaches into what it touches.
+#[test]
+fn an_arm_stands_on_a_sheet() {
+    let corner = |x: f64, y: f64| nalgebra::Point3::new(x, y, 0.0);
+    let [a, b, c, d] = [
+        corner(-0.5, -0.5),
+        corner(0.5, -0.5),
+        corner(0.5, 0.5),
+        corner(-0.5, 0.5),
+    ];
+    let leg = |z: f64| {
+        [
+            nalgebra::Point3::new(0.5, 0.5, z),
+            c,
+            nalgebra::Point3::new(0.5, 0.4, z),
+        ]
+    };
+    let parts = solid_parts(&[[a, b, c], [a, c, d], leg(-0.7)], SolidParts::Decomposed).unwrap();
+    assert_eq!(
+        found(vec![Obstacle::new(
+            "bench",
+            ObstacleShape::Parts(parts),
+            Pose::identity()
+        )]),
+        []
+    );
+}

@@ -148,6 +148,26 @@ fn a_round_tool_in_front_of_the_flange_does_not_touch_the_link_behind() {
     assert!(!found(0.1).is_clear(REQUIRED_M));
 }
 
+/// A frame within the link behind the flange, or one that faces it, is no flange: the tool is not in front of anything.
+#[test]
+fn a_tool_within_the_link_is_in_the_way_whatever_its_frame_says() {
+    let inner = r#"<link name="inner"/><joint name="inner_joint" type="fixed"><parent link="link_6"/><child link="inner"/>
+      <origin xyz="-0.02 0 0" rpy="0 1.5707963267948966 0"/></joint></robot>"#;
+    let text = IRB120_URDF.replace("</robot>", inner);
+    let arm = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    let worst = |mount: &str| {
+        let mut tool = with_ring(0.03, [0.0, 0.05]);
+        tool.mounted_on = Some(mount.to_owned());
+        let found = still_pairs(&arm, &cell(&arm, tool, Vec::new())).unwrap();
+        found.into_iter().find(|still| still.pair.b == "ring")
+    };
+    assert_eq!(worst("tool0"), None);
+    let within = worst("inner").unwrap();
+    assert!(!within.is_clear(REQUIRED_M), "{within:?}");
+    let back = worst("tool0:-z").unwrap();
+    assert!(!back.only_contact && !back.is_clear(REQUIRED_M), "{back:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
     /// The stated bound holds at any configuration, also for a half-space that is not quite level and a ring that is not quite on axis 6.

@@ -74,7 +74,11 @@ impl Goal {
     /// Returns the least bound that is good enough beside the least distance found, with the allowed gap as a part `coarse` of that.
     fn needed(&self, seen: f64, coarse: f64) -> f64 {
         if self.only_contact {
-            return if seen > 0.0 { FLOOR_M.min(0.5 * seen) } else { f64::NEG_INFINITY };
+            return if seen > 0.0 {
+                FLOOR_M.min(0.5 * seen)
+            } else {
+                f64::NEG_INFINITY
+            };
         }
         let broken = seen < self.limit_m - ITERATIVE_ERROR_M || seen <= 0.0;
         if broken {

@@ -260,7 +260,7 @@ impl VerdictBasis {
     /// words.
     fn left_out(&self) -> (Vec<LeftOut<'_>>, Vec<LeftOut<'_>>) {
         let obstacles = self.workcell.obstacles_from_base();
-        let is_ground = |name: &String| obstacles.iter().any(|o| o.name == *name && o.is_plain_floor());
+        let is_ground = |name: &String| obstacles.iter().any(|o| o.name == *name && o.is_ground());
         let told = self
             .workcell
             .exclusions

@@ -147,9 +147,10 @@ pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceErro
             .iter()
             .any(|o| o.name == name && o.shape == ObstacleShape::HalfSpace)
     };
+    let is_plate = |name: &String| (0..subject.plates().len()).any(|plate| *name == plate_name(plate));
     let mut reaching = subject.job.standing_overlaps(subject.robot)?;
     reaching.retain(|found| match &found.body {
-        FixedBody::Obstacle(name) => !(is_floor(name) && found.other.starts_with("plate ")),
+        FixedBody::Obstacle(name) => !(is_floor(name) && is_plate(&found.other)),
         FixedBody::Parts(_) | FixedBody::Plate(_) => true,
     });
     let reaches = !reaching.is_empty();

@@ -74,6 +74,7 @@ fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotMod
     let limits = tree::limits(&tree)?;
     let joints = tree.axes.map(|joint| Joint {
         name: joint.name.clone(),
+        parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),
     });
     let (folded, frames) = fold(&tree, &fixed)?;

@@ -45,6 +45,10 @@ impl Separation {
 /// cores meet, the radii around them determine it.
 pub(crate) fn bracketed(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> (Separation, f64) {
     let mut found = separation(a, b);
+    if found.distance == f64::INFINITY {
+        // The routine gave up.
+        found = between_extremes(a, b);
+    }
     let normal = Vector::from_array(found.normal);
     if a.is_exact_with(b) || normal == Vector::ZERO {
         let at_least = found.distance;
@@ -55,6 +59,19 @@ pub(crate) fn bracketed(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> (Separation, 
     found.distance = found.distance.min(bracket.at_most - radii);
     found.normal = bracket.normal.to_array();
     (found, bracket.at_least.max(0.0) - radii)
+}
+
+/// Distance of two points of two parts, those farthest along the line between their origins.
+fn between_extremes(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> Separation {
+    let way = b.pose.translation - a.pose.translation;
+    let normal = if way.length() > 0.0 { way.normalize() } else { Vector::X };
+    let [p, q] = [a.extreme(normal), b.extreme(-normal)];
+    let (gap, length) = (q - p, (q - p).length());
+    Separation {
+        distance: length - a.radius - b.radius,
+        place: ((p + q) * 0.5).to_array(),
+        normal: (if length > 0.0 { gap / length } else { normal }).to_array(),
+    }
 }
 
 /// Nearest points of two cores, base frame; equal if the cores meet.

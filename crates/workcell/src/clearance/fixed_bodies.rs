@@ -2,7 +2,7 @@
 //!
 //! Two convex parts overlap by no more than max n·a − min n·b along any direction n, from the first to the second. So parts are apart if
 //! one of the directions tried shows it: those of their faces and axes, of their nearest points, and the one in which the collision library
-//! would push them apart. The least value found is stated as the overlap.
+//! would push them apart. The least value found is stated as the overlap. All else that the library says of two parts is no proof.
 //!
 //! What stands may touch what it stands on, and neither moves. So these pairs need no clearance, and the margins of obstacles, which say
 //! how much more a moving body keeps, do not count. The floor at height 0 that a job has by default may reach into the base: it is the
@@ -17,6 +17,7 @@ use crate::clearance::body::{Body, BodyKind, obstacle_body, place, plate_body, w
 use crate::clearance::distance::bracketed;
 use crate::clearance::model::{ClearanceError, ClearanceModel, from_base};
 use crate::clearance::part::{Core, Extent, Part, PlacedPart};
+use crate::clearance::solid::SHEET_M;
 use crate::dry_run::DryRun;
 use crate::plate::Plate;
 use crate::tool::Tool;
@@ -96,8 +97,8 @@ pub fn standing_overlaps(
     let poses = robot.fk(&JointVector::zeros());
     let standing = if dry_run.is_some() { &[] } else { plates };
     let tilted: Vec<_> = (0..standing.len()).filter(|&i| !standing[i].is_level()).collect();
-    // If all plates lie level on the plain floor, the base does not count.
-    let arm = match tilted.is_empty() && counting.iter().all(|obstacle| obstacle.is_plain_floor()) {
+    // If all plates lie level on the ground, the base does not count.
+    let arm = match tilted.is_empty() && counting.iter().all(|obstacle| obstacle.is_ground()) {
         true => Vec::new(),
         false => world_with(robot, |body| body == 0, &Tool::none(robot), &[])?,
     };
@@ -113,7 +114,11 @@ pub fn standing_overlaps(
             margin_m: 0.0,
             ..obstacle.clone()
         })?;
-        let stays = |link: &&Body| !obstacle.is_plain_floor() && link.kind == BodyKind::Link(0);
+        let stays = |link: &&Body| !obstacle.is_ground() && link.kind == BodyKind::Link(0);
+        let touch_m = match obstacle.shape {
+            ObstacleShape::Parts(_) => TOUCH_M + SHEET_M,
+            _ => TOUCH_M,
+        };
         let free = bodies
             .iter()
             .enumerate()
@@ -121,7 +126,7 @@ pub fn standing_overlaps(
         for other in free.map(|(_, plate)| plate).chain(arm.iter().filter(stays)) {
             let by_m = overlap(&body, other, &poses);
             // NaN is no overlap that could be told: poses are finite.
-            if by_m > TOUCH_M {
+            if by_m > touch_m {
                 let (name, other) = (obstacle.name.clone(), other.name.clone());
                 let standing = match obstacle.shape {
                     ObstacleShape::Parts(_) => FixedBody::Parts(name),
@@ -187,21 +192,23 @@ fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
 /// Upper bound on the depth by which two parts overlap \[m\]; 0 or less if they do not.
 pub(crate) fn depth(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> f64 {
     let (found, at_least) = bracketed(a, b);
-    if a.outwards().is_some() || b.outwards().is_some() || at_least > 0.0 {
+    if a.outwards().is_some() || b.outwards().is_some() {
         return -found.distance;
     }
-    let mut least = if found.normal == [0.0; 3] {
-        f64::INFINITY
-    } else {
-        -found.distance
-    };
+    if at_least > 0.0 {
+        return -at_least;
+    }
+    let mut least = f64::INFINITY;
     let pushed = match (&a.core, &b.core) {
         (Core::Solid(p, _), Core::Solid(r, _)) => query::contact(&a.pose, &**p, &b.pose, &**r, 0.0).ok().flatten(),
         _ => None,
     };
     let pushed = pushed.map(|contact| contact.normal1);
     let directions = faces(a).chain(faces(b)).flat_map(|n| [n, -n]);
-    for n in directions.chain(pushed).chain(between(a, b)) {
+    let along = [pushed, Some(Vector::from_array(found.normal))].into_iter().flatten();
+    let all = directions.chain(along).chain(between(a, b));
+    // The library has faces without a normal. Along no direction every two parts are apart.
+    for n in all.filter(|n| (n.length() - 1.0).abs() < 1e-6) {
         least = least.min(a.support(n) + b.support(-n));
     }
     least

@@ -117,11 +117,13 @@ fn can_meet(a: &Body, b: &Body) -> bool {
 fn reason(robot: &RobotModel, first: &Body, second: &Body, moves: impl Fn(&Body) -> bool) -> Option<ExclusionReason> {
     use BodyKind::{Floor, Link, Obstacle, Sponge, Tool};
     match (first.kind, second.kind) {
-        (Link(i), Link(j)) => match robot.disabled_pairs() {
+        (Link(_), Link(_)) => match robot.disabled_pairs() {
             Some(disabled) => disabled
                 .contains(&first.name, &second.name)
                 .then_some(ExclusionReason::Srdf),
-            None => (i.abs_diff(j) <= 1).then_some(ExclusionReason::Neighbours),
+            None => robot
+                .share_a_joint(&first.name, &second.name)
+                .then_some(ExclusionReason::Neighbours),
         },
         (Link(i), Tool | Sponge) => carrying_reason(i, second, moves),
         (Tool | Sponge, Link(i)) => carrying_reason(i, first, moves),

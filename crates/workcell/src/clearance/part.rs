@@ -4,6 +4,7 @@
 
 use crate::clearance::convex::{ConvexHull, HullFault};
 use crate::clearance::lever::Levers;
+use crate::obstacle::is_ground_plane;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Cuboid, Cylinder, Segment, SharedShape};
@@ -85,11 +86,16 @@ impl Part {
         matches!(&self.core, Core::Solid(solid, _) if solid.as_convex_polyhedron().is_some())
     }
 
-    /// True for the half-space below height 0 of the base, without a margin.
+    /// True for the half-space below height 0 of the base: the ground.
     pub fn is_ground(&self) -> bool {
-        let identity = RigidTransform::identity();
-        let is_at_origin = self.frame.body() == 0 && *self.frame.on_body() == identity;
-        matches!(self.core, Core::HalfSpace) && self.radius == 0.0 && is_at_origin
+        let RigidTransform { rotation, translation } = self.frame.on_body();
+        let is_level = || is_ground_plane(&rotation.column(2).into_owned(), translation);
+        matches!(self.core, Core::HalfSpace) && self.frame.body() == 0 && is_level()
+    }
+
+    /// Margin around the core \[m\].
+    pub fn margin_m(&self) -> f64 {
+        self.radius
     }
 
     /// True for a ball.

@@ -37,7 +37,7 @@ const CUTS: Cuts = Cuts {
 };
 
 /// Half of the thickness added to a part without one \[m\].
-const SHEET_M: f64 = 5e-5;
+pub(crate) const SHEET_M: f64 = 5e-5;
 
 /// Distance beyond a plane at which a piece of a surface counts as behind it, as a part of the mesh's size.
 const ROUNDING: f64 = 1e-12;
@@ -236,8 +236,27 @@ fn enclosing(triangles: &[[Vector; 3]], cells: &[Part]) -> Vec<Vec<Vector>> {
         }
     }
     let filled = parts.into_iter().filter(|part| !part.is_empty());
-    let hull = |part: Vec<Vector>| Part::around(thick(distinct(part.into_iter()))).corners;
-    filled.map(hull).collect()
+    filled.map(|part| solid(distinct(part.into_iter()))).collect()
+}
+
+/// Returns the corners of a body that holds some points and whose hull can be computed: their own hull, or, where the collision library fails,
+/// that of the points with a thickness, and last the box about them.
+fn solid(points: Vec<Vector>) -> Vec<Vector> {
+    let hull =
+        |points: Vec<Vector>| Some(Part::around(points).corners).filter(|corners| ConvexHull::of(corners).is_ok());
+    let found = hull(thick(points.clone())).or_else(|| hull(thickened(&points)));
+    found.unwrap_or_else(|| box_about(&points))
+}
+
+/// Returns the corners of a box that holds some points, with a margin on all sides.
+fn box_about(points: &[Vector]) -> Vec<Vector> {
+    let (least, most) = points.iter().fold(
+        (Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)),
+        |(least, most), point| (least.min(*point), most.max(*point)),
+    );
+    let sides = [least - Vector::splat(SHEET_M), most + Vector::splat(SHEET_M)];
+    let corner = |k: usize| Vector::new(sides[k & 1].x, sides[k >> 1 & 1].y, sides[k >> 2].z);
+    (0..8).map(corner).collect()
 }
 
 /// Proposes parts of a mesh that are nearly convex.
@@ -265,6 +284,11 @@ fn thick(points: Vec<Vector>) -> Vec<Vector> {
     if has_volume(&points) {
         return points;
     }
+    thickened(&points)
+}
+
+/// Returns points on all sides of some points.
+fn thickened(points: &[Vector]) -> Vec<Vector> {
     let steps = [Vector::X, Vector::Y, Vector::Z].map(|axis| axis * SHEET_M);
     let about = |p: &Vector| {
         let p = *p;

@@ -6,23 +6,27 @@
 //!
 //! They keep the required clearance, as all pairs do, with two exceptions, where only contact counts. An arm stands on the ground, the floor at
 //! height 0 of its base, by intent, and its links are as high over it as they are made. A body of the tool in front of the flange stands
-//! against it by intent, and the link that carries joint 6 is as near as the flange is thick. The shape of that link may
-//! even reach through the flange, as shapes hold more than the link; such a part is none that the tool could meet before it meets the flange.
+//! against it by intent, and the link that carries joint 6 is as near as the flange is thick. The shape of that link may even reach through the
+//! middle of the flange, as shapes hold more than the link: such a part does not count if it reaches no farther than [`THROUGH_M`]. A plane
+//! whose normal does not lead away from that link is no flange.
 
 use crate::clearance::body::{Body, BodyKind, place, world_with};
 use crate::clearance::distance::{Separation, bracketed};
 use crate::clearance::fixed_bodies::{TOUCH_M, depth};
 use crate::clearance::model::{ClearanceError, ClearanceModel, PairClearance, is_clear};
-use crate::clearance::part::Part;
+use crate::clearance::part::{Part, PlacedPart};
 use crate::tool::Tool;
 use crate::workcell::{ObstacleShape, ReducedClearance, Workcell, is_pair};
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_kinematics::{BodyPoses, Frame, JointVector, RobotModel};
 
 /// Body of the arm that carries joint 6.
 pub(crate) const CARRIER: usize = 5;
+
+/// Greatest distance in front of the flange that the shape of the link behind it reaches \[m\].
+const THROUGH_M: f64 = 0.01;
 
 /// Greatest angle between axis 1 and the normal of a half-space over which a link keeps its height \[rad\].
 const UPRIGHT: f64 = 1.5e-6;
@@ -117,7 +121,8 @@ impl Still {
         if let Some(flange) = &self.mounted_on {
             let middle = Part::ball(0.0, *flange);
             let middle = middle.place(&poses);
-            here.retain(|part| bracketed(part, &middle).1 > TOUCH_M);
+            let plane = Plane::of(flange, &poses);
+            here.retain(|part| bracketed(part, &middle).1 > TOUCH_M || plane.reach_m(part) > THROUGH_M);
         }
         let mut nearest: Option<Separation> = None;
         let mut least_m = f64::INFINITY;
@@ -137,6 +142,13 @@ impl Still {
             }
         }
         let found = nearest?;
+        // Margins are for what need not be as near as it is.
+        let margins = second.parts.iter().map(Part::margin_m);
+        let margin_m = if self.is_on_ground {
+            margins.fold(0.0, f64::max)
+        } else {
+            0.0
+        };
         Some(StillPair {
             pair: PairClearance {
                 a: first.name.clone(),
@@ -146,7 +158,7 @@ impl Still {
                 has_hull: first.has_hull() || second.has_hull(),
                 reduced_by_m: reduced_by_m(a, b),
             },
-            at_least_m: least_m - self.change_m,
+            at_least_m: least_m - self.change_m + margin_m,
             only_contact: self.mounted_on.is_some() || self.is_on_ground,
         })
     }
@@ -176,14 +188,45 @@ pub(crate) fn still(robot: &RobotModel, tool: &Tool, bodies: &[Body]) -> Vec<Sti
     pairs.filter_map(|(a, b)| of(a, b)).collect()
 }
 
-/// True if a body of the tool does not reach behind the flange.
+/// Plane of a flange, base frame.
+struct Plane {
+    at: Vector,
+    /// Axis of the flange, out of the arm.
+    out: Vector,
+}
+
+impl Plane {
+    fn of(flange: &Frame, poses: &BodyPoses) -> Self {
+        let RigidTransform { rotation, translation } = poses.rigid(flange);
+        let vector = |v: Vector3<f64>| Vector::new(v.x, v.y, v.z);
+        Self {
+            at: vector(translation),
+            out: vector(rotation.column(2).into_owned()),
+        }
+    }
+
+    /// Greatest distance in front of the plane of a point of a part \[m\].
+    fn reach_m(&self, part: &PlacedPart<'_>) -> f64 {
+        part.support(self.out) - self.out.dot(self.at)
+    }
+
+    /// Greatest distance behind the plane of a point of a part \[m\].
+    fn behind_m(&self, part: &PlacedPart<'_>) -> f64 {
+        part.support(-self.out) + self.out.dot(self.at)
+    }
+}
+
+/// True if a body of the tool does not reach behind the flange, and the flange faces away from the link that carries joint 6.
 fn is_in_front(robot: &RobotModel, body: &Body, flange: &Frame) -> bool {
     let poses = robot.fk(&JointVector::zeros());
-    let RigidTransform { rotation, translation } = poses.rigid(flange);
-    let [x, y, z]: [f64; 3] = rotation.column(2).into_owned().into();
-    let [backwards, at] = [Vector::new(-x, -y, -z), Vector::from(<[f64; 3]>::from(translation))];
-    let behind = |part: &Part| part.place(&poses).support(backwards) - backwards.dot(at);
-    body.parts.iter().all(|part| behind(part) <= TOUCH_M)
+    let plane = Plane::of(flange, &poses);
+    let [x, y, z] = poses.bodies()[CARRIER].translation.into();
+    let faces_away = plane.out.dot(plane.at - Vector::new(x, y, z)) > 0.0;
+    faces_away
+        && body
+            .parts
+            .iter()
+            .all(|part| plane.behind_m(&part.place(&poses)) <= TOUCH_M)
 }
 
 /// Most by which joint 1 changes the height of a body over a half-space \[m\]; `None` if it does not turn it about the normal.
