@@ -13,6 +13,7 @@ mod rapid_round_trip;
 mod ros2;
 mod ros2_refused;
 mod trajectory;
+mod trajectory_fields;
 mod urscript;
 mod whole_plan;
 
