@@ -1,24 +1,19 @@
 //! Link pairs that need no collision check, read from an SRDF file as MoveIt reads it: `disable_collisions` takes out a pair,
 //! `disable_default_collisions` every pair of a link but those of `enable_collisions`. A pair that is disabled itself stays so.
 //!
-//! The other elements of an SRDF name groups, states and joints for planners, and change no pair: see [`OTHERS`]. Unknown elements are refused.
+//! The other elements of an SRDF name groups, states, joints and grippers for planners, and change no pair. An unknown element whose name
+//! begins as those above do is refused, and so is one of xacro, whose file is yet to be processed.
 
 use crate::sha256_hex;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Elements of an SRDF that change no pair.
-const OTHERS: [&str; 8] = [
-    "group",
-    "group_state",
-    "virtual_joint",
-    "passive_joint",
-    "end_effector",
-    "link_sphere_approximation",
-    "joint_property",
-    "visual",
-];
+/// Beginnings of the names of elements that may be about pairs. MoveIt reads those that are known, directly below the root.
+const ABOUT_PAIRS: [&str; 2] = ["disable", "enable"];
+
+/// Beginning of the names of elements of a file that is yet to be processed.
+const XACRO: &str = "xacro:";
 
 /// Unordered pairs of link names that need no collision check.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -61,11 +56,10 @@ pub enum SrdfError {
         /// `link1`, `link2` or `link`.
         attribute: &'static str,
     },
-    /// An element is unknown, or stands where MoveIt does not read it.
+    /// An element that may be about pairs is unknown, or stands where MoveIt does not read it.
     #[error(
-        "SRDF: unexpected element <{element}> at byte {position}; expected disable_collisions, enable_collisions, \
-         disable_default_collisions, {}, each directly in <robot>",
-        OTHERS.join(", ")
+        "SRDF: unexpected element <{element}> at byte {position}; expected disable_collisions, enable_collisions and \
+         disable_default_collisions directly in <robot>, and nothing of xacro, which must be processed before"
     )]
     UnknownElement {
         /// Byte offset.
@@ -141,9 +135,10 @@ impl DisabledPairs {
             (1, "disable_default_collisions") => {
                 self.by_default.insert(attribute(tag, "link", position)?);
             }
-            (1, other) if OTHERS.contains(&other) => {}
-            (2.., other) if !other.ends_with("_collisions") => {}
-            _ => return Err(SrdfError::UnknownElement { position, element }),
+            (_, other) if ABOUT_PAIRS.iter().any(|begins| other.starts_with(begins)) || other.starts_with(XACRO) => {
+                return Err(SrdfError::UnknownElement { position, element });
+            }
+            _ => {}
         }
         Ok(())
     }
@@ -248,8 +243,9 @@ mod tests {
     }
 
     #[test]
-    fn unknown_elements_are_refused() {
+    fn unknown_elements_about_pairs_are_refused() {
         for known in [
+            "<gripper name=\"g\"/><rotor_params/>",
             "<group name=\"g\"><joint name=\"j\"/><link name=\"l\"/></group>",
             "<passive_joint name=\"j\"/>",
             "<!-- a -->",

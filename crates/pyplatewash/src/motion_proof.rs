@@ -28,11 +28,13 @@ const CLEARANCE_M: f64 = 0.005;
 /// `obstacles` is the path of a TOML file with `[[obstacle]]`, `[floor]` and `[table]` sections or of a planning scene of MoveIt (`.scene`), a
 /// list of dictionaries with the keys of `[[obstacle]]`, or a dictionary of all three sections; nothing else is there. They are in the frame
 /// of the world, in which the arm's base stands at `mount`, a pose of shape (4, 4), by default at its origin. `tool` is a `Tool`.
-/// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given.
+/// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given: the arm rests before and behind straight lines, and with
+/// speeds it brakes behind the last point at these limits, which is judged, too.
 ///
 /// Returns a record: `proved`, `verdict` (`"proved"`, `"broken"`, `"not_proved"`), `headline`, `rules` (each with `requirement`, `status`,
-/// `measure`, and the `worst` moment with `time_s`, `point`, `share`, `q_rad`), `clearance` pair by pair, `excluded` pairs and `assumptions`. Its
-/// text is what the command prints.
+/// `measure`, and the `worst` moment with `time_s`, `point`, `share`, `q_rad`), `clearance` pair by pair, `excluded` pairs, `assumptions`,
+/// `end_speeds_rad_s` at the first and the last point, and `notes` on what the verdict leaves out, if there are any. Its text is what the
+/// command prints.
 ///
 /// Raises InputError for points that are no motion; ScenarioError for obstacles that do not fit.
 #[pyfunction]
