@@ -50,6 +50,7 @@ PYTHON = {
     "tune": "tune",
     "WashReport": "Planned.report",
     "paper_spirals": "Plan.figure",
+    "judged_motion": None,  # what `prove_motion` judges; its record says how long the stop takes
     "SWEEP_HEADER": None,  # the columns are the records' keys
     "SweepRow": "sweep",
     "sweep": "sweep",
