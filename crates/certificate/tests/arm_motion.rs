@@ -3,9 +3,9 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{ArmMotionProof, MotionRules, ProveError, Requirement, Status, Timing, prove_arm_motion};
 use platewash_kinematics::geometry::Shape;
-use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash_kinematics::urdf::MeshSource;
-use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_kinematics::{DisabledPairs, JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, ITERATIVE_ERROR_M};
 use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
@@ -287,4 +287,45 @@ proptest! {
             prop_assert!(bound.at_least_m.is_none_or(|m| m <= sampled + ITERATIVE_ERROR_M), "{:?} {}", bound, sampled);
         }
     }
+}
+
+/// A pair that an SRDF leaves out as one that never meets, and that meets in this motion, is named.
+#[test]
+fn a_disabled_pair_that_meets_is_named() {
+    let with = |more: &str| {
+        let text = IRB120_SRDF.replace("</robot>", &format!("{more}</robot>"));
+        let pairs = DisabledPairs::parse(&text).unwrap();
+        RobotModel::irb120().unwrap().with_disabled_pairs(pairs).unwrap()
+    };
+    let alone = Workcell::without_tool(&with(""), Pose::identity(), Vec::new()).unwrap();
+    // The wrist folded down to the foot.
+    let folded = JointVector::from([0.0, 109.0, 60.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
+    let motion = lines(&[JointVector::zeros(), folded], 5.0);
+    let proof = |arm: &RobotModel| judged(&motion, &alone, arm, &rules());
+    let shipped = proof(&with(""));
+    assert_eq!(
+        (shipped.status(), shipped.disabled_meeting.len()),
+        (Status::Violated, 0)
+    );
+    let Some([a, b]) = shipped.check(Requirement::Clearance).unwrap().worst.pair.clone() else {
+        panic!("{shipped:?}")
+    };
+    let disabled = |reason: &str| {
+        let all = ["base_link", "link_1"]
+            .into_iter()
+            .flat_map(|a| ["link_3", "link_4", "link_5", "link_6"].map(|b| (a, b)));
+        let lines = all.map(|(a, b)| format!("<disable_collisions link1=\"{a}\" link2=\"{b}\" {reason}/>"));
+        proof(&with(&lines.collect::<String>()))
+    };
+    for reason in ["reason=\"Never\"", "reason=\"User\"", ""] {
+        let found = disabled(reason);
+        assert_ne!(found.status(), Status::Violated, "{:?}", found.checks);
+        let (_, time_s) = found
+            .disabled_meeting
+            .iter()
+            .find(|(pair, _)| pair == &[a.clone(), b.clone()])
+            .unwrap();
+        assert!((0.0..=5.0).contains(time_s));
+    }
+    assert_eq!(disabled("reason=\"Default\"").disabled_meeting, []);
 }
