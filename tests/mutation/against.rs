@@ -60,8 +60,9 @@ const WORLD: [Case; 17] = [
             half_length_m: 0.0625,
         }
     }),
-    Case(r#"workcell.tool.bodies["handle"].pose.position_m[2]"#, true, |j| {
-        j.workcell.tool.bodies[0].pose.translation.z += 1e-3
+    // Behind the flange the handle is within link 5.
+    Case(r#"workcell.tool.bodies["handle"].pose.position_m[2]"#, false, |j| {
+        j.workcell.tool.bodies[0].pose.translation.z -= 1e-3
     }),
     Case("workcell.tool.sponge.radius_m", true, |j| {
         j.workcell.tool.sponge.radius_m += 1e-4
