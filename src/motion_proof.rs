@@ -115,8 +115,8 @@ pub struct MotionReport {
     pub clearance: Vec<PairBound>,
     /// Pairs of bodies that are not judged, with the reason of each.
     pub excluded: Vec<Exclusion>,
-    /// What the verdict says nothing of, and a reader of it should know: what the file states beside the motion, and pairs that the SRDF leaves
-    /// out and that meet; one clause each.
+    /// Facts beside the verdict that a reader of it should know: statements of the file beside the motion, and pairs that the SRDF leaves out and
+    /// that meet; one clause each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// Assumptions of the verdict; one sentence each.

@@ -37,7 +37,7 @@ pub struct JointPoints {
     pub qdd_rad_s2: Option<Vec<JointVector>>,
     /// Joints that were stated not to move, axes of the arm or not.
     pub fixed: FixedJoints,
-    /// What a file states beside the motion that a reader of the verdict should know; one clause each.
+    /// Statements of a file beside the motion that a reader of the verdict should know; one clause each.
     pub notes: Vec<String>,
 }
 
@@ -78,7 +78,7 @@ pub struct PointMotion {
     pub start: Option<ExactTime>,
     /// Joints that were stated not to move, axes of the arm or not.
     pub fixed: FixedJoints,
-    /// What the file states beside the motion: [`JointPoints::notes`].
+    /// Statements of the file beside the motion: [`JointPoints::notes`].
     pub notes: Vec<String>,
 }
 
