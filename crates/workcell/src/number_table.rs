@@ -220,7 +220,7 @@ impl Row<'_> {
             match self.text(place).parse::<f64>() {
                 Ok(found) if found.abs() <= self.most => *number = found,
                 _ => {
-                    let (most, found) = (self.most, quoted(&shortened(self.text(place), LONGEST)));
+                    let (most, found) = (self.most, self.quoted(place));
                     return self.refused(
                         place,
                         format!(
@@ -231,6 +231,12 @@ impl Row<'_> {
             }
         }
         Ok(numbers)
+    }
+
+    /// Returns the text of a cell for a message: quoted, and shortened.
+    #[must_use]
+    pub fn quoted(&self, place: usize) -> String {
+        quoted(&shortened(self.text(place), LONGEST))
     }
 
     /// Returns an error about a cell of the row.

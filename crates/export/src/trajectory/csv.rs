@@ -9,13 +9,10 @@ use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::{MAX_ROWS, STATE};
 use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
-use platewash_workcell::words::{quoted, shortened, without_mark};
+use platewash_workcell::words::without_mark;
 
 /// Greatest magnitude of a number \[rad, rad/s, rad/s²\].
 const GREATEST: f64 = 1e6;
-
-/// Most characters of a cell in a message.
-const LONGEST: usize = 20;
 
 const TIME: [&str; 1] = ["t_s"];
 
@@ -176,7 +173,7 @@ impl Columns {
 fn read_time(row: &Row<'_>, place: usize) -> Result<ExactTime, TableError> {
     ExactTime::parse(row.text(place)).map_or_else(
         || {
-            let found = quoted(&shortened(row.text(place), LONGEST));
+            let found = row.quoted(place);
             row.refused(
                 place,
                 format!("expected a time in seconds, with a point for decimals; found {found}"),

@@ -121,6 +121,19 @@ pub(crate) fn guarded<T>(call: impl FnOnce() -> T) -> Option<T> {
     catch_unwind(AssertUnwindSafe(call)).ok()
 }
 
+/// Mean of some points; the origin without any.
+pub(crate) fn middle(points: &[Vector]) -> Vector {
+    points.iter().fold(Vector::ZERO, |sum, p| sum + *p) / points.len().max(1) as f64
+}
+
+/// Least and greatest coordinates of some points.
+pub(crate) fn bounds(points: &[Vector]) -> [Vector; 2] {
+    let none = [Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)];
+    points
+        .iter()
+        .fold(none, |[least, most], point| [least.min(*point), most.max(*point)])
+}
+
 /// Bits of a point's coordinates; those of 0 for −0.
 pub(crate) fn bits(point: Vector) -> [u64; 3] {
     (point + Vector::ZERO).to_array().map(f64::to_bits)
@@ -140,7 +153,7 @@ const NEARLY: f64 = 1e-9;
 
 impl Mixtures {
     fn of(surface: &Surface) -> Self {
-        let middle = surface.corners.iter().fold(Vector::ZERO, |sum, p| sum + *p) / surface.corners.len() as f64;
+        let middle = middle(&surface.corners);
         let face = |corners: &[u32; 3]| {
             let [a, b, c] = corners.map(|k| surface.corners[k as usize]);
             let normal = (b - a).cross(c - a);

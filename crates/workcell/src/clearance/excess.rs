@@ -1,6 +1,6 @@
 //! Distance by which the convex parts of a mesh reach beyond it.
 
-use crate::clearance::convex::ConvexHull;
+use crate::clearance::convex::{ConvexHull, bounds};
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
@@ -33,7 +33,10 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
         let hull = match ConvexHull::of(&corners) {
             Ok(hull) if hull.is_sound => hull,
             // No point of a hull is farther from a corner, which is of the mesh, than the corners are from each other.
-            _ => return widest(&corners),
+            _ => {
+                let [least, most] = bounds(&corners);
+                return (most - least).length();
+            }
         };
         let faces = hull.triangles.iter();
         open.extend(faces.map(|face| mesh.cell(face.map(|k| hull.corners[k as usize]), &mut found_m)));
@@ -47,15 +50,6 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
         open.extend(quarters.map(|corners| mesh.cell(corners, &mut found_m)));
     }
     open.peek().map_or(0.0, |cell| cell.bound_m)
-}
-
-/// Diagonal of the box about some points \[m\].
-fn widest(points: &[Vector]) -> f64 {
-    let (low, high) = points.iter().fold(
-        (Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)),
-        |(low, high), point| (low.min(*point), high.max(*point)),
-    );
-    (high - low).length()
 }
 
 /// Mesh from which distances are measured.

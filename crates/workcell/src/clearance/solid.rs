@@ -11,7 +11,7 @@ mod few;
 #[cfg(test)]
 mod tests;
 
-use crate::clearance::convex::{ConvexHull, MOST_CORNERS, MOST_VERTICES, bits, guarded, has_volume};
+use crate::clearance::convex::{ConvexHull, MOST_CORNERS, MOST_VERTICES, bits, bounds, guarded, has_volume, middle};
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -208,10 +208,6 @@ fn split(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> (Vec<Vector>, V
     (behind, beyond)
 }
 
-fn middle(points: &[Vector]) -> Vector {
-    points.iter().fold(Vector::ZERO, |sum, p| sum + *p) / points.len().max(1) as f64
-}
-
 /// Returns the corners of parts that enclose the triangles, about one for each cell.
 fn enclosing(triangles: &[[Vector; 3]], cells: &[Part]) -> Vec<Vec<Vector>> {
     let size = triangles.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
@@ -250,10 +246,7 @@ fn solid(points: Vec<Vector>) -> Vec<Vector> {
 
 /// Returns the corners of a box that holds some points, with a margin on all sides.
 fn box_about(points: &[Vector]) -> Vec<Vector> {
-    let (least, most) = points.iter().fold(
-        (Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)),
-        |(least, most), point| (least.min(*point), most.max(*point)),
-    );
+    let [least, most] = bounds(points);
     let sides = [least - Vector::splat(SHEET_M), most + Vector::splat(SHEET_M)];
     let corner = |k: usize| Vector::new(sides[k & 1].x, sides[k >> 1 & 1].y, sides[k >> 2].z);
     (0..8).map(corner).collect()
