@@ -195,11 +195,11 @@ class PlanError(PlatewashError):
     waypoint: int | None = None
     #: Joint at fault, 0 for joint 1.
     joint: int | None = None
-    #: Why, in one word, where there is one: ``"unwashable"`` (it is known that a plate cannot be washed whole), ``"not_found"`` (no
+    #: Why, in one word, where there is one: ``"unwashable"`` (it is known that a plate cannot be washed), ``"not_found"`` (no
     #: way to wash it was found; there may be one), ``"line"``, ``"no_transit"``, ``"tilt"`` (none was found), ``"home"``,
     #: ``"overlap"`` (plates share a place).
     cause: str | None = None
-    #: For a plate that cannot be washed whole, or was not found to be: the share of its wash path for which configurations were found.
+    #: For a plate that cannot be washed, or was not found to be: the share of the wash path that was tried for which configurations were found.
     share: float | None = None
     #: For such a plate whose position was given: the nearest centre at which it can be, shape (2,) [m].
     nearest_m: npt.NDArray[np.float64] | None = None

@@ -328,3 +328,50 @@ fn validate_reports_the_errors_of_run() {
     let file = spiral(dir, &[("region = \"appendix\"", &many)]);
     platewash(dir, &["validate", "--scenario", file.to_str().unwrap()]).refused(2, &["case.toml", "wash.turns"]);
 }
+
+/// A search along one wash path finds nothing, and another path that the job allows is proved: nothing is said of all paths.
+#[test]
+fn what_fails_on_one_path_is_not_called_infeasible() {
+    let folder = folder();
+    let dir = folder.path();
+    // Nine tenths of the face are enough, and its far edge is just out of reach.
+    let lower = [
+        ("required_coverage = 0.995", "required_coverage = 0.93"),
+        ("count = 4\n", ""),
+        ("min_distance_m = 0.30 ", ""),
+        ("contact_share = 0.995", "contact_share = 0.93"),
+        ("contact_time_share = 0.98", "contact_time_share = 0.9"),
+        ("contact_dose_pa_m = 25", "contact_dose_pa_m = 10"),
+        ("contact_dose_share = 0.98", "contact_dose_share = 0.85"),
+    ];
+    let pinned = ("\n[wash]\n", "\n[wash]\npath_radius_m = 0.118\n");
+    for (x_m, tilt_deg) in [("0.516", "15"), ("0.516", "14.9"), ("0.514", "14.5")] {
+        let placed = [
+            ("region = \"appendix\"", &*format!("positions_m = [[{x_m}, 0.0]]")),
+            ("tilt_max_deg = 15", &*format!("tilt_max_deg = {tilt_deg}")),
+        ]
+        .map(|(from, to)| (from, to.to_owned()));
+        let mut changes: Vec<(&str, &str)> = placed.iter().map(|(from, to)| (*from, &**to)).collect();
+        changes.extend(lower);
+        let run = |changes: &[(&str, &str)]| {
+            let file = replaced(dir, "kitchen", changes);
+            let file = file.to_str().unwrap();
+            platewash(dir, &["run", "--scenario", file, "--search-time", "0", "--out", "o"])
+        };
+        let free = run(&changes);
+        changes.push(pinned);
+        let pinned = run(&changes);
+        assert_eq!(pinned.code, 0, "{x_m} {tilt_deg}: {}{}", pinned.stdout, pinned.stderr);
+        assert_eq!(free.code, 3, "{x_m} {tilt_deg}: {}", free.stdout);
+        assert!(
+            free.stdout.starts_with("NOT FOUND: "),
+            "{x_m} {tilt_deg}: {}",
+            free.stdout
+        );
+        assert!(
+            free.stdout.contains("of the wash path that was tried"),
+            "{}",
+            free.stdout
+        );
+    }
+}

@@ -264,9 +264,9 @@ impl From<&UnwashablePlate> for UnwashableReport {
     fn from(plate: &UnwashablePlate) -> Self {
         Self {
             plate: plate.plate,
-            proved: plate.conclusion.is_proved(),
+            proved: plate.is_proved(),
             words: plate.reason_text().to_string(),
-            causes: plate.causes.iter().map(|cause| cause.words(plate.conclusion)).collect(),
+            causes: plate.causes.iter().map(ToString::to_string).collect(),
             share: plate.share,
             free_m: plate.free_m.clone(),
             dead_m: plate.dead_m.clone(),

@@ -195,7 +195,7 @@ impl RobotModel {
     /// Upper bound on the distance of `frame`'s origin from a fixed point, and that point in the base frame \[m\].
     ///
     /// The point is the projection of joint 2's origin onto axis 1; the bound is the sum of the constant distances along the chain from
-    /// there (triangle inequality). No pose beyond it can be reached.
+    /// there (triangle inequality). No pose beyond it can be reached. [`Self::sharp_reach_bound`] is often closer, and costs more.
     #[must_use]
     pub fn reach_bound(&self, frame: &Frame) -> (Point3<f64>, f64) {
         let second = self.folded[1].translation;
@@ -205,10 +205,85 @@ impl RobotModel {
         (centre.into(), off_axis + rest + frame.offset.translation.norm())
     }
 
+    /// Upper bound on the distance of `frame`'s origin from a point of axis 1, and that point in the base frame \[m\].
+    ///
+    /// A point of axis k keeps its place on the links on both sides of the axis. So the distances from a point of axis 1 to one of axis 2,
+    /// and on to the frame, do not depend on the joints, and no configuration brings the frame farther away than their sum (triangle
+    /// inequality). The points slide along their axes until the sum is nearly least; the bound holds for any points.
+    #[must_use]
+    pub fn sharp_reach_bound(&self, frame: &Frame) -> (Point3<f64>, f64) {
+        let mut pose = RigidTransform::identity();
+        let mut axes = Vec::with_capacity(AXES);
+        for folded in &self.folded[..frame.body] {
+            pose = pose.then(folded);
+            axes.push((pose.translation, pose.rotation.column(2).into_owned()));
+        }
+        let end = pose.then(&frame.offset).translation;
+        let mut points: Vec<Vector3<f64>> = axes.iter().map(|(origin, _)| *origin).collect();
+        points.push(end);
+        for _ in 0..SLIDES {
+            for (k, (origin, direction)) in axes.iter().enumerate().rev() {
+                let before = k.checked_sub(1).map(|before| points[before]);
+                points[k] = origin + direction * least_way(origin, direction, before, &points[k + 1]);
+            }
+        }
+        let bound_m = points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+        (points[0].into(), bound_m)
+    }
+
+    /// Frame of the last body with its z axis on axis 6 and its origin nearest axis 5: the centre of a spherical wrist.
+    #[must_use]
+    pub fn wrist_frame(&self) -> Frame {
+        let last = &self.folded[AXES - 1];
+        let direction = last.rotation.column(2);
+        // Axis 5 is z here.
+        let across = direction.xy().norm_squared();
+        let along_m = match across > PARALLEL {
+            true => -last.translation.xy().dot(&direction.xy()) / across,
+            false => 0.0,
+        };
+        let offset = RigidTransform {
+            translation: Vector3::z() * along_m,
+            ..RigidTransform::identity()
+        };
+        Frame::new(AXES, offset)
+    }
+
     /// `F_i = T_{i−1}_i` at q = 0 between folded joint frames: `T_base_i = T_base_{i−1} · F_i · Rot_z(q_i)`.
     #[must_use]
     pub fn folded(&self) -> &[RigidTransform; AXES] {
         &self.folded
+    }
+}
+
+/// Square of the sine below which two axes count as parallel.
+const PARALLEL: f64 = 1e-9;
+
+/// Number of times that the points of [`RobotModel::sharp_reach_bound`] slide along their axes.
+const SLIDES: usize = 16;
+
+/// The place on an axis, from its origin \[m\], over which the way from `before` to `after` is the shortest; the foot of `after` where
+/// there is nothing before.
+fn least_way(
+    origin: &Vector3<f64>,
+    direction: &Vector3<f64>,
+    before: Option<Vector3<f64>>,
+    after: &Vector3<f64>,
+) -> f64 {
+    let seen = |point: &Vector3<f64>| {
+        let from = point - origin;
+        let along = from.dot(direction);
+        (along, (from - direction * along).norm())
+    };
+    let (after, after_off) = seen(after);
+    let Some((before, before_off)) = before.map(|before| seen(&before)) else {
+        return after;
+    };
+    let off = before_off + after_off;
+    if off > 0.0 {
+        before + (after - before) * (before_off / off)
+    } else {
+        after
     }
 }
 

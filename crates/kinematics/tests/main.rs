@@ -13,6 +13,7 @@ mod ik_generalized;
 mod ik_path;
 mod ik_spread;
 mod limits;
+mod reach;
 mod rotation;
 mod shapes;
 mod srdf;

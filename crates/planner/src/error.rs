@@ -95,7 +95,7 @@ pub enum PlanError {
     /// The arm does not suit the inverse kinematics.
     #[error(transparent)]
     IkSettings(#[from] IkSettingsError),
-    /// A plate cannot be washed whole, or no way to was found.
+    /// A plate cannot be washed, or no way to was found.
     #[error("{0}")]
     Unwashable(Box<UnwashablePlate>),
     /// No layout drawn has a known way to wash every plate whole.
@@ -194,7 +194,7 @@ impl PlanError {
         match self {
             Self::Layout(error) => error.infeasibility(),
             Self::Overlap(_) | Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
-            Self::Unwashable(plate) => found(plate.conclusion.is_proved()),
+            Self::Unwashable(plate) => found(plate.is_proved()),
             Self::NoHome { .. }
             | Self::NoneWashable { .. }
             | Self::Line { .. }

@@ -4,10 +4,11 @@
 //! and another place at which it could be washed.
 
 use crate::error::PlanError;
+use crate::redundancy::RedundancyError;
 use crate::redundancy::washability::Cause;
-use crate::redundancy::{Conclusion, RedundancyError};
 use crate::scene::{Filter, Hindrance};
 use crate::transit::TransitError;
+use platewash_kinematics::words::{decimals_down, decimals_up};
 use platewash_workcell::verdict::{Infeasibility, Verdict};
 use platewash_workcell::words::{plate_name, quoted};
 use serde::Serialize;
@@ -39,10 +40,13 @@ pub struct InfeasiblePlate {
     pub centre_m: Option<[f64; 2]>,
     /// Share of its wash path for which configurations were found.
     pub washable_share: Option<f64>,
-    /// Conclusion about the part that cannot be washed: proved beyond the arm, and by which argument, or only not found; `None`
-    /// where the plate itself can be washed.
+    /// Conclusion about the plate; `None` where the plate itself can be washed.
     pub conclusion: Option<Conclusion>,
-    /// Obstructions that keep the rest from being washed, by part.
+    /// Lower bound on the share of its face that no wash path reaches; `None` where the plate itself can be washed.
+    pub beyond_reach_share: Option<f64>,
+    /// Share of its face that the job requires to be swept and pressed; `None` where the plate itself can be washed.
+    pub required_share: Option<f64>,
+    /// Obstructions on the rest of the wash path, by part.
     pub causes: Vec<InfeasiblePart>,
     /// The nearest centre found at which it can be washed \[m\].
     pub nearest_m: Option<[f64; 2]>,
@@ -101,7 +105,7 @@ impl InfeasibleReport {
     #[must_use]
     pub fn with_plates(mut self, others: &[UnwashablePlate]) -> Self {
         for other in others {
-            if other.conclusion.is_proved() {
+            if other.is_proved() {
                 self.verdict = Verdict::Infeasible;
             }
             self.plates.push(other.into());
@@ -178,6 +182,8 @@ impl InfeasiblePlate {
             centre_m: None,
             washable_share: None,
             conclusion: None,
+            beyond_reach_share: None,
+            required_share: None,
             causes: Vec::new(),
             nearest_m: None,
             place_search: None,
@@ -191,12 +197,10 @@ impl From<&UnwashablePlate> for InfeasiblePlate {
             plate: plate.plate,
             centre_m: Some(plate.centre_m),
             washable_share: plate.share,
-            conclusion: Some(plate.conclusion),
-            causes: plate
-                .causes
-                .iter()
-                .filter_map(|cause| InfeasiblePart::new(cause, plate.conclusion))
-                .collect(),
+            conclusion: Some(plate.conclusion()),
+            beyond_reach_share: Some(plate.beyond_reach_share),
+            required_share: Some(plate.required_share),
+            causes: plate.causes.iter().filter_map(InfeasiblePart::new).collect(),
             nearest_m: plate.nearest_m,
             place_search: Some(plate.place_search),
         }
@@ -204,14 +208,14 @@ impl From<&UnwashablePlate> for InfeasiblePlate {
 }
 
 impl InfeasiblePart {
-    fn new(cause: &Cause, conclusion: Conclusion) -> Option<Self> {
+    fn new(cause: &Cause) -> Option<Self> {
         let (first, others) = cause.worst.split_first()?;
         Some(Self {
             share: cause.share,
             from_axis_m: cause.from_axis_m,
             first: first.into(),
             others: others.iter().map(InfeasibleHindrance::from).collect(),
-            cause: cause.words(conclusion),
+            cause: cause.to_string(),
         })
     }
 }
@@ -234,7 +238,17 @@ impl From<&Hindrance> for InfeasibleHindrance {
     }
 }
 
-/// Findings on a plate that cannot be washed whole, or for which no way to wash it was found.
+/// Conclusion about a plate for which no way to wash it was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Conclusion {
+    /// It cannot be washed: more of its face than may be left is beyond the arm on every wash path.
+    BeyondReach,
+    /// Nothing was found, and nothing is proved. Other paths and other configurations may do.
+    NotFound,
+}
+
+/// Findings on a plate that cannot be washed, or for which no way to wash it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnwashablePlate {
     /// The plate.
@@ -243,11 +257,16 @@ pub struct UnwashablePlate {
     pub centre_m: [f64; 2],
     /// Error with which the search for its configurations ended.
     pub error: RedundancyError,
-    /// Conclusion: proved unwashable, or only not found to be washable.
-    pub conclusion: Conclusion,
-    /// Share of the wash path for which configurations were found, point by point.
+    /// Lower bound on the share of its face that no wash path reaches: see
+    /// [`share_beyond_reach`](crate::redundancy::beyond_reach::share_beyond_reach).
+    pub beyond_reach_share: f64,
+    /// Share of its face that the job requires to be swept and pressed.
+    pub required_share: f64,
+    /// Greatest tilt of the tool that the bound rests on \[rad\].
+    pub tilt_max_rad: f64,
+    /// Share of the wash path that was tried for which configurations were found, point by point.
     pub share: Option<f64>,
-    /// Causes that keep the rest from being washed, the most frequent first.
+    /// Obstructions on the rest of that path, the most frequent first.
     pub causes: Vec<Cause>,
     /// Contact points with a configuration on the best branch of the arm, checked one by one, world frame \[m\]. Without a
     /// `share` none were checked, here and in `dead_m`.
@@ -273,10 +292,42 @@ pub enum PlaceSearch {
     Later,
 }
 
+/// Excess of the share beyond the arm over the share that may be left, which rounding may give.
+const ROUNDING: f64 = 1e-9;
+
+/// A share that is at least `beyond` and one that is at most `left`, below it, in percent: with as many decimals as tell them apart.
+fn shares_in_percent(beyond: f64, left: f64) -> [String; 2] {
+    const MOST_DECIMALS: usize = 9;
+    let told = |decimals| {
+        [
+            decimals_down(100.0 * beyond, decimals),
+            decimals_up(100.0 * left, decimals),
+        ]
+    };
+    let differ = |[beyond, left]: &[String; 2]| beyond != left;
+    let enough = (1..MOST_DECIMALS).map(told).find(differ);
+    enough.unwrap_or_else(|| told(MOST_DECIMALS))
+}
+
 /// Display of the reason that a plate cannot be washed, without another place for it.
 struct UnwashableReason<'a>(&'a UnwashablePlate);
 
 impl UnwashablePlate {
+    /// Returns true where it is proved that no plan of the job washes the plate.
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        self.beyond_reach_share > 1.0 - self.required_share + ROUNDING
+    }
+
+    /// Returns the conclusion.
+    #[must_use]
+    pub fn conclusion(&self) -> Conclusion {
+        match self.is_proved() {
+            true => Conclusion::BeyondReach,
+            false => Conclusion::NotFound,
+        }
+    }
+
     /// Returns the reason in words that it cannot be washed, or that no way was found; without another place for it.
     #[must_use]
     pub fn reason_text(&self) -> impl fmt::Display + '_ {
@@ -288,25 +339,31 @@ impl fmt::Display for UnwashableReason<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(of) = self;
         let ([x, y], plate) = (of.centre_m, plate_name(of.plate));
-        let percent = of.share.map(|share| 100.0 * share);
-        match (of.conclusion.is_proved(), percent) {
-            (true, Some(percent)) => write!(
+        match of.is_proved() {
+            true => {
+                let [beyond, left] = shares_in_percent(of.beyond_reach_share, 1.0 - of.required_share);
+                let tilt_deg = of.tilt_max_rad.to_degrees();
+                write!(
+                    f,
+                    "{plate} at ({x:.3}, {y:.3}) m cannot be washed: at least {beyond} % of its face is beyond the arm's links with \
+                     every wash path and tilts up to {tilt_deg:.1}°, and {left} % may be left"
+                )?;
+            }
+            false => write!(
                 f,
-                "{plate} at ({x:.3}, {y:.3}) m cannot be washed whole: {percent:.1} % of its wash path can"
-            )?,
-            (false, Some(percent)) => write!(
-                f,
-                "no way to wash {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: \
-                 configurations were found for {percent:.1} % of its wash path"
-            )?,
-            (_, None) => write!(
-                f,
-                "no way to wash {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none: {}",
-                of.error
+                "no way to wash {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none"
             )?,
         }
+        match of.share.map(|share| 100.0 * share) {
+            Some(percent) => write!(
+                f,
+                "{} configurations were found for {percent:.1} % of the wash path that was tried",
+                if of.is_proved() { ";" } else { ":" }
+            )?,
+            None => write!(f, ": {}", of.error)?,
+        }
         for cause in &of.causes {
-            write!(f, "; {}", cause.words(of.conclusion))?;
+            write!(f, "; {cause}")?;
         }
         Ok(())
     }

@@ -8,8 +8,9 @@ use crate::pattern::{Margin, Pattern, Promise, SampledWash};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{Turn, Visit, turned_as, wash_path};
+use crate::redundancy::beyond_reach::{required_share, share_beyond_reach};
 use crate::redundancy::washability::{self, Points, Washability};
-use crate::redundancy::{self, Conclusion, RedundancyError, Task, Washing};
+use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector3;
@@ -370,20 +371,18 @@ impl Pipeline<'_> {
             Ok(task) if self.explains => Some(washability::washable_part(&task)?),
             _ => None,
         };
-        let (share, causes, conclusion, points) = match part {
-            Some(Washability::Part {
-                share,
-                causes,
-                conclusion,
-                points,
-            }) => (Some(share), causes, conclusion, points),
-            _ => (None, Vec::new(), Conclusion::NotFound, Points::default()),
+        let (share, causes, points) = match part {
+            Some(Washability::Part { share, causes, points }) => (Some(share), causes, points),
+            _ => (None, Vec::new(), Points::default()),
         };
+        let lies = &self.plates[plate];
         Ok(UnwashablePlate {
             plate,
-            centre_m: scene.centre_in_world(&self.plates[plate]),
+            centre_m: scene.centre_in_world(lies),
             error,
-            conclusion,
+            beyond_reach_share: share_beyond_reach(self.robot, self.terms, lies),
+            required_share: required_share(self.terms, lies),
+            tilt_max_rad: self.terms.tilt_max_rad(),
             share,
             causes,
             free_m: points.free_m,

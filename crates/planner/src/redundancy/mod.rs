@@ -26,9 +26,10 @@
 //! Each is tried on every branch of the arm, elbow up in front first; on arms without a closed form, on every branch that a
 //! search finds ([`platewash_kinematics::ik::spread`]). Every answer has been checked for limits and steps at every contact
 //! point, and for clearance at every one except those within 4 mm behind one with 8 mm to spare. Between the points nothing is
-//! proved here. Where there is no answer, the error names contact points and their obstructions; [`Conclusion`] distinguishes a
-//! proof that there is no configuration from a search without a result.
+//! proved here. Where there is no answer, the error names contact points and their obstructions. That says nothing of other paths;
+//! [`beyond_reach`] bounds the share of a face that no path sweeps.
 
+pub mod beyond_reach;
 mod lines;
 pub mod places;
 mod samples;
@@ -44,5 +45,4 @@ mod washing;
 pub use crate::redundancy::places::{Chance, chance};
 pub use crate::redundancy::stuck::is_blocked;
 pub use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Task};
-pub use crate::redundancy::washability::Conclusion;
 pub use crate::redundancy::washing::{TiltChoice, Washing, washing};

@@ -6,7 +6,6 @@
 
 use crate::redundancy::stuck::is_blocked;
 use crate::redundancy::task::{RedundancyError, Task};
-use crate::redundancy::washability::is_beyond_reach;
 use crate::redundancy::washing::by_policy;
 use crate::scene::{Scene, Width};
 use crate::trig::sin_cos;
@@ -201,15 +200,17 @@ pub(crate) fn on_grid(place: &Vector2<f64>) -> Vector2<f64> {
     place.map(|at| (at * PER_METRE).round() / PER_METRE + 0.0)
 }
 
+/// Distance beyond the arm's reach that rounding may give \[m\].
+const BOUND_SLACK_M: f64 = 1e-9;
+
 /// The chance that a plate can be washed whole: nothing is planned, nothing proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Chance {
     /// A policy of tilts washes it from end to end. The way of the arm there and back was not checked.
     Washable,
-    /// No policy washes it, and a search along the wash path finds nothing: some contact point is beyond the lengths of the
-    /// links, or without a configuration at any tilt that the search would try. A [`Conclusion`](crate::redundancy::Conclusion)
-    /// states if that is a proof.
+    /// No policy washes it, and a search along the wash path finds nothing: some contact point is without a configuration at any
+    /// tilt that the search would try.
     Unwashable,
     /// Neither: a search may find a way.
     Unclear,
@@ -220,8 +221,9 @@ pub enum Chance {
 /// # Errors
 /// [`Cancelled`].
 pub fn chance(task: &Task<'_>) -> Result<Chance, Cancelled> {
+    let (centre, bound_m) = task.scene.robot.reach_bound(&task.scene.tip);
     let mut contacts = task.samples.contact.iter();
-    if contacts.any(|contact| is_beyond_reach(task, &contact.point)) {
+    if contacts.any(|contact| (contact.point - centre.coords).norm() > bound_m + BOUND_SLACK_M) {
         return Ok(Chance::Unwashable);
     }
     if by_policy(task, Width::Near)?.is_some() {

@@ -4,8 +4,7 @@ use super::world::{World, check, curve, path, with_arm};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_planner::redundancy::washability::{Washability, washable};
-use platewash_planner::redundancy::{Conclusion, washing};
+use platewash_planner::redundancy::washing;
 use platewash_planner::scene::TILT_RESERVE_RAD;
 use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::fixtures::{kitchen_tool, workcell};
@@ -55,49 +54,6 @@ fn washability_does_not_depend_on_the_angle_about_axis_1() {
             check(world, &path, &washing);
         });
     }
-}
-
-#[test]
-fn says_unwashable_only_with_a_proof() {
-    let conclusion = |urdf: &str, lies: Plate, near: &JointVector| {
-        with(urdf, lies, |world| {
-            match washable(&world.task_near(&path(curve(0.09), 15.0), near)).unwrap() {
-                Washability::Whole => None,
-                Washability::Part { conclusion, causes, .. } => {
-                    let word = if conclusion.is_proved() {
-                        "cannot"
-                    } else {
-                        "no configuration found"
-                    };
-                    assert!(
-                        causes.iter().all(|cause| cause.words(conclusion).contains(word)),
-                        "{causes:?}"
-                    );
-                    Some(conclusion)
-                }
-                other => panic!("{other:?}"),
-            }
-        })
-    };
-    // 1.02 m and the tool of 0.15 m are the most that the UR5 reaches. Only where all branches are known is a refusal proved.
-    for (arm, refusal) in [
-        (UR5, Conclusion::EveryBranchRefused),
-        (&*searched(), Conclusion::NotFound),
-    ] {
-        let washed = |x_m| conclusion(arm, plate(x_m, 0.0, 0.1), &ur5_home());
-        assert_eq!(washed(1.4), Some(Conclusion::BeyondReach));
-        assert_eq!(washed(0.95), Some(refusal));
-        assert_eq!(washed(0.5), None);
-    }
-    let near = JointVector::from([0.0, -90.0, 90.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
-    assert_eq!(
-        conclusion(KR5, plate(2.2, 0.0, 0.2), &near),
-        Some(Conclusion::BeyondReach)
-    );
-    assert_eq!(
-        conclusion(KR5, plate(1.45, 0.0, 0.2), &near),
-        Some(Conclusion::EveryBranchRefused)
-    );
 }
 
 /// The points that are solved keep below the largest tilt: the cubics between them turn the tool a little further.

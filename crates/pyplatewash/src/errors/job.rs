@@ -173,9 +173,9 @@ fn plan(py: Python<'_>, error: &PlanError, message: &str) -> PyErr {
     staged(py, "plan", message, fields)
 }
 
-/// A plate that cannot be washed whole, or for which no way to was found.
+/// A plate that cannot be washed, or for which no way to was found.
 fn unwashable<'py>(py: Python<'py>, plate: &UnwashablePlate) -> Vec<Field<'py>> {
-    let cause = match plate.conclusion.is_proved() {
+    let cause = match plate.is_proved() {
         true => "unwashable",
         false => "not_found",
     };

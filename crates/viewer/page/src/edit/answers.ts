@@ -169,7 +169,10 @@ export function editVerdict({ kind, words }: Standing, answers: Answers, view: V
 /** Plates by name where some are to blame, whose rows give the reasons; otherwise the reason. */
 function unplannedVerdict({ unplanned, cell }: Answers, words: string): Verdict {
   const known = unplanned?.proved === true;
-  const plates = unplanned?.plates.map(({ plate }) => plateName(cell?.plates, plate)) ?? [];
+  const all = unplanned?.plates ?? [];
+  // Only plates that are known to be at fault are said to be so.
+  const blamed = known ? all.filter(({ proved }) => proved) : all;
+  const plates = blamed.map(({ plate }) => plateName(cell?.plates, plate));
   const tone = known ? "violated" : "not_proved";
   if (plates.length === 0) return { tone, word: known ? "Cannot be planned" : "No plan found", sentence: words.replace(/^[A-Z ]+: /, "") };
   const sentence = known ? `${listed(plates)} cannot be washed there.` : `no way was found to wash ${listed(plates)}.`;
