@@ -102,7 +102,7 @@ fn a_dry_run_is_proved_and_never_reads_as_a_washing() {
     assert!(
         report
             .headline
-            .contains(", each swept in the air over at least 99.7 % (99.5 % required), "),
+            .contains(", each swept in the air over at least 99.5 % (99.5 % required), "),
         "{}",
         report.headline
     );

@@ -59,7 +59,8 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     check_sizes(plan)?;
     check_job(&plan.job)?;
     // Judged in the frame of the arm's base, told in the world.
-    let seen = &*plan.seen_from_base();
+    let judged = plan.judged();
+    let seen = &*judged.seen_from_base();
     let mut subject = Subject::new(&seen.job, arm, wash_paths::by_plate(seen));
     subject.up = plan.job.workcell.mount.rotation.inverse() * subject.up;
     let pieces = read(&seen.knots)?;
@@ -68,7 +69,7 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
         Ok(schedule) => (Some(schedule), Vec::new()),
         Err(gaps) => (None, gaps),
     };
-    let judged = PlanUnderProof {
+    let under_proof = PlanUnderProof {
         plan: seen,
         subject: &subject,
         pieces: &pieces,
@@ -76,13 +77,13 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
         schedule: schedule.as_ref(),
         cancel,
     };
-    let mut proof = judged.proof(Check::stated(Requirement::Segments, gaps))?;
+    let mut proof = under_proof.proof(Check::stated(Requirement::Segments, gaps))?;
     cancel.check()?;
     let world = World::of(&plan.job.workcell.mount);
     world.checks_to_world(&mut proof.checks);
     world.pairs_to_world(&mut proof.clearance);
     world.contact_to_world(&mut proof.contact);
-    Ok(certificate(plan, arm, proof))
+    Ok(certificate(plan, &judged.job, arm, proof))
 }
 
 /// Judges a motion alone: limits of the joints and of the tip, and the clearance of every pair at all times, including that of the sponge
@@ -232,7 +233,7 @@ impl PlanUnderProof<'_> {
     }
 }
 
-fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
+fn certificate(plan: &Plan, judged: &JobTerms, arm: &RobotModel, proof: Proof) -> Certificate {
     let hash = HashFinding::of(plan);
     let sound = hash.status == Status::Proved && proof.checks.iter().all(|check| check.status.is_kept());
     let waived = proof.checks.iter().filter(|check| check.status == Status::Waived);
@@ -249,7 +250,7 @@ fn certificate(plan: &Plan, arm: &RobotModel, proof: Proof) -> Certificate {
         swept: proof.swept,
         contact: proof.contact,
         clearance: proof.clearance,
-        rests_on: VerdictBasis::new(&plan.job, arm, proof.exclusions),
+        rests_on: VerdictBasis::new(judged, arm, proof.exclusions),
     };
     certificate.headline = headline(&certificate);
     certificate

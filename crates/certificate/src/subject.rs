@@ -58,7 +58,8 @@ impl<'a> Subject<'a> {
         Some(surface.at_arc(curve.radius_m).radius_m)
     }
 
-    /// Returns true where a requirement applies to the job. A motion home washes nothing; of the sponge at a plate it asks how that is left.
+    /// Returns true where a requirement applies to the job. A motion home washes nothing, so that it has no order and no
+    /// wash paths; of the sponge at a plate it asks how that is left.
     pub fn asks_for(&self, requirement: Requirement) -> bool {
         use Requirement as R;
         let Some(recovery) = self.job.recovery.as_ref().filter(|recovery| recovery.is_motion_home()) else {
@@ -66,7 +67,7 @@ impl<'a> Subject<'a> {
         };
         match requirement {
             R::ContactSpeed | R::LineDeviation => recovery.retreat().is_some(),
-            R::WashPaths | R::EveryPlateOnce | R::RestAtWashEnds | R::WashSpeed | R::WashAcceleration => false,
+            R::RestAtWashEnds | R::WashSpeed | R::WashAcceleration => false,
             R::Tilt | R::ContactHeight | R::PathDeviation | R::Reach | R::Swept => false,
             _ => true,
         }

@@ -9,7 +9,8 @@ use crate::report::requirement::Requirement;
 use crate::report::words::{number, rounded_bound};
 use crate::washing::contact::PlateContact;
 use platewash_kinematics::words::distinct_decimals;
-use platewash_workcell::job::{ContactRequirements, Recovery, Requirements};
+use platewash_workcell::dry_run;
+use platewash_workcell::job::{ContactRequirements, Limits, PlanKind, RETREAT_M_S, Requirements};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name};
 
@@ -102,11 +103,7 @@ fn achieved_text(certificate: &Certificate) -> String {
         };
         Some(format!(", between {} {}", pair_text(&line.pair), at_least(&measure)?))
     });
-    let is_motion_home = certificate
-        .rests_on
-        .recovery
-        .as_ref()
-        .is_some_and(Recovery::is_motion_home);
+    let is_motion_home = certificate.rests_on.kind() == PlanKind::MotionHome;
     let contact = if wanted.contact.is_some() || in_air || is_motion_home {
         ""
     } else {
@@ -132,9 +129,10 @@ fn at_least(measure: &Measure) -> Option<String> {
 }
 
 fn laxer_text(certificate: &Certificate) -> String {
-    let laxer = laxer_requirements(&certificate.rests_on.laxest());
+    let basis = &certificate.rests_on;
+    let laxer = laxer_requirements(basis.kind(), &basis.laxest(), &basis.limits);
     if laxer.is_empty() {
-        laxer.concat()
+        String::new()
     } else {
         format!("; requires less than usual: {}", laxer.join(", "))
     }
@@ -193,11 +191,22 @@ fn shortfall(check: &Check) -> String {
     };
     match value {
         Some(value) => {
-            let [value, limit] = distinct_decimals(value * scale, measure.limit * scale, 1);
+            let decimals = enough_decimals(measure.limit * scale);
+            let [value, limit] = distinct_decimals(value * scale, measure.limit * scale, decimals);
             format!("{name} {value} {unit} ({side} {limit} {unit} required)")
         }
         None => format!("{name} ({side} {} {unit} required)", number(measure.limit * scale)),
     }
+}
+
+/// Number of decimals, at least 1, that show a limit to within 2 %.
+fn enough_decimals(limit: f64) -> usize {
+    const MOST: usize = 9;
+    let is_close = |decimals: &usize| {
+        let shown: f64 = format!("{limit:.decimals$}").parse().unwrap_or(limit);
+        (shown - limit).abs() <= 0.02 * limit.abs()
+    };
+    (1..MOST).find(is_close).unwrap_or(MOST)
 }
 
 impl Certificate {
@@ -259,6 +268,10 @@ const SWEPT: f64 = 0.995;
 
 /// Least clearance \[m\].
 const CLEARANCE_M: f64 = 0.01;
+
+/// Greatest speed of the tip \[m/s\], and its greatest acceleration \[m/s²\].
+const TIP_SPEED_M_S: f64 = 1.0;
+const TIP_ACCELERATION_M_S2: f64 = 8.0;
 
 /// Greatest angle of the tool from the plate's normal \[deg\].
 const TILT_DEG: f64 = 30.0;
@@ -338,11 +351,43 @@ impl Row {
     }
 }
 
-/// Returns the requirements of a job that are laxer than usual, in words.
-pub(crate) fn laxer_requirements(wanted: &Requirements) -> Vec<String> {
+/// Returns the requirements of a job that are laxer than usual for its kind, in words. A requirement that is not judged is left out.
+pub(crate) fn laxer_requirements(kind: PlanKind, wanted: &Requirements, limits: &Limits) -> Vec<String> {
+    let tip_speed_m_s = match kind {
+        PlanKind::DryRun => dry_run::SPEED_M_S,
+        PlanKind::Wash | PlanKind::MotionHome | PlanKind::Rest => TIP_SPEED_M_S,
+    };
+    let mut rows = vec![Row::at_least(
+        "clearance",
+        1e3 * wanted.clearance_m,
+        1e3 * CLEARANCE_M,
+        " mm",
+    )];
+    match (kind, wanted.lifting_m_s) {
+        (PlanKind::MotionHome, Some(lifting_m_s)) => {
+            rows.push(Row::at_most("lifting speed", lifting_m_s, RETREAT_M_S, " m/s"));
+        }
+        (PlanKind::MotionHome, None) => {}
+        (PlanKind::Wash | PlanKind::DryRun | PlanKind::Rest, _) => {
+            rows.insert(0, Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"));
+            rows.extend(of_washing(wanted));
+        }
+    }
+    rows.extend([
+        Row::at_most("tip speed", limits.tip_speed_m_s, tip_speed_m_s, " m/s"),
+        Row::at_most(
+            "tip acceleration",
+            limits.tip_acceleration_m_s2,
+            TIP_ACCELERATION_M_S2,
+            " m/s²",
+        ),
+    ]);
+    rows.iter().filter(|row| row.is_laxer()).map(Row::words).collect()
+}
+
+/// Rows of a plan that washes plates.
+fn of_washing(wanted: &Requirements) -> Vec<Row> {
     let mut rows = vec![
-        Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"),
-        Row::at_least("clearance", 1e3 * wanted.clearance_m, 1e3 * CLEARANCE_M, " mm"),
         Row::at_most("tilt", wanted.tilt_rad.to_degrees(), TILT_DEG, "°"),
         Row::at_most("wash speed", wanted.wash_speed_m_s, WASH_SPEED_M_S, " m/s"),
         Row::at_most(
@@ -396,5 +441,5 @@ pub(crate) fn laxer_requirements(wanted: &Requirements) -> Vec<String> {
             ),
         ]);
     }
-    rows.iter().filter(|row| row.is_laxer()).map(Row::words).collect()
+    rows
 }

@@ -8,7 +8,7 @@ use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::trig::atan2;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, Recovery, Requirements, Soil};
+use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, PlanKind, Recovery, Requirements, Soil};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name, plate_number, printable, quoted};
@@ -58,6 +58,9 @@ const ON_RING: &str = "a plate on its ring is rigid and moves slowly if at all, 
 /// Assumption added for a dry run.
 const PARENT: &str =
     "the dry run tries out the plan with the stated hash; checking that takes that plan (verify --parent)";
+
+/// Remark added for a dry run.
+const IN_AIR: &str = "nothing is pressed in the air: contact, forces and what holds the plates are judged of the plan that is tried out, not here";
 
 /// Assumptions added for both parts of a recovery.
 const STANDS: &str = "the arm stands still where the motion begins, after a stop of the plan with the stated hash";
@@ -119,6 +122,11 @@ impl VerdictBasis {
 }
 
 impl VerdictBasis {
+    /// Returns the kind of the plan.
+    pub(crate) fn kind(&self) -> PlanKind {
+        PlanKind::stated(self.dry_run.as_ref(), self.recovery.as_ref())
+    }
+
     /// Requirements of the washing, each as lax as it is for any plate.
     pub(crate) fn laxest(&self) -> Requirements {
         let lax = |contact: ContactRequirements| {
@@ -157,7 +165,9 @@ fn assumptions(job: &JobTerms) -> Vec<&'static str> {
     let is_measured = |probed: bool| job.measured.iter().any(|shape| shape.is_probed == probed);
     all.extend(is_measured(false).then_some(MESHED));
     all.extend(is_measured(true).then_some(PROBED));
-    all.extend(job.dry_run.is_some().then_some(PARENT));
+    if job.dry_run.is_some() {
+        all.extend([IN_AIR, PARENT]);
+    }
     let of_recovery = |recovery: &Recovery| {
         if recovery.is_motion_home() {
             STANDS

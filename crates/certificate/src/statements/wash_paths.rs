@@ -7,7 +7,7 @@
 
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
-use platewash_workcell::job::MOST_PASSES;
+use platewash_workcell::job::{MOST_PASSES, PlanKind, Statement, StatementRule};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::{
     LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TRIM_RAD, MOST_TURNS, WashPath,
@@ -69,6 +69,9 @@ fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
 /// Returns the wash path of each plate, if there is one that can be judged.
 pub(crate) fn by_plate(plan: &Plan) -> Vec<Option<WashPath>> {
     let tilt_rad = plan.job.tilt_max_rad();
+    if PlanKind::of(&plan.job).rule(Statement::WashPaths) == StatementRule::Refused {
+        return vec![None; plan.job.plates.len()];
+    }
     let is_sound = |path: &&WashPath| numbers(path, tilt_rad).iter().all(Number::is_within);
     let of = |plate| plan.wash_path_of(plate).filter(is_sound).copied();
     (0..plan.job.plates.len()).map(of).collect()

@@ -1,6 +1,7 @@
 //! Errors of a job.
 
 use crate::clearance::{ClearanceError, FixedBody, FixedOverlap, StillPair};
+use crate::job::kind::PlanKind;
 use crate::layout::MAX_PLATES;
 use crate::obstacle::ObstacleFault;
 use crate::plate::GREATEST_M;
@@ -89,6 +90,16 @@ pub enum JobError {
     /// The parent of a dry run is not the hash of a plan.
     #[error("job: dry_run.parent must be the hash of a plan, 64 digits of lower-case hexadecimal")]
     Parent,
+    /// The job makes a statement that its kind of plan has no use for, or lacks one that it needs.
+    #[error("job: {kind} {} {path}", if *.is_needed { "needs" } else { "cannot have" })]
+    Statement {
+        /// Kind of the plan.
+        kind: PlanKind,
+        /// Path of the statement in a plan file.
+        path: &'static str,
+        /// True if the statement is missing.
+        is_needed: bool,
+    },
     /// The statement about a recovery does not fit the job.
     #[error("job: recovery: {fault}")]
     Recovery {

@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | a job with its arm | `wash_job` |
 //! | everything about a job but the arm; the job in the frame of the base | `terms` |
+//! | kinds of plans, and the statements that each may make | `kind` |
 //! | requirements and limits | `requirements` |
 //! | what is left to do after a stop | `recovery` |
 //! | shapes of plates that were measured | `measured_shape` |
@@ -12,6 +13,7 @@
 //! | errors | `error` |
 
 mod error;
+mod kind;
 mod measured_shape;
 mod recovery;
 mod requirements;
@@ -20,8 +22,9 @@ mod terms;
 mod wash_job;
 
 pub use crate::job::error::{End, JobError};
+pub use crate::job::kind::{PlanKind, Statement, StatementRule};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
-pub use crate::job::recovery::{Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
+pub use crate::job::recovery::{RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
 pub use crate::job::requirements::{
     ContactRequirements, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M,
     PatternName, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,

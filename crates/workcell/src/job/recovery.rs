@@ -14,7 +14,7 @@ use platewash_kinematics::JointVector;
 use serde::{Deserialize, Serialize};
 
 /// Greatest speed of the sponge where it leaves a plate after a stop \[m/s\].
-const RETREAT_M_S: f64 = 0.02;
+pub const RETREAT_M_S: f64 = 0.02;
 
 /// Greatest speed of the sponge where it leaves a plate after a stop of a job \[m/s\].
 #[must_use]

@@ -7,6 +7,7 @@
 use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_overlaps, still_pairs};
 use crate::dry_run::DryRun;
 use crate::job::error::JobError;
+use crate::job::kind::{self, PlanKind, Statement, StatementRule};
 use crate::job::measured_shape::MeasuredShape;
 use crate::job::recovery::Recovery;
 use crate::job::requirements::{
@@ -106,6 +107,19 @@ impl JobTerms {
         all.map(|words| words + "; ").collect()
     }
 
+    /// Returns the requirements that a proof of the job judges: those of the job, without what only the planner follows.
+    #[must_use]
+    pub fn judged_requirements(&self) -> Requirements {
+        let kind = PlanKind::of(self);
+        let is_judged = |statement| kind.rule(statement) != StatementRule::Planned;
+        let wanted = &self.requirements;
+        Requirements {
+            contact: wanted.contact.filter(|_| is_judged(Statement::Contact)),
+            holder: wanted.holder.filter(|_| is_judged(Statement::Holder)),
+            ..*wanted
+        }
+    }
+
     /// Indices of the plates that are washed, ascending.
     pub fn plates_to_wash(&self) -> impl Iterator<Item = usize> {
         (0..self.plates.len()).filter(|plate| self.washes(*plate))
@@ -196,10 +210,6 @@ impl JobTerms {
         check_workcell(&self.workcell, self.plates.len())?;
         for reduced in &self.workcell.reduced_clearances {
             let (name, by_m) = ("workcell.reduced_clearances.by_m", reduced.by_m);
-            if reduced.at_stop && !self.is_motion_home() {
-                let fault = "only the motion home has pairs that are near at the stop";
-                return Err(JobError::Recovery { fault });
-            }
             positive(name, by_m)?;
             if by_m >= wanted.clearance_m {
                 let expected = format!("below requirements.clearance_m, {}", wanted.clearance_m);
@@ -211,6 +221,7 @@ impl JobTerms {
             }
         }
         self.check_dry_run()?;
+        kind::check(self)?;
         self.recovery
             .as_ref()
             .map_or(Ok(()), |recovery| recovery.validate(self))?;

@@ -153,6 +153,19 @@ impl Plan {
         }
     }
 
+    /// Returns the plan with the requirements that a proof of it judges ([`JobTerms::judged_requirements`]). The hash stays that of the
+    /// original plan.
+    #[must_use]
+    pub fn judged(&self) -> Cow<'_, Self> {
+        let requirements = self.job.judged_requirements();
+        if requirements == self.job.requirements {
+            return Cow::Borrowed(self);
+        }
+        let mut plan = self.clone();
+        plan.job.requirements = requirements;
+        Cow::Owned(plan)
+    }
+
     /// Duration of the motion \[s\].
     #[must_use]
     pub fn duration_s(&self) -> f64 {

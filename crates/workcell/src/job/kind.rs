@@ -1,0 +1,182 @@
+//! Kinds of plans, and the statements that each may make.
+//!
+//! A statement that a kind of plan has no use for is refused: whatever rests on it would rest on nothing.
+
+use crate::dry_run::DryRun;
+use crate::job::error::JobError;
+use crate::job::recovery::Recovery;
+use crate::job::terms::JobTerms;
+use std::fmt;
+
+/// Kind of a plan, by what its job states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlanKind {
+    /// Washing of all plates.
+    Wash,
+    /// Motion of another plan in the air.
+    DryRun,
+    /// Motion from a stop home. It washes nothing.
+    MotionHome,
+    /// Washing of the plates that are left after a stop.
+    Rest,
+}
+
+/// Statement of a plan that not every kind may make.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Statement {
+    /// Plates in the order of washing (`order`).
+    Order,
+    /// Wash paths (`wash_paths`).
+    WashPaths,
+    /// Plan that is tried out in the air (`job.dry_run`).
+    DryRun,
+    /// Pairs that are near at the stop (`at_stop` of `job.workcell.reduced_clearances`).
+    NearAtStop,
+    /// Requirements of the contact (`job.requirements.contact`).
+    Contact,
+    /// What holds the plates (`job.requirements.holder`).
+    Holder,
+    /// Landing speed (`job.requirements.landing_m_s`).
+    LandingSpeed,
+    /// Lifting speed (`job.requirements.lifting_m_s`).
+    LiftingSpeed,
+    /// Angle of joint 5 from 0 (`job.requirements.wrist_rad`).
+    Wrist,
+}
+
+/// What a kind of plan does with a statement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StatementRule {
+    /// The statement must be there.
+    Needed,
+    /// The statement may be there, and is judged.
+    Judged,
+    /// The statement may be there, and is not judged: the planner alone follows it.
+    Planned,
+    /// The statement must not be there.
+    Refused,
+}
+
+impl PlanKind {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::Wash, Self::DryRun, Self::MotionHome, Self::Rest];
+
+    /// Returns the kind of a job's plan.
+    #[must_use]
+    pub fn of(job: &JobTerms) -> Self {
+        Self::stated(job.dry_run.as_ref(), job.recovery.as_ref())
+    }
+
+    /// Returns the kind of a plan that states this dry run and this recovery.
+    #[must_use]
+    pub fn stated(dry_run: Option<&DryRun>, recovery: Option<&Recovery>) -> Self {
+        match (recovery, dry_run) {
+            (Some(recovery), _) if recovery.is_motion_home() => Self::MotionHome,
+            (_, Some(_)) => Self::DryRun,
+            (Some(_), None) => Self::Rest,
+            (None, None) => Self::Wash,
+        }
+    }
+
+    /// Returns what the kind does with a statement.
+    #[must_use]
+    pub fn rule(self, statement: Statement) -> StatementRule {
+        use Statement as S;
+        use StatementRule::{Judged, Needed, Planned, Refused};
+        let [wash, dry_run, motion_home, rest] = match statement {
+            S::Order | S::WashPaths => [Needed, Needed, Refused, Needed],
+            S::DryRun => [Refused, Needed, Refused, Refused],
+            S::NearAtStop => [Refused, Refused, Judged, Refused],
+            // Nothing is pressed in the air.
+            S::Contact | S::Holder => [Judged, Planned, Refused, Judged],
+            S::LandingSpeed | S::Wrist => [Judged, Judged, Refused, Judged],
+            // At a stop the sponge may be at a plate, and leaves it.
+            S::LiftingSpeed => [Judged, Judged, Needed, Judged],
+        };
+        match self {
+            Self::Wash => wash,
+            Self::DryRun => dry_run,
+            Self::MotionHome => motion_home,
+            Self::Rest => rest,
+        }
+    }
+}
+
+impl fmt::Display for PlanKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Wash => "a washing",
+            Self::DryRun => "a dry run",
+            Self::MotionHome => "a motion home after a stop",
+            Self::Rest => "the rest after a stop",
+        })
+    }
+}
+
+impl Statement {
+    /// All statements.
+    pub const ALL: [Self; 9] = [
+        Self::Order,
+        Self::WashPaths,
+        Self::DryRun,
+        Self::NearAtStop,
+        Self::Contact,
+        Self::Holder,
+        Self::LandingSpeed,
+        Self::LiftingSpeed,
+        Self::Wrist,
+    ];
+
+    /// Path of the statement in a plan file.
+    #[must_use]
+    pub fn path(self) -> &'static str {
+        match self {
+            Self::Order => "order",
+            Self::WashPaths => "wash_paths",
+            Self::DryRun => "job.dry_run",
+            Self::NearAtStop => "job.workcell.reduced_clearances.at_stop",
+            Self::Contact => "job.requirements.contact",
+            Self::Holder => "job.requirements.holder",
+            Self::LandingSpeed => "job.requirements.landing_m_s",
+            Self::LiftingSpeed => "job.requirements.lifting_m_s",
+            Self::Wrist => "job.requirements.wrist_rad",
+        }
+    }
+
+    /// Returns true if a job makes the statement; `None` for a statement of the plan outside of its job.
+    fn is_made(self, job: &JobTerms) -> Option<bool> {
+        let wanted = &job.requirements;
+        match self {
+            Self::Order | Self::WashPaths => None,
+            Self::DryRun => Some(job.dry_run.is_some()),
+            Self::NearAtStop => Some(job.workcell.reduced_clearances.iter().any(|pair| pair.at_stop)),
+            Self::Contact => Some(wanted.contact.is_some()),
+            Self::Holder => Some(wanted.holder.is_some()),
+            Self::LandingSpeed => Some(wanted.landing_m_s.is_some()),
+            Self::LiftingSpeed => Some(wanted.lifting_m_s.is_some()),
+            Self::Wrist => Some(wanted.wrist_rad.is_some()),
+        }
+    }
+}
+
+/// Checks that a job makes the statements that its kind needs, and none that it has no use for. Order and wash paths are for the
+/// certificate.
+///
+/// # Errors
+/// [`JobError::Statement`] with the first fault.
+pub(crate) fn check(job: &JobTerms) -> Result<(), JobError> {
+    let kind = PlanKind::of(job);
+    for statement in Statement::ALL {
+        let is_needed = match (kind.rule(statement), statement.is_made(job)) {
+            (StatementRule::Needed, Some(false)) => true,
+            (StatementRule::Refused, Some(true)) => false,
+            _ => continue,
+        };
+        return Err(JobError::Statement {
+            kind,
+            path: statement.path(),
+            is_needed,
+        });
+    }
+    Ok(())
+}
