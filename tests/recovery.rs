@@ -183,6 +183,11 @@ fn true_reason(error: &RecoveryError, model: &ClearanceModel, arm: &RobotModel, 
             let found = all.iter().find(|found| found.a == pair.a && found.b == pair.b).unwrap();
             assert!(found.distance_m <= 1e-4 + ROUNDING_M, "{place}: {found:?}");
         }
+        RecoveryError::OtherTime {
+            found_off_rad,
+            fits_off_rad,
+            ..
+        } => assert!(*found_off_rad > 0.06 && fits_off_rad < found_off_rad, "{place}"),
         RecoveryError::NoWay { plate, pair } => assert!(plate.is_some() || pair.is_some(), "{place}"),
         other => panic!("{place}: {other}"),
     }

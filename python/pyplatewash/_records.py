@@ -201,6 +201,7 @@ class Recovery(NamedTuple):
     rest: Plan | None
     """The plates that are left, in the order and along the paths of the stopped plan; None where all were washed."""
     stop: Record
-    """The stop: ``time_s`` in the plan, ``off_rad``, the plates that were ``washed``, the plate that the arm was ``at_plate``."""
+    """The stop: ``time_s`` in the plan, ``off_rad``, the plates that were ``washed``, the plate that the arm was ``at_plate``; ``joints_fit`` is False where a
+    stated time was not checked, as the joints fit no moment of the plan."""
     near: list[Record]
     """Pairs of bodies that are nearer where the arm stands than the job asks, with ``distance_m``."""

@@ -11,7 +11,7 @@ use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::kinematics::AXES;
 use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, Watch, recover};
-use platewash::workcell::words::{count_with_noun, pair_text};
+use platewash::workcell::words::pair_text;
 use platewash::{Certificate, Failure, PairClearance, Plan};
 use serde::Serialize;
 use std::fmt;
@@ -148,7 +148,7 @@ fn refused(options: &Options, file: &PlanFile<'_>, error: RecoveryError) -> Resu
             options.print(&answer, || format!("{}\n", answer.headline))?;
             Ok(ExitCode::Infeasible)
         }
-        RecoveryError::Time { .. } => Err(anyhow!("--stopped-s: {error}")),
+        RecoveryError::Time { .. } | RecoveryError::OtherTime { .. } => Err(anyhow!("--stopped-s: {error}")),
         RecoveryError::NotSealed => Err(file.not_verified(error)),
         RecoveryError::Plan(PlanError::Cancelled(cancelled)) => Err(cancelled.into()),
         RecoveryError::Plan(error) => Err(Error::from(Failure::from(error))),
@@ -164,8 +164,11 @@ impl Report {
         let rest = match &self.rest {
             None => "; all plates were washed".to_owned(),
             Some(rest) => {
-                let plates = count_with_noun(rest.order.len(), "plate");
-                format!(", then the {plates} that are left in {:.2} s", rest.duration_s)
+                let plates = match rest.order.len() {
+                    1 => "plate that is left".to_owned(),
+                    more => format!("{more} plates that are left"),
+                };
+                format!(", then the {plates} in {:.2} s", rest.duration_s)
             }
         };
         let verdict = if proved {
@@ -173,7 +176,8 @@ impl Report {
         } else {
             "RECOVERY NOT PROVED"
         };
-        self.headline = format!("{verdict}: home in {:.2} s{rest}", self.home.duration_s);
+        let caveat = self.stop.caveat();
+        self.headline = format!("{verdict}: home in {:.2} s{rest}{caveat}", self.home.duration_s);
         self.proved = proved;
     }
 }

@@ -178,6 +178,58 @@ fn a_stop_at_home_is_at_the_start_unless_the_time_says_otherwise() {
     assert!(said.contains("nowhere near the plan"), "{said}");
 }
 
+/// The times in the log of a program that ran at half speed are not those of the plan.
+#[test]
+fn a_stated_time_must_fit_the_joints_where_they_fit_the_plan() {
+    let folder = folder();
+    let dir = folder.path();
+    platewash(dir, &["plan", "--quiet", "--scenario", "kitchen"]).done();
+    let file = dir.join("out/plan.json");
+    let plan = read(&file);
+    let end_s = plan["knots"]["t_s"]
+        .as_array()
+        .unwrap()
+        .last()
+        .unwrap()
+        .as_f64()
+        .unwrap();
+    let ask = |at: &[String], more: &[&str]| platewash(dir, &recover("out/plan.json", at, more));
+    for turn in [0, 1, 2] {
+        let (at, stopped_s) = in_wash(&file, turn);
+        let true_s = stopped_s.to_string();
+        let by_joints = ask(&at, &["--json"]).done().json();
+        let stated = ask(&at, &["--stopped-s", &true_s, "--json"]).done().json();
+        assert_eq!(stated["stop"]["washed"], by_joints["stop"]["washed"]);
+        assert_eq!(stated["stop"]["joints_fit"], true);
+        assert!(
+            !stated["headline"].as_str().unwrap().contains("not checked"),
+            "{stated}"
+        );
+        for other_s in [2.0 * stopped_s, stopped_s / 0.7, 0.5 * stopped_s, end_s] {
+            if other_s <= end_s {
+                let (other, nearest) = (other_s.to_string(), format!("fit it at {stopped_s:.2} s"));
+                ask(&at, &["--stopped-s", &other]).refused(2, &["--stopped-s", "the joints do not fit", &nearest]);
+            }
+        }
+        // Where the joints fit no moment, the time counts, and the first line says so.
+        let mut off = at.clone();
+        off[5] = "40".to_owned();
+        let said = ask(&off, &["--stopped-s", &true_s]).done().stdout;
+        let first = said.lines().next().unwrap();
+        assert!(
+            first.contains("; not checked: that it stopped at ") && first.contains("the joints fit no moment"),
+            "{said}"
+        );
+    }
+    let home: Vec<_> = ["0", "0", "0", "0", "90", "0"].map(str::to_owned).to_vec();
+    let said = ask(&home, &["--stopped-s", &end_s.to_string()]).done().stdout;
+    let first = said.lines().next().unwrap();
+    assert!(
+        first.contains("all plates were washed; not checked: ") && first.contains("0.00 s, which the joints fit, too"),
+        "{said}"
+    );
+}
+
 #[test]
 fn says_what_touches_and_refuses_what_is_no_stop() {
     let folder = planned();

@@ -399,7 +399,8 @@ impl PlanObject {
     /// earliest moment at which the plan is about there counts, so that a plate may be washed twice and none is left out. This plan is
     /// proved first; those that are made are not: see `prove`. `robot` is the arm, by default the one that the plan was made for.
     ///
-    /// Raises PlanError, with the stage `"recovery"` where bodies touch or no way was found; InputError for a time outside of the plan;
+    /// Raises PlanError, with the stage `"recovery"` where bodies touch or no way was found; InputError for a time outside of the plan, or one that
+    /// the joints do not fit although they fit the plan at another time;
     /// ProveError for a plan whose arm must be given.
     #[pyo3(signature = (stands_rad, stopped_s=None, *, robot=None))]
     fn recover<'py>(

@@ -78,6 +78,22 @@ pub enum RecoveryError {
         /// Duration of the plan \[s\].
         duration_s: f64,
     },
+    /// The joints do not fit the plan at the stated time, and fit it at another one.
+    #[error(
+        "the joints do not fit the plan at the stated {found_s} s (a joint is off by {:.1}°) and fit it at {fits_s:.2} s (off by up to {:.2}°): \
+         state the time in the plan, or leave it out; the log of a program that ran at a share of its speed, or was held, has other times",
+        found_off_rad.to_degrees(), fits_off_rad.to_degrees()
+    )]
+    OtherTime {
+        /// Time given \[s\].
+        found_s: f64,
+        /// Largest distance of a joint from the plan then \[rad\].
+        found_off_rad: f64,
+        /// Moment of the plan that the joints fit \[s\].
+        fits_s: f64,
+        /// Largest distance of a joint from the plan at that moment \[rad\].
+        fits_off_rad: f64,
+    },
     /// Bodies touch where the arm stands.
     #[error(
         "where the arm stands, '{}' and '{}' touch: no motion from there can be proved; move the arm away by hand first",
@@ -117,8 +133,8 @@ fn nearest(plate: &Option<usize>, pair: Option<&PairClearance>) -> String {
 
 /// Plans the way home from where the arm stands, `at` \[rad\], and the washing of the plates that are left.
 ///
-/// `time_s` is the time in the plan at which it was stopped \[s\], where that is known. Otherwise the joints tell, and the earliest moment
-/// that fits them counts.
+/// `time_s` is the time in the plan at which it was stopped \[s\], where that is known. The joints must fit the plan then, if they fit it at
+/// any time. Without it the joints tell, and the earliest moment that fits them counts.
 ///
 /// # Errors
 /// [`RecoveryError`]; it is cancelled with [`PlanError::Cancelled`].

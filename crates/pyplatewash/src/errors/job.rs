@@ -78,7 +78,7 @@ pub fn dry_run(py: Python<'_>, error: &DryRunError) -> PyErr {
 pub fn recovery(py: Python<'_>, error: RecoveryError) -> PyErr {
     let message = error.to_string();
     match error {
-        RecoveryError::Time { .. } => input(py, "stopped_s", &message),
+        RecoveryError::Time { .. } | RecoveryError::OtherTime { .. } => input(py, "stopped_s", &message),
         RecoveryError::NotFinite => input(py, "stands_rad", &message),
         RecoveryError::Plan(error) => failure(py, &error.into()),
         _ => no_recovery(py, &message),
