@@ -2,8 +2,8 @@
 
 use crate::shipped;
 use platewash::certificate::{Requirement, Status, certify, prove};
-use platewash::export::dialect::by_name;
-use platewash::export::{ExportSettings, export};
+use platewash::export::dialect::{ProgramFile, by_name};
+use platewash::export::{ExportSettings, compare, export};
 use platewash::kinematics::RobotModel;
 use platewash::planner::{Recovered, RecoveryError, Stop, Watch, recover};
 use platewash::workcell::clearance::{ClearanceModel, PairClearance};
@@ -245,7 +245,8 @@ fn both_plans_are_exported_for_the_arm_where_it_stands() {
         (Some(plan.order[1]), 1),
         "{stop:?} {time_s}"
     );
-    for plan in [home, rest.unwrap()] {
+    // The sponge may be at a plate where the motion home starts.
+    for (plan, within_deg) in [(home, 0.1), (rest.unwrap(), 0.5)] {
         let start = plan.job.home_rad[0];
         let certified = certify(plan, &arm).unwrap();
         let rapid = by_name("rapid").unwrap();
@@ -253,6 +254,43 @@ fn both_plans_are_exported_for_the_arm_where_it_stands() {
         assert!(told.judgement.holds());
         let first = told.reading.points[0].q_rad;
         assert!((first - start).amax() < 1e-5, "{first} {start}");
+        for dialect in ["rapid", "ros2"].map(|name| by_name(name).unwrap()) {
+            let told = export(
+                &certified,
+                &arm,
+                dialect,
+                &ExportSettings::default(),
+                &CancelToken::new(),
+            )
+            .unwrap();
+            assert_eq!(told.reading.start_within_deg, Some(within_deg), "{dialect:?}");
+            let checks_start = |files: &[ProgramFile]| {
+                let compared = compare(&certified, &arm, files, &CancelToken::new()).unwrap();
+                assert!(compared.holds());
+                compared.checks_start
+            };
+            assert!(checks_start(&told.files), "{dialect:?}");
+            // A start from farther away is not the one that was exported.
+            let mut edited = told.files.clone();
+            for file in &mut edited {
+                for (from, to) in [
+                    ("<=0.1 RETURN", "<=0.5 RETURN"),
+                    ("0.1 deg", "0.5 deg"),
+                    ("MOST_DEG = 0.1", "MOST_DEG = 0.5"),
+                ] {
+                    file.text = file.text.replace(from, to);
+                }
+            }
+            assert_eq!(checks_start(&edited), within_deg == 0.5, "{dialect:?}");
+        }
+        let mut stands = start;
+        stands[2] += 0.3_f64.to_radians();
+        let settings = ExportSettings {
+            stands_rad: Some(stands),
+            ..ExportSettings::default()
+        };
+        let told = export(&certified, &arm, rapid, &settings, &CancelToken::new());
+        assert_eq!(told.is_ok(), within_deg > 0.3);
     }
 }
 

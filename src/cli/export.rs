@@ -385,7 +385,7 @@ impl HandoverAnswer {
                 "  only the motion is judged; changed checks before the start, messages and comments are only named\n";
         }
         if !self.checks_start {
-            text += "  the start is not checked: the program starts to move wherever the arm stands\n";
+            text += "  the start is not checked as it was exported: the program starts to move farther from it, or wherever the arm stands\n";
         }
         if let Some(tool) = &self.tool {
             let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");

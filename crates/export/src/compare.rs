@@ -7,7 +7,7 @@
 //! and the notation of numbers do not count: editors and controllers change them. For a changed line the differences of a point
 //! are listed in numbers.
 
-use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError};
+use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError, start_within_deg};
 use crate::export::{self, ExportError};
 use crate::judgement::{self, ProgramJudgement};
 use crate::reading::{ReadPoint, Reading, number_length};
@@ -26,6 +26,9 @@ use std::collections::HashMap;
 /// Greatest number of changes that are listed.
 const MOST_CHANGES: usize = 20;
 
+/// Relative excess of a program's largest distance from the start that its digits may give.
+const DIGITS: f64 = 1e-3;
+
 /// Result of reading a program back and judging it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramComparison {
@@ -41,7 +44,7 @@ pub struct ProgramComparison {
     pub judgement: ProgramJudgement,
     /// Refusal where the tool that the program states is not the plan's.
     pub tool: Option<Refusal>,
-    /// True where the program refuses to move if the arm does not stand at the start ([`Reading::checks_start`]).
+    /// True where the program refuses to move if the arm stands farther from the start than it may ([`Reading::start_within_deg`]).
     pub checks_start: bool,
 }
 
@@ -108,6 +111,7 @@ pub(crate) fn compare_in(
 ) -> Result<ProgramComparison, CompareError> {
     refuse_other_plan(certified.plan(), files)?;
     let found = dialect.read(files, arm)?;
+    let most_deg = start_within_deg(&certified.plan().job);
     // For a program that states no settings, the share of the speed is the one that it states elsewhere, or follows from its
     // times.
     let told = || speed_share(certified.plan(), &found, dialect.points());
@@ -146,7 +150,9 @@ pub(crate) fn compare_in(
             true => expected.judgement,
             false => judgement::judge(certified, &found, arm, settings.tolerance_m, cancel)?,
         },
-        checks_start: found.checks_start,
+        checks_start: found
+            .start_within_deg
+            .is_some_and(|within_deg| within_deg <= most_deg * (1.0 + DIGITS)),
         tool: found
             .tool
             .and_then(|tool| tool.refusal(&certified.plan().job.workcell.tool)),

@@ -220,7 +220,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         points,
         interpolation,
         tool: None,
-        checks_start: false,
+        start_within_deg: None,
     })
 }
 

@@ -27,7 +27,8 @@ pub trait Dialect: Debug + Sync {
     /// Choice of the plan's points that it is given.
     fn points(&self) -> Points;
 
-    /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry.
+    /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry. [`START_WITHIN`] in one
+    /// stands for the largest distance from the start.
     fn assumptions(&self) -> &'static [&'static str];
 
     /// Refuses a job that it cannot be handed over for: another make of arm, a tool without a mass.
@@ -99,8 +100,19 @@ pub fn names() -> String {
     DIALECTS.map(Dialect::name).join(", ")
 }
 
-/// Largest distance of the arm from the start of the plan, joint by joint \[°\]: programs check it where they can.
-pub const START_WITHIN_DEG: f64 = 0.5;
+/// Place in an assumption for the largest distance of the arm from the start \[°\].
+pub const START_WITHIN: &str = "{start_within_deg}";
+
+/// Largest distances of the arm from the start of a plan, joint by joint \[°\]: at home, and after a stop, where the sponge may be at a plate.
+/// Programs check it where they can. The way from there to the start is not proved.
+pub const START_WITHIN_DEG: [f64; 2] = [0.5, 0.1];
+
+/// Largest distance of the arm from the start of a job's plan, joint by joint \[°\].
+#[must_use]
+pub fn start_within_deg(job: &JobTerms) -> f64 {
+    let [at_home, after_stop] = START_WITHIN_DEG;
+    if job.is_motion_home() { after_stop } else { at_home }
+}
 
 /// A program to be written: points in time, and the notes that must accompany them.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! A certified plan becomes a program, which is read back and judged before it is handed over.
 
-use crate::dialect::{Dialect, Program, ProgramFile, ReadError, START_WITHIN_DEG};
+use crate::dialect::{Dialect, Program, ProgramFile, ReadError, start_within_deg};
 use crate::judgement::{self, ProgramJudgement};
 use crate::points::Source;
 use crate::reading::Reading;
@@ -100,7 +100,7 @@ fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSetting
         return Err(Refusal::Waived { waived });
     }
     if let Some(stands) = &settings.stands_rad {
-        check_start(stands, &job.home_rad[0])?;
+        check_start(stands, &job.home_rad[0], start_within_deg(job))?;
     }
     settings
         .tip
@@ -108,17 +108,17 @@ fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSetting
         .map_or(Ok(()), |tip| tool_frame::check(tip, &job.workcell.tool.tip))
 }
 
-fn check_start(stands: &JointVector, start: &JointVector) -> Result<(), Refusal> {
+fn check_start(stands: &JointVector, start: &JointVector, most_deg: f64) -> Result<(), Refusal> {
     let off = |joint: &usize| (stands[*joint] - start[*joint]).abs().to_degrees();
     let worst = (0..AXES).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
-    if off(&worst) <= START_WITHIN_DEG {
+    if off(&worst) <= most_deg {
         return Ok(());
     }
     Err(Refusal::Start {
         joint: worst,
         found_deg: stands[worst].to_degrees(),
         expected_deg: start[worst].to_degrees(),
-        most_deg: START_WITHIN_DEG,
+        most_deg,
     })
 }
 

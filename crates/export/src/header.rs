@@ -2,7 +2,7 @@
 //!
 //! Also here: sentences as lines of a comment that every controller can show.
 
-use crate::dialect::{Dialect, Point};
+use crate::dialect::{Dialect, Point, START_WITHIN, start_within_deg};
 use crate::judgement::{Case, ProgramJudgement};
 use crate::points::Source;
 use crate::settings::ExportSettings;
@@ -49,7 +49,9 @@ pub(crate) fn lines(
         lines.extend(promised.map(|all| format!("Proved for the plan, not for this program: {all}.")));
     }
     lines.push("Assumed, not verified on a controller:".to_owned());
-    lines.extend(dialect.assumptions().iter().map(|words| format!("- {words}")));
+    let within_deg = start_within_deg(&plan.job).to_string();
+    let assumed = dialect.assumptions().iter();
+    lines.extend(assumed.map(|words| format!("- {}", words.replace(START_WITHIN, &within_deg))));
     let rests_on = &certified.certificate().rests_on.assumptions;
     lines.extend(rests_on.iter().map(|words| format!("- {words}")));
     let first = match plan.job.is_motion_home() {

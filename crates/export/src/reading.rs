@@ -18,8 +18,9 @@ pub struct Reading {
     pub interpolation: SegmentShape,
     /// The tool, where the program states one.
     pub tool: Option<ReadTool>,
-    /// True where the program checks, as it was exported, that the arm stands at the start before it moves.
-    pub checks_start: bool,
+    /// Largest distance of a joint from the start at which the program moves at all \[°\]; `None` where it does not check, as it was
+    /// exported, where the arm stands.
+    pub start_within_deg: Option<f64>,
 }
 
 impl Reading {

@@ -30,7 +30,7 @@ fn reading(steps: &[(f64, [f64; 6], Option<f64>)], interpolation: SegmentShape) 
         points: points.into_iter().map(point).collect(),
         interpolation,
         tool: None,
-        checks_start: false,
+        start_within_deg: None,
     }
 }
 

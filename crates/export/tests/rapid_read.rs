@@ -278,8 +278,13 @@ fn rejects_other_changes() {
 #[test]
 fn counts_the_start_check_only_before_the_motion() {
     let read = |text: String| -> Result<Reading, ReadError> { read(&text) };
-    assert!(read(WRITTEN.clone()).unwrap().checks_start);
-    assert!(!read(edited("    pwCheckStart;\n", "")).unwrap().checks_start);
+    assert!(read(WRITTEN.clone()).unwrap().start_within_deg.is_some());
+    assert!(
+        !read(edited("    pwCheckStart;\n", ""))
+            .unwrap()
+            .start_within_deg
+            .is_some()
+    );
     let error = read(edited("    pwCheckShare;\n", "")).unwrap_err();
     assert!(
         error

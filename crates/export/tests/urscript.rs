@@ -95,7 +95,7 @@ fn reads_a_program_written_by_hand() {
         (reading.speed_share, reading.interpolation),
         (Some(0.5), SegmentShape::Lines)
     );
-    assert!(!reading.checks_start, "two joints are checked");
+    assert!(!reading.start_within_deg.is_some(), "two joints are checked");
     let expected = [
         (11, 0.0, [0.0, -1.57, 1.5, -1.5, -1.5, 0.0], None),
         (26, 0.008, [0.001, -1.57, 1.5, -1.5, -1.5, 0.0], Some(0.0)),
@@ -365,7 +365,7 @@ fn notices_a_start_check_of_another_configuration() {
     };
     let files = UrScript.write(&program(&plan, &ARM, vec![point(0.0, 0.5), point(0.008, 0.5)], 1.0));
     let text = &files[0].text;
-    assert!(read(text).unwrap().checks_start);
+    assert!(read(text).unwrap().start_within_deg.is_some());
     let moved = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
         read(&text.replacen(from, to, 1))
@@ -382,7 +382,8 @@ fn notices_a_start_check_of_another_configuration() {
     assert!(
         !moved(&format!("start[0]) > {limit}"), "start[0]) > 1.0")
             .unwrap()
-            .checks_start
+            .start_within_deg
+            .is_some()
     );
     let block = text
         .split("  if norm(found[5]")
@@ -395,7 +396,7 @@ fn notices_a_start_check_of_another_configuration() {
         "  if norm(found[5]{}",
         &block[..block.rfind("  #").unwrap_or(block.len())]
     );
-    assert!(!moved(&block, "").unwrap().checks_start);
+    assert!(!moved(&block, "").unwrap().start_within_deg.is_some());
 }
 
 #[test]

@@ -111,3 +111,29 @@ fn a_holder_that_says_too_little_or_too_much_is_refused_by_its_key() {
         "{refused}"
     );
 }
+
+/// A plate that stands on a ring has one face to wash.
+#[test]
+fn a_ring_under_both_faces_is_refused() {
+    let washed = WASHED.replace("layout.region = \"appendix\"\n", "");
+    let ring = "[holder]\nfriction = 0.5\nring_radius_m = 0.09\nplate_mass_kg = 0.7\n";
+    let fixture = "[holder]\nforce_n = 25\ntorque_nm = 3\n";
+    let both = "[[plate]]\nat_m = [0.4, 0, 0.3]\nrpy_deg = [0, 90, 0]\nfaces = \"both\"\n";
+    // The same two faces, given one by one.
+    let listed = "[[plate]]\nat_m = [0.4, 0, 0.3]\nrpy_deg = [0, 90, 0]\nthickness_m = 0.01\n\
+                  [[plate]]\nat_m = [0.38, 0, 0.3]\nrpy_deg = [0, -90, 0]\nthickness_m = 0.01\n";
+    let made = |plates: &str, holder: &str| {
+        let scenario = Scenario::parse(&format!("{washed}{holder}{plates}"), "case").map_err(|e| e.to_string())?;
+        scenario.job().map(|_| ()).map_err(|e| e.to_string())
+    };
+    for plates in [both, listed] {
+        assert_eq!(made(plates, fixture), Ok(()), "{plates}");
+    }
+    let refused = made(both, ring).unwrap_err();
+    assert!(
+        refused.contains("plate[0].faces") && refused.contains("holder.friction"),
+        "{refused}"
+    );
+    let refused = made(listed, ring).unwrap_err();
+    assert!(refused.contains("both faces of a plate are washed"), "{refused}");
+}

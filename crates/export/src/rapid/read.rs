@@ -7,7 +7,7 @@
 //!
 //! Numbers are IEEE singles, as on the controller.
 
-use crate::dialect::{Place, ProgramFile, ReadError};
+use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
 use crate::rapid::{self};
@@ -74,7 +74,7 @@ struct Time {
 /// [`ReadError`] with the line that is not read.
 pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
     let modules = modules(files)?;
-    check_blocks(&modules)?;
+    let within_deg = check_blocks(&modules)?;
     let mut procedures: Vec<_> = modules.procedures.iter().filter(|(key, _)| !is_block(key)).collect();
     procedures.sort_by_key(|(_, procedure)| &procedure.place);
     let statements = procedures.into_iter().map(|(key, procedure)| {
@@ -94,18 +94,30 @@ pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
         .procedures
         .get("main")
         .map_or(nowhere, |main| main.place.clone());
-    run.reading(main)
+    run.reading(main, within_deg)
 }
 
 fn is_block(key: &str) -> bool {
     [CHECK_SHARE, CHECK_START, CHECK_JOINT].contains(&key)
 }
 
-/// Checks that the procedures with the checks before the motion are as they were exported.
-fn check_blocks(found: &Modules) -> Result<(), ReadError> {
+/// Checks that the procedures with the checks before the motion are as they were exported, and returns the largest distance from the start
+/// that they allow \[°\].
+fn check_blocks(found: &Modules) -> Result<f64, ReadError> {
+    let mut first = Ok(0.0);
+    for within_deg in START_WITHIN_DEG {
+        match check_blocks_within(found, within_deg) {
+            Ok(()) => return Ok(within_deg),
+            Err(error) => first = first.and(Err(error)),
+        }
+    }
+    first
+}
+
+fn check_blocks_within(found: &Modules, within_deg: f64) -> Result<(), ReadError> {
     let written = modules(&[ProgramFile {
         name: "checks".to_owned(),
-        text: checks(),
+        text: checks(within_deg),
     }])?;
     for (key, expected) in &written.procedures {
         let Some(procedure) = found.procedures.get(key) else {
@@ -551,7 +563,7 @@ impl<'a> Run<'a> {
     }
 
     /// Returns the motion of the program that was run.
-    fn reading(self, main: Place) -> Result<Reading, ReadError> {
+    fn reading(self, main: Place, within_deg: f64) -> Result<Reading, ReadError> {
         let refused = |place: Place, reason: &str| {
             Err(ReadError {
                 place,
@@ -589,7 +601,7 @@ impl<'a> Run<'a> {
             points: self.points,
             interpolation: SegmentShape::RoundedLines,
             tool: self.tool,
-            checks_start: self.start_rad.is_some(),
+            start_within_deg: self.start_rad.map(|_| within_deg),
         })
     }
 }

@@ -15,7 +15,7 @@ pub(crate) mod number;
 pub(crate) mod read;
 pub mod write;
 
-use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
+use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError, start_within_deg};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::ros2::read::Language;
@@ -56,7 +56,7 @@ impl Dialect for Ros2 {
             "The controller is joint_trajectory_controller with interpolation_method: splines, which draws the cubic with both points' \
              positions and speeds.",
             "It commands the arm's joints by these names, in radians, and starts where the plan starts: the first point is 0.5 s after \
-             the goal is taken, and what the arm does until then is not proved beyond standing within 0.5 degrees of it.",
+             the goal is taken, and what the arm does until then is not proved beyond standing within {start_within_deg} degrees of it.",
             "The drives follow what is commanded; how far they may lag behind is the path tolerance, which no clearance is proved for.",
             "Nothing retimes the trajectory on the way: neither MoveIt nor a speed scaling.",
             "Not tried in a ROS installation or on an arm: the controller's rules and its cubic are mirrored from its public source.",
@@ -78,7 +78,7 @@ impl Dialect for Ros2 {
             trajectory(Language::Json),
             of_goal + &goal(Language::Yaml),
             goal(Language::Json),
-            write::TEXT.to_owned(),
+            write::script(start_within_deg(&program.plan.job)),
         ];
         let file = |(name, text): (&str, String)| ProgramFile {
             name: name.to_owned(),
@@ -89,12 +89,14 @@ impl Dialect for Ros2 {
 
     fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
         let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| write::is_script(file));
-        let check = |file: &ProgramFile| write::check(file).map_err(|fault| read::refused(file, fault));
-        players.into_iter().try_for_each(check)?;
         // The player compares the start; a message alone cannot.
-        let checks_start = files.iter().any(write::is_script);
+        let mut start_within_deg = None;
+        for player in players {
+            let within_deg = write::check(player).map_err(|fault| read::refused(player, fault))?;
+            start_within_deg = Some(within_deg);
+        }
         read::reading(&messages, arm).map(|reading| Reading {
-            checks_start,
+            start_within_deg,
             ..reading
         })
     }
@@ -107,8 +109,9 @@ fn message_notes(program: &Program<'_>) -> Vec<String> {
         "trajectory_msgs/JointTrajectory: positions in rad, velocities in rad/s; no accelerations, no effort."
             .to_owned(),
         format!(
-            "time_from_start 0 is the arm as it stands, within 0.5 degrees of the first point; {lead_in_s} s later, at the first point, the \
-             plan begins."
+            "time_from_start 0 is the arm as it stands, within {} degrees of the first point; {lead_in_s} s later, at the first point, the \
+             plan begins.",
+            start_within_deg(&program.plan.job)
         ),
         format!(
             "At a speed share of {} the plan takes {:.3} s, the message {:.3} s.",

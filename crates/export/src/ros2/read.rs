@@ -80,7 +80,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
         points,
         interpolation: SegmentShape::Cubics,
         tool: None,
-        checks_start: false,
+        start_within_deg: None,
     })
 }
 

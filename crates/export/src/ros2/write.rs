@@ -4,7 +4,7 @@
 //!
 //! Times in messages: whole nanoseconds after the lead-in, strictly increasing.
 
-use crate::dialect::{Program, ProgramFile};
+use crate::dialect::{Program, ProgramFile, START_WITHIN_DEG};
 use crate::ros2::node::Fault;
 use crate::ros2::number::{float, quoted};
 use crate::ros2::read::Language;
@@ -138,18 +138,27 @@ fn document(fields: Vec<String>, language: Language) -> String {
 /// File name of the script that sends a goal.
 pub(crate) const NAME: &str = "play.py";
 
-/// Text of the script that sends a goal.
-pub(crate) const TEXT: &str = include_str!("play.py");
+/// Text of the script that sends a goal, for plans that start at home.
+const TEXT: &str = include_str!("play.py");
+
+/// Text of the script that sends a goal, where the arm stands at most so far from its start \[°\].
+pub(crate) fn script(within_deg: f64) -> String {
+    let [at_home, _] = START_WITHIN_DEG;
+    let [before, after] =
+        [at_home, within_deg].map(|deg| (format!("MOST_DEG = {deg}"), format!("more than {deg} degrees")));
+    TEXT.replace(&before.0, &after.0).replace(&before.1, &after.1)
+}
 
 /// Checks that a file is the script, by its name.
 pub(crate) fn is_script(file: &ProgramFile) -> bool {
     file.name == NAME
 }
 
-/// Refuses a script that is not the one that belongs to the goals.
-pub(crate) fn check(file: &ProgramFile) -> Result<(), Fault> {
-    if file.text == TEXT {
-        return Ok(());
+/// Refuses a script that is not the one that belongs to the goals, and returns the largest distance from the start that it allows \[°\].
+pub(crate) fn check(file: &ProgramFile) -> Result<f64, Fault> {
+    let is_written = |within_deg: &f64| file.text == script(*within_deg);
+    if let Some(within_deg) = START_WITHIN_DEG.into_iter().find(is_written) {
+        return Ok(within_deg);
     }
     let lines = || file.text.lines().zip(TEXT.lines());
     let other = lines().position(|(found, expected)| found != expected);

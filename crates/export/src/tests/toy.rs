@@ -84,7 +84,7 @@ impl Dialect for Toy {
             points,
             interpolation: SegmentShape::RoundedLines,
             tool: None,
-            checks_start: false,
+            start_within_deg: None,
         })
     }
 }

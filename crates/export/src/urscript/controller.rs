@@ -263,7 +263,7 @@ impl Controller {
             points: self.points,
             interpolation: SegmentShape::Lines,
             tool,
-            checks_start: false,
+            start_within_deg: None,
         })
     }
 }

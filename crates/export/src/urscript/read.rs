@@ -57,10 +57,17 @@ pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
         Some(Value::Number(share)) if *share > 0.0 && *share <= 1.0 => *share,
         Some(_) => return Err(at(run.share_at, format!("expected {SHARE} above 0 and at most 1"))),
     };
-    let checks_start = run.start.is_some() && run.checked == [true; AXES];
+    let within_rad = run
+        .within_rad
+        .into_iter()
+        .try_fold(0.0_f64, |most, within| Some(most.max(within?)));
+    let start_within_deg = within_rad.filter(|_| run.start.is_some()).map(f64::to_degrees);
     let last = run.line;
     let read = run.controller.reading(share).map_err(|reason| at(last, reason))?;
-    Ok(Reading { checks_start, ..read })
+    Ok(Reading {
+        start_within_deg,
+        ..read
+    })
 }
 
 fn lines(file: &ProgramFile) -> Result<Vec<Line>, ReadError> {
@@ -121,7 +128,7 @@ struct Run<'a> {
     measured: Option<&'a str>,
     /// Configuration in which the check expects the arm \[rad\], and the joints that it checks.
     start: Option<JointVector>,
-    checked: [bool; AXES],
+    within_rad: [Option<f64>; AXES],
     /// Functions that run.
     calls: Vec<&'a str>,
     line: usize,
@@ -139,7 +146,7 @@ impl<'a> Run<'a> {
             globals: BTreeMap::new(),
             measured: None,
             start: None,
-            checked: [false; AXES],
+            within_rad: [None; AXES],
             calls: Vec::new(),
             line: 1,
             share_at: 1,
@@ -251,7 +258,9 @@ impl<'a> Run<'a> {
             return Err(self.refused("the joints are compared with different starts"));
         }
         self.start = Some(start);
-        self.checked[j] |= (0.0..=START_WITHIN_DEG.to_radians() * (1.0 + NEARLY)).contains(limit);
+        if (0.0..=START_WITHIN_DEG[0].to_radians() * (1.0 + NEARLY)).contains(limit) {
+            self.within_rad[j] = Some(self.within_rad[j].map_or(*limit, |before| before.min(*limit)));
+        }
         // The message in it must be readable, too.
         let message = behind.first().map_or(&[][..], |line| &line.tokens[..]);
         self.arguments(&message[1..], Controller::parameters("popup").unwrap_or_default())

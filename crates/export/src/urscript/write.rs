@@ -3,7 +3,7 @@
 //! The first line is the program's `def`, and the header stands inside: a controller takes text from a socket from the first
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
-use crate::dialect::{Point, Program, START_WITHIN_DEG};
+use crate::dialect::{Point, Program, start_within_deg};
 use crate::header::wrapped;
 use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::words::fixed;
@@ -43,7 +43,7 @@ pub(crate) fn text(program: &Program<'_>) -> String {
     let Some((first, last)) = program.points.first().zip(program.points.last()) else {
         return text + "end\n";
     };
-    text.push_str(&start(&first.q_rad));
+    text.push_str(&start(&first.q_rad, start_within_deg(&program.plan.job)));
     text.push_str(&tool(program));
     text.push_str(&format!("  movej(start, {SLOWLY})\n"));
     for stretch in &stretches {
@@ -87,17 +87,17 @@ fn tool(program: &Program<'_>) -> String {
 }
 
 /// Refuses to start from elsewhere, before anything is set or moved.
-fn start(q_rad: &JointVector) -> String {
+fn start(q_rad: &JointVector, within_deg: f64) -> String {
     let mut text = format!(
-        "  # The arm must stand within {START_WITHIN_DEG} deg of the start.\n  start = {}\n  found = get_actual_joint_positions()\n",
+        "  # The arm must stand within {within_deg} deg of the start.\n  start = {}\n  found = get_actual_joint_positions()\n",
         list(q_rad.iter().copied())
     );
     for joint in 0..AXES {
         let (number, deg) = (joint + 1, fixed(q_rad[joint].to_degrees(), 2));
         let said = format!(
-            "Joint {number} is more than {START_WITHIN_DEG} deg from the start: move it to {deg} deg, then start again."
+            "Joint {number} is more than {within_deg} deg from the start: move it to {deg} deg, then start again."
         );
-        let most = fixed(START_WITHIN_DEG.to_radians(), DECIMALS);
+        let most = fixed(within_deg.to_radians(), DECIMALS);
         text.push_str(&format!(
             "  if norm(found[{joint}] - start[{joint}]) > {most}:\n    \
              popup(\"{said}\", title=\"platewash\", error=True, blocking=True)\n    halt\n  end\n"

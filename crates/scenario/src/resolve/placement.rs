@@ -316,6 +316,10 @@ impl Scenario {
                 let detail = "both faces are those of a flat plate without a foot that has its place, at_m";
                 conflict(at("faces"), detail)?;
             }
+            if row.has_both() && self.holder.friction.is_some() {
+                let detail = "a plate that stands on a ring (holder.friction) has one face to wash: state a fixture, or leave one face out";
+                conflict(at("faces"), detail)?;
+            }
             if row.count.is_some() && row.rpy_deg.is_some() {
                 conflict(
                     at("rpy_deg"),

@@ -340,6 +340,12 @@ impl JobTerms {
             within("requirements.holder.fixture.torque_nm", torque_nm, [0.0, GREATEST_N])?;
         }
         if let Some(RingTerms { friction, radius_m }) = ring {
+            let has_back = |plate: &Plate| self.plates.iter().any(|other| plate.is_back_of(other));
+            if self.plates.iter().any(has_back) {
+                let fault =
+                    "is a ring, and both faces of a plate are washed: it would stand on one of them; state a fixture";
+                return Err(JobError::Holder(fault));
+            }
             within("requirements.holder.ring.friction", friction, [0.0, 10.0])?;
             // No wider than any plate, nor than the foot of one that has a foot.
             let outer = |plate: &Plate| plate.foot.map_or(plate.rim_m(), |foot| foot.radius_m);

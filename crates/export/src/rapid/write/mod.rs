@@ -9,7 +9,7 @@
 mod motion;
 mod start;
 
-use crate::dialect::{Program, ProgramFile};
+use crate::dialect::{Program, ProgramFile, start_within_deg};
 use crate::header::wrapped;
 use crate::rapid::is_taken;
 use crate::rapid::write::motion::{Routine, routines};
@@ -38,8 +38,9 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     first.blank();
     start::data(&mut first, program);
     first.blank();
-    start::main(&mut first, &routines);
-    start::checks(&mut first);
+    let within_deg = start_within_deg(&program.plan.job);
+    start::main(&mut first, &routines, within_deg);
+    start::checks(&mut first, within_deg);
     if shares.is_empty() {
         write_all(&mut first, &routines);
     }
@@ -58,11 +59,11 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     named.map(|(name, text)| ProgramFile { name, text }).collect()
 }
 
-/// Text of a module that contains only the checks before the first motion.
-pub(crate) fn checks() -> String {
+/// Text of a module that contains only the checks before the first motion, with the largest distance from the start \[°\].
+pub(crate) fn checks(within_deg: f64) -> String {
     let mut lines = Lines::default();
     lines.line(0, "MODULE checks");
-    start::checks(&mut lines);
+    start::checks(&mut lines, within_deg);
     lines.line(0, "ENDMODULE");
     lines.text()
 }

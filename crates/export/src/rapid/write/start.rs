@@ -2,7 +2,7 @@
 //!
 //! The tool as RAPID states it: tip frame and load, in mm, kg and kg·m².
 
-use crate::dialect::{Program, START_WITHIN_DEG};
+use crate::dialect::Program;
 use crate::rapid::write::motion::{Routine, target, zone};
 use crate::rapid::write::{Lines, MOST, RUNNING, SHARE, number};
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
@@ -44,14 +44,14 @@ pub fn data(lines: &mut Lines, program: &Program<'_>) {
 }
 
 /// The procedure that runs everything, once.
-pub fn main(lines: &mut Lines, routines: &[Routine]) {
+pub fn main(lines: &mut Lines, routines: &[Routine], within_deg: f64) {
     lines.comment(1, "The whole plan, once.");
     lines.line(1, "PROC main()");
     lines.line(2, "pwCheckShare;");
     lines.line(2, "pwCheckStart;");
     lines.comment(
         2,
-        &format!("To the start itself, which is {START_WITHIN_DEG} deg away at most."),
+        &format!("To the start itself, which is {within_deg} deg away at most."),
     );
     lines.line(2, "MoveAbsJ pwStart\\NoEOffs,v20,fine,pwTool\\WObj:=wobj0;");
     for routine in routines {
@@ -64,7 +64,7 @@ pub fn main(lines: &mut Lines, routines: &[Routine]) {
 
 /// Writes the checks before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again,
 /// `Stop` can.
-pub fn checks(lines: &mut Lines) {
+pub fn checks(lines: &mut Lines, within_deg: f64) {
     lines.blank();
     lines.line(1, "PROC pwCheckShare()");
     lines.line(2, &format!("IF {SHARE}>0 AND {SHARE}<={MOST} THEN"));
@@ -92,7 +92,7 @@ pub fn checks(lines: &mut Lines) {
     lines.line(1, "ENDPROC");
     lines.blank();
     lines.line(1, "PROC pwCheckJoint(num joint,num found,num expected)");
-    lines.line(2, &format!("IF Abs(found-expected)<={START_WITHIN_DEG} RETURN;"));
+    lines.line(2, &format!("IF Abs(found-expected)<={within_deg} RETURN;"));
     lines.line(2, "TPErase;");
     lines.line(
         2,
@@ -101,7 +101,7 @@ pub fn checks(lines: &mut Lines) {
     lines.line(2, "TPWrite \"The program starts at \"+NumToStr(expected,4)+\" deg.\";");
     lines.line(
         2,
-        &format!("TPWrite \"That is more than {START_WITHIN_DEG} deg away: jog the arm there.\";"),
+        &format!("TPWrite \"That is more than {within_deg} deg away: jog the arm there.\";"),
     );
     lines.line(
         2,
