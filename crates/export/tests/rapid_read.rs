@@ -280,10 +280,10 @@ fn counts_the_start_check_only_before_the_motion() {
     let read = |text: String| -> Result<Reading, ReadError> { read(&text) };
     assert!(read(WRITTEN.clone()).unwrap().start_within_deg.is_some());
     assert!(
-        !read(edited("    pwCheckStart;\n", ""))
+        read(edited("    pwCheckStart;\n", ""))
             .unwrap()
             .start_within_deg
-            .is_some()
+            .is_none()
     );
     let error = read(edited("    pwCheckShare;\n", "")).unwrap_err();
     assert!(

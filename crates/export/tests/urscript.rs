@@ -95,7 +95,7 @@ fn reads_a_program_written_by_hand() {
         (reading.speed_share, reading.interpolation),
         (Some(0.5), SegmentShape::Lines)
     );
-    assert!(!reading.start_within_deg.is_some(), "two joints are checked");
+    assert!(reading.start_within_deg.is_none(), "two joints are checked");
     let expected = [
         (11, 0.0, [0.0, -1.57, 1.5, -1.5, -1.5, 0.0], None),
         (26, 0.008, [0.001, -1.57, 1.5, -1.5, -1.5, 0.0], Some(0.0)),
@@ -380,10 +380,10 @@ fn notices_a_start_check_of_another_configuration() {
         .next()
         .unwrap();
     assert!(
-        !moved(&format!("start[0]) > {limit}"), "start[0]) > 1.0")
+        moved(&format!("start[0]) > {limit}"), "start[0]) > 1.0")
             .unwrap()
             .start_within_deg
-            .is_some()
+            .is_none()
     );
     let block = text
         .split("  if norm(found[5]")
@@ -396,7 +396,7 @@ fn notices_a_start_check_of_another_configuration() {
         "  if norm(found[5]{}",
         &block[..block.rfind("  #").unwrap_or(block.len())]
     );
-    assert!(!moved(&block, "").unwrap().start_within_deg.is_some());
+    assert!(moved(&block, "").unwrap().start_within_deg.is_none());
 }
 
 #[test]
