@@ -450,7 +450,7 @@ impl RobotSuggestions {
             true => format!(
                 "washed{from_axis} with centres over {area:.2} m² in all: a guess, as transits are not looked at{partial}"
             ),
-            false => format!("washed nowhere from this home{partial}"),
+            false => format!("no place was found that is washed from this home: a guess{partial}"),
         };
         let sector = self
             .rho_m

@@ -375,3 +375,30 @@ fn what_fails_on_one_path_is_not_called_infeasible() {
         );
     }
 }
+
+/// A home that keeps the clearance but not the planner's own reserve does not show that there is no plan.
+#[test]
+fn a_home_within_the_planners_reserve_is_not_called_infeasible() {
+    let folder = folder();
+    let dir = folder.path();
+    // The sponge's side is 25 mm from the tool's axis, which is at x = 302 mm.
+    for (gap_mm, word) in [
+        (5.0, "INFEASIBLE"),
+        (9.9, "INFEASIBLE"),
+        (10.2, "NOT FOUND"),
+        (10.9, "NOT FOUND"),
+    ] {
+        let x_m = 1e-3 * (302.0 + 25.0 + gap_mm + 50.0);
+        let post = format!(
+            "[[obstacle]]\nname = \"post\"\nshape = \"box\"\nsize_m = [0.1, 0.1, 0.1]\nat_m = [{x_m}, 0.0, 0.42]\n\n[limits]"
+        );
+        let file = spiral(dir, &[("region = \"appendix\"", &at(-0.1, 0.4)), ("[limits]", &post)]);
+        let ran = plan(dir, &file);
+        assert_eq!(ran.code, 3, "{gap_mm}: {}", ran.stderr);
+        let first = ran.stdout.lines().next().unwrap();
+        assert!(
+            first.starts_with(word) && first.contains("not clear"),
+            "{gap_mm}: {first}"
+        );
+    }
+}

@@ -193,7 +193,11 @@ impl PlanError {
         let found = |proved| Some(Infeasibility::proved_if(proved));
         match self {
             Self::Layout(error) => error.infeasibility(),
-            Self::Overlap(_) | Self::HomeNotClear { .. } | Self::Transit(TransitError::Home { .. }) => found(true),
+            Self::Overlap(_) => found(true),
+            Self::HomeNotClear { too_near, .. } => found(too_near.is_below_asked()),
+            Self::Transit(TransitError::Home { too_near }) => {
+                found(too_near.as_ref().is_some_and(|too_near| too_near.is_below_asked()))
+            }
             Self::Unwashable(plate) => found(plate.is_proved()),
             Self::NoHome { .. }
             | Self::NoneWashable { .. }

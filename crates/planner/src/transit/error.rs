@@ -132,6 +132,12 @@ impl ClearanceShortfall {
             reserve_m,
         })
     }
+
+    /// Returns true where the bodies are nearer than the job asks: no proof allows that. The reserve beyond it is the planner's own.
+    #[must_use]
+    pub fn is_below_asked(&self) -> bool {
+        self.pair.distance_m < self.asked_m - ALIKE_M
+    }
 }
 
 /// Distances that differ by less than this get no further digits \[m\].

@@ -99,7 +99,7 @@ pub enum MeasuredError {
     },
     /// The face rises too steeply.
     #[error(
-        "the face rises by {slope_deg:.0}° at radius {}; expected 60° or less: walls of cups and bowls are steeper, and cannot be washed",
+        "the face rises by {slope_deg:.0}° at radius {}; expected 60° or less; steeper walls, as of cups and bowls, are not washed",
         millimetres(*.radius_m)
     )]
     Steep {
