@@ -1,11 +1,12 @@
 //! Kinds of plans: each statement that a kind may not make, or needs, decides the proof.
 
 use crate::shipped;
+use platewash::certificate::Requirement;
 use platewash::planner::{Watch, plan_in_order, recover};
 use platewash::workcell::dry_run::{DryRun, dry_run_terms};
 use platewash::workcell::job::{FixtureTerms, HolderTerms, PlanKind, Statement, StatementRule};
 use platewash::workcell::trajectory::SegmentKind;
-use platewash::workcell::workcell::ReducedClearance;
+use platewash::workcell::workcell::{Exclusion, ExclusionReason, ReducedClearance};
 use platewash::{CancelToken, JobTerms, Plan, WashJob, prove};
 
 /// The kitchen's plan, and one of another kind that follows from it.
@@ -216,4 +217,27 @@ fn looser_limits_are_named_in_the_first_line_of_every_kind() {
     home.hash = home.seal().ok();
     let line = prove(&home, kinds.job.arm()).unwrap().headline;
     assert!(line.contains("(at most 0.004 m/s required)"), "{line}");
+}
+
+/// A pair that the job leaves out counts for the clearance of the first line where it keeps clear.
+#[test]
+fn a_waived_pair_that_keeps_clear_counts_for_the_clearance() {
+    let kinds = Kinds::new();
+    for kind in PlanKind::ALL {
+        let plan = kinds.plan(kind);
+        let proved = prove(&plan, kinds.job.arm()).unwrap();
+        let clearance = proved.check(Requirement::Clearance).unwrap();
+        let mut waived = plan.clone();
+        waived.job.workcell.exclusions.push(Exclusion {
+            pair: clearance.worst.pair.clone().unwrap(),
+            reason: ExclusionReason::Srdf,
+        });
+        waived.hash = waived.seal().ok();
+        let certificate = prove(&waived, kinds.job.arm()).unwrap();
+        assert_eq!(
+            certificate.check(Requirement::Clearance).unwrap().measure,
+            clearance.measure,
+            "{kind}"
+        );
+    }
 }

@@ -7,6 +7,7 @@ use platewash::export::{ExportSettings, compare, export};
 use platewash::kinematics::RobotModel;
 use platewash::planner::{Recovered, RecoveryError, Stop, Watch, recover};
 use platewash::workcell::clearance::{ClearanceModel, PairClearance};
+use platewash::workcell::dry_run::dry_run_terms;
 use platewash::workcell::job::RecoveryPart;
 use platewash::workcell::random::stream;
 use platewash::workcell::trajectory::SegmentKind;
@@ -390,5 +391,50 @@ fn what_cannot_be_recovered_is_refused() {
     assert_eq!(
         recovered(&edited, &arm, &q, None).unwrap_err(),
         RecoveryError::NotSealed
+    );
+}
+
+/// A sponge that is near a plate from behind or below is not at its face: a way along the normal would lead through the plate.
+#[test]
+fn a_sponge_behind_a_plate_does_not_leave_along_its_normal() {
+    let (plan, arm) = planned("rack");
+    let behind = JointVector::new(14.463, 23.23, -16.365, -28.328, 62.565, 133.149).map(f64::to_radians);
+    match recovered(&plan, &arm, &behind, None) {
+        Ok(Recovered { home, .. }) => {
+            assert!(prove(&home, &arm).unwrap().passes());
+            assert!(home.segments.iter().all(|segment| segment.kind != SegmentKind::Retreat));
+            sample(&plan, &arm, &home);
+        }
+        Err(error) => panic!("{error}"),
+    }
+    // The certificate does not believe it, wherever the plate is said to be.
+    let (plan, arm) = planned("kitchen");
+    let (_, q) = in_second_wash(&plan);
+    let home = recovered(&plan, &arm, &q, None).unwrap().home;
+    let retreat = home.job.recovery.as_ref().unwrap().retreat().unwrap();
+    let status = |higher_m: f64| {
+        let mut edited = home.clone();
+        edited.job.plates[retreat.plate].pose.translation.vector.z += higher_m;
+        edited.hash = Some(edited.seal().unwrap());
+        let certificate = prove(&edited, &arm).unwrap();
+        certificate.check(Requirement::ContactHeight).unwrap().status
+    };
+    assert_eq!(status(0.0), Status::Proved);
+    for higher_m in [0.025, 0.03, 0.05, 0.06] {
+        assert_eq!(status(higher_m), Status::Violated, "{higher_m}");
+    }
+}
+
+#[test]
+fn a_dry_run_has_no_recovery() {
+    let (plan, arm) = planned("kitchen");
+    let terms = dry_run_terms(&plan, &arm, 0.05, 0.1).unwrap();
+    let mut dry_run = plan.clone();
+    dry_run.job = terms;
+    dry_run.hash = Some(dry_run.seal().unwrap());
+    let home = plan.job.home_rad[0];
+    assert_eq!(
+        recovered(&dry_run, &arm, &home, None).err(),
+        Some(RecoveryError::DryRun)
     );
 }

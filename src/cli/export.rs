@@ -85,6 +85,9 @@ fn frame(text: &str) -> Result<Pose> {
     Ok(Pose::from_parts(place.into(), turn))
 }
 
+/// Caveat in the first line of every program.
+const NOT_JUDGED: &str = "not judged: how late the arm follows, and stops";
+
 /// Proof of a program as it stands.
 #[derive(Debug, Serialize)]
 struct ProgramProofAnswer {
@@ -102,7 +105,7 @@ impl ProgramProofAnswer {
         Self {
             checks: judgement.worst(),
             implied: judgement.implied(),
-            proved_of_the_plan_alone: contact_not_judged(&plan.job.requirements),
+            proved_of_the_plan_alone: contact_not_judged(&plan.job.judged_requirements()),
         }
     }
 
@@ -234,7 +237,7 @@ fn dry_run_prefix(dry_run: Option<String>) -> String {
 impl Answer<'_> {
     fn text(&self) -> String {
         let mut text = format!(
-            "{}{} program: {} points, {:.3} s; read back and judged: HOLDS\n",
+            "{}{} program: {} points, {:.3} s; read back and judged: HOLDS; {NOT_JUDGED}\n",
             dry_run_prefix(self.dry_run.clone()),
             self.target,
             self.points,
@@ -283,6 +286,8 @@ struct HandoverAnswer {
     more_changes: usize,
     #[serde(flatten)]
     proof: ProgramProofAnswer,
+    /// Settings that change the motion and are not those that were handed over.
+    settings: Vec<Change>,
     /// Note where the tool of the program is not the plan's.
     #[serde(skip_serializing_if = "Option::is_none")]
     tool: Option<String>,
@@ -316,9 +321,14 @@ pub fn verify_program(options: &Options, plan: &Path, program: &[PathBuf]) -> Re
         (true, false) => "HOLDS, START NOT CHECKED",
         (false, _) => "DOES NOT HOLD",
     };
+    let settings: String = compared
+        .settings
+        .iter()
+        .map(|change| format!("; {} {} ({} handed over)", change.what, change.found, change.expected))
+        .collect();
     let answer = HandoverAnswer {
         headline: format!(
-            "{}{verdict}{}: {} program, tip within {} mm of the plan; {changed}",
+            "{}{verdict}{}: {} program, tip within {} mm of the plan{settings}; {changed}; {NOT_JUDGED}",
             dry_run_prefix(file.plan.job.dry_run.as_ref().map(DryRun::words)),
             certified.certificate().but_for(),
             compared.dialect,
@@ -332,6 +342,7 @@ pub fn verify_program(options: &Options, plan: &Path, program: &[PathBuf]) -> Re
         proof: ProgramProofAnswer::new(&compared.judgement, &file.plan),
         changes: compared.changes,
         more_changes: compared.more_changes,
+        settings: compared.settings,
         tool: compared.tool.as_ref().map(ToString::to_string),
     };
     options.print(&answer, || answer.text())?;
@@ -386,6 +397,19 @@ impl HandoverAnswer {
         }
         if !self.checks_start {
             text += "  the start is not checked as it was exported: the program starts to move farther from it, or wherever the arm stands\n";
+        }
+        for Change {
+            place,
+            what,
+            found,
+            expected,
+        } in &self.settings
+        {
+            let _ = writeln!(
+                text,
+                "  {what:<20} {:<9} {found}; handed over: {expected}; {place}; it changes the motion, which is not judged with it",
+                "NOT KEPT"
+            );
         }
         if let Some(tool) = &self.tool {
             let _ = writeln!(text, "  {:<20} {:<9} {tool}", "tool", "NOT KEPT");

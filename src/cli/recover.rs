@@ -11,6 +11,7 @@ use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::kinematics::AXES;
 use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, Watch, recover};
+use platewash::workcell::job::Treatment;
 use platewash::workcell::words::pair_text;
 use platewash::{Certificate, Failure, PairClearance, Plan};
 use serde::Serialize;
@@ -56,6 +57,12 @@ struct Report {
     home: ProvedPlan,
     /// The plates that are left; `None` where all were washed.
     rest: Option<ProvedPlan>,
+    /// Treatment of the plates by the stopped plan.
+    #[serde(skip)]
+    treatment: Treatment,
+    /// Requirements of the stopped plan that are laxer than usual, as its first line ends.
+    #[serde(skip)]
+    laxer: String,
 }
 
 /// A plan of a recovery, judged.
@@ -70,10 +77,12 @@ struct ProvedPlan {
 impl ProvedPlan {
     fn new(options: &Options, file: &PlanFile<'_>, plan: &Plan) -> Result<Self> {
         let proved = prove_with(plan, &file.arm, &options.cancel);
+        let mut certificate = proved.map_err(|error| file.failure(error.into()))?;
+        certificate.set_parent_compared();
         Ok(Self {
             order: plan.order.clone(),
             duration_s: plan.duration_s(),
-            certificate: proved.map_err(|error| file.failure(error.into()))?,
+            certificate,
         })
     }
 }
@@ -111,6 +120,8 @@ pub fn run(options: &Options, arguments: &RecoverArguments) -> Result<ExitCode> 
         rest: rest.as_ref().map(judged).transpose()?,
         stop,
         near,
+        treatment: file.plan.job.treatment(),
+        laxer: parent.laxer(),
     };
     drop(progress);
     report.judge();
@@ -162,7 +173,7 @@ impl Report {
         let all = || std::iter::once(&self.home).chain(&self.rest);
         let proved = all().all(|plan| plan.certificate.passes());
         let rest = match &self.rest {
-            None => "; all plates were washed".to_owned(),
+            None => format!("; all plates were {}{}", self.treatment.participle(), self.laxer),
             Some(rest) => {
                 let plates = match rest.order.len() {
                     1 => "plate that is left".to_owned(),
@@ -200,8 +211,12 @@ impl fmt::Display for Report {
         }
         writeln!(
             f,
-            "\nplatewash export makes a program of home.json, and of rest.json: run the first, then the second\n\
-             what stands around the arm must be as the plan says: a plate that moved is not where the proof has it"
+            "\nplatewash export makes a program of home.json{}\n\
+             what stands around the arm must be as the plan says: a plate that moved is not where the proof has it",
+            match &self.rest {
+                Some(_) => ", and of rest.json: run the first, then the second",
+                None => "",
+            }
         )?;
         if f.alternate() {
             for plan in std::iter::once(&self.home).chain(&self.rest) {

@@ -8,7 +8,7 @@ use super::output::DetailArguments;
 use super::plan_file::{self, PlanFile, refused};
 use anyhow::{Result, bail, ensure};
 use clap::Args;
-use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline};
+use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline, prove_with};
 use platewash::planner::{RecoveryError, Watch};
 use platewash::scenario::Program;
 use platewash::workcell::dry_run::{DryRun, DryRunError, dry_run_terms};
@@ -114,7 +114,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
         Process::Wash => {
             let file = PlanFile::with_arm(options, &arguments.plan, plan, arm.as_ref())?;
             let given = arguments.parent.as_ref();
-            parent = given.map(|path| against_parent(&file, path)).transpose()?;
+            parent = given.map(|path| against_parent(options, &file, path)).transpose()?;
             let mut certificate = file.prove(options)?;
             if parent.as_ref().is_some_and(PlanComparison::agrees) {
                 certificate.set_parent_compared();
@@ -175,8 +175,8 @@ fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Resul
 }
 
 /// Compares a dry run or a recovery, field by field, with what that of the plan at `path` has, and its order and paths with those of that
-/// plan.
-fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<PlanComparison> {
+/// plan, which must be proved.
+fn against_parent(options: &Options, file: &PlanFile<'_>, path: &Path) -> Result<PlanComparison> {
     let (found, parent) = (&file.plan, plan_file::read(path)?);
     let (kind, mut all) = match (&found.job.dry_run, &found.job.recovery) {
         (Some(dry_run), _) => ("dry run", against_tried(file, dry_run, path, &parent)?),
@@ -194,6 +194,15 @@ fn against_parent(file: &PlanFile<'_>, path: &Path) -> Result<PlanComparison> {
         &json!({"order": found.order, "wash_paths": found.wash_paths}),
         &json!({"order": order, "wash_paths": paths}),
     ));
+    // What a dry run or a recovery says of its parent rests on the parent's proof.
+    let proved = prove_with(&parent, &file.arm, &options.cancel).map_err(|error| file.failure(error.into()))?;
+    if !proved.passes() {
+        all.push(Difference {
+            key: "parent".to_owned(),
+            found: proved.headline,
+            expected: "a proved plan".to_owned(),
+        });
+    }
     Ok(PlanComparison {
         other: Other::Parent {
             hash: parent.hash,

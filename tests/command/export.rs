@@ -409,3 +409,81 @@ fn a_table_without_the_plans_time_is_read_and_holds() {
         );
     }
 }
+
+/// Settings that change how the controller moves are not judged: a program with others than the exported ones does not hold.
+#[test]
+fn a_script_with_other_settings_of_the_motion_does_not_hold() {
+    let folder = folder();
+    let dir = folder.path();
+    let file = cell(dir, UR5_START, "[[0.55, 0.0]]", 0.2);
+    other_arms::run(dir, "plan", &file, UR5).done();
+    let plan = ["o/plan.json", "--urdf", UR5];
+    platewash(
+        dir,
+        &[
+            &["export"],
+            &plan[..],
+            &["--to", "urscript", "--speed-share", "0.5", "--out", "robot"],
+        ]
+        .concat(),
+    )
+    .done();
+    let script = fs::read_dir(dir.join("robot")).unwrap().next().unwrap().unwrap().path();
+    let text = fs::read_to_string(&script).unwrap();
+    let verify = |from: &str, to: &str| {
+        assert!(from.is_empty() || text.contains(from), "{from}");
+        fs::write(&script, text.replacen(from, to, 1)).unwrap();
+        let program = script.to_str().unwrap();
+        platewash(dir, &[&["verify"], &plan[..], &["--program", program]].concat())
+    };
+    let said = verify("", "").done().stdout;
+    assert!(said.starts_with("HOLDS: urscript program"), "{said}");
+    let first = said.lines().next().unwrap();
+    assert!(
+        first.ends_with("; not judged: how late the arm follows, and stops"),
+        "{said}"
+    );
+    for (from, to, words) in [
+        (
+            "global lookahead = 0.03",
+            "global lookahead = 0.2",
+            "lookahead_time 0.2 (0.03 handed over)",
+        ),
+        ("global gain = 2000", "global gain = 500", "gain 500 (2000 handed over)"),
+        // One motion alone, and one that leaves the setting to the controller.
+        (
+            "lookahead_time=lookahead",
+            "lookahead_time=0.05",
+            "lookahead_time 0.05 (0.03 handed over)",
+        ),
+        (", gain=gain", "", "gain 300 (2000 handed over)"),
+        (
+            "movej(start, a=0.1, v=0.05)",
+            "movej(start, a=0.1, v=1)",
+            "v of movej 1 (0.05 handed over)",
+        ),
+        (
+            "movej(start, a=0.1, v=0.05)",
+            "movej(start, v=0.05)",
+            "a of movej 1.4 (0.1 handed over)",
+        ),
+        ("stopj(2.0)", "stopj(0.1)", "a of stopj 0.1 (2 handed over)"),
+    ] {
+        let ran = verify(from, to);
+        assert_eq!(ran.code, 4, "{to}: {}", ran.stdout);
+        let first = ran.stdout.lines().next().unwrap();
+        assert!(
+            first.starts_with("DOES NOT HOLD: ") && first.contains(words),
+            "{to}: {first}"
+        );
+        assert!(ran.stdout.contains("NOT KEPT"), "{to}: {}", ran.stdout);
+    }
+    // Messages, outputs and comments change nothing.
+    let said = verify(
+        "  stopj(2.0)",
+        "  textmsg(\"end\")\n  set_digital_out(1, True)\n  # here\n  stopj(2.0)",
+    )
+    .done()
+    .stdout;
+    assert!(said.starts_with("HOLDS: urscript program"), "{said}");
+}

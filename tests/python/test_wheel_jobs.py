@@ -114,7 +114,7 @@ def test_distinguishes_searches_without_result_from_impossible(root: Path, tmp_p
         layout={"region": None, "positions_m": [[0.5, 0.0]], "plate_radius_m": 0.11, "plate_height_m": 0.1},
         wash={"path_radius_m": 0.09, "turns": 3.0},
     )
-    for x_m, cause in [(0.95, "not_found"), (2.0, "unwashable")]:
+    for x_m, cause in [(0.87, "not_found"), (2.0, "unwashable")]:
         with pytest.raises(pw.PlanError) as caught:
             plan(cell.replace(layout={"positions_m": [[x_m, 0.0]]}))
         assert (caught.value.cause, caught.value.plate) == (cause, 0), caught.value

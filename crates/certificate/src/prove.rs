@@ -199,6 +199,11 @@ impl PlanUnderProof<'_> {
         checks.extend(wrist::check(subject, pieces, schedule)); // 32
         checks.extend(holding::check(subject, &contact)); // 33: plate stays
         checks.retain(|check| subject.asks_for(check.requirement));
+        if let Some(from_face) = landing::from_face(subject, &along, schedule, &tips) {
+            let later = |check: &Check| check.requirement > from_face.requirement;
+            let place = checks.iter().position(later).unwrap_or(checks.len());
+            checks.insert(place, from_face);
+        }
         Ok(Proof {
             checks,
             swept,

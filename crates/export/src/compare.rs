@@ -10,7 +10,7 @@
 use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError, start_within_deg};
 use crate::export::{self, ExportError};
 use crate::judgement::{self, ProgramJudgement};
-use crate::reading::{ReadPoint, Reading, number_length};
+use crate::reading::{ReadPoint, ReadSetting, Reading, number_length};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_certificate::{Certified, ProveError};
@@ -44,6 +44,8 @@ pub struct ProgramComparison {
     pub judgement: ProgramJudgement,
     /// Refusal where the tool that the program states is not the plan's.
     pub tool: Option<Refusal>,
+    /// Settings that change the motion and are not those that were handed over: what the proof of the motion does not see.
+    pub settings: Vec<Change>,
     /// True where the program refuses to move if the arm stands farther from the start than it may ([`Reading::start_within_deg`]).
     pub checks_start: bool,
 }
@@ -137,6 +139,7 @@ pub(crate) fn compare_in(
     let given: Vec<_> = expected.files.iter().filter(given).cloned().collect();
     let said = dialect.read(&given, arm);
     let said = said.map_or_else(|_| expected.reading.clone(), at_share);
+    let settings_expected = said.settings.clone();
     let mut changes = changes((files, &found), (&expected.files, &said));
     let more_changes = changes.len().saturating_sub(MOST_CHANGES);
     changes.truncate(MOST_CHANGES);
@@ -153,6 +156,7 @@ pub(crate) fn compare_in(
         checks_start: found
             .start_within_deg
             .is_some_and(|within_deg| within_deg <= most_deg * (1.0 + DIGITS)),
+        settings: changed_settings(&found, &settings_expected),
         tool: found
             .tool
             .and_then(|tool| tool.refusal(&certified.plan().job.workcell.tool)),
@@ -192,11 +196,51 @@ impl ProgramComparison {
         self.changes.is_empty()
     }
 
-    /// Returns true where the motion of the program holds under every assumption, with the tool of the plan.
+    /// Returns true where the motion of the program holds under every assumption, with the tool of the plan and the settings that were
+    /// handed over.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.tool.is_none() && self.judgement.holds()
+        self.tool.is_none() && self.settings.is_empty() && self.judgement.holds()
     }
+}
+
+/// Lists the settings of a program that are not among those that were handed over, and those that it lacks.
+fn changed_settings(found: &Reading, expected: &[ReadSetting]) -> Vec<Change> {
+    let is_same = |a: &ReadSetting, b: &ReadSetting| a.name == b.name && a.value == b.value;
+    let values = |name: &str| {
+        let named: Vec<_> = expected
+            .iter()
+            .filter(|other| other.name == name)
+            .map(|other| &*other.value)
+            .collect();
+        match named.is_empty() {
+            true => "nothing".to_owned(),
+            false => named.join(" and "),
+        }
+    };
+    let changed = found
+        .settings
+        .iter()
+        .filter(|setting| !expected.iter().any(|other| is_same(setting, other)));
+    let changed = changed.map(|setting| Change {
+        place: setting.place.to_string(),
+        what: setting.name.to_owned(),
+        found: setting.value.clone(),
+        expected: values(setting.name),
+    });
+    let lacking = expected
+        .iter()
+        .filter(|other| !found.settings.iter().any(|setting| setting.name == other.name));
+    let lacking = lacking.map(|other| Change {
+        place: found
+            .points
+            .last()
+            .map_or_else(String::new, |point| point.place.to_string()),
+        what: other.name.to_owned(),
+        found: "nothing".to_owned(),
+        expected: other.value.clone(),
+    });
+    changed.chain(lacking).collect()
 }
 
 /// Greatest number of characters of a line that are shown.

@@ -221,6 +221,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         interpolation,
         tool: None,
         start_within_deg: None,
+        settings: Vec::new(),
     })
 }
 

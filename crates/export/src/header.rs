@@ -45,7 +45,7 @@ pub(crate) fn lines(
     lines.extend(speeds(source, settings, points));
     if let Some(judged) = judged {
         lines.extend(verdict(judged, settings));
-        let promised = contact_not_judged(&source.plan.job.requirements);
+        let promised = contact_not_judged(&source.plan.job.judged_requirements());
         lines.extend(promised.map(|all| format!("Proved for the plan, not for this program: {all}.")));
     }
     lines.push("Assumed, not verified on a controller:".to_owned());

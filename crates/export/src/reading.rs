@@ -21,6 +21,19 @@ pub struct Reading {
     /// Largest distance of a joint from the start at which the program moves at all \[°\]; `None` where it does not check, as it was
     /// exported, where the arm stands.
     pub start_within_deg: Option<f64>,
+    /// Settings that change how the controller moves, in the order of the program: each value once.
+    pub settings: Vec<ReadSetting>,
+}
+
+/// Setting of a controller that changes the motion, as a program states it, or as it is where the program states nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadSetting {
+    /// The line that states it, or the first that it counts for.
+    pub place: Place,
+    /// Name, as the program has it.
+    pub name: &'static str,
+    /// Value, in words.
+    pub value: String,
 }
 
 impl Reading {

@@ -9,6 +9,7 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Greatest overlap of bodies that counts as touching: the rounding of positions \[m\].
 const ROUNDING_M: f64 = 1e-9;
@@ -207,6 +208,14 @@ impl Tool {
     #[must_use]
     pub fn is_present(&self) -> bool {
         !self.bodies.is_empty()
+    }
+
+    /// Returns true if the sponge is at the side of a face that it washes: its tip at that height over the face \[m\], its axis at an angle of
+    /// that cosine from the normal, all of the rim at its holder is over the face. So it goes away from the plate along the normal.
+    #[must_use]
+    pub fn is_over_face(&self, height_m: f64, cosine: f64) -> bool {
+        let (sponge, sine) = (&self.sponge, (1.0 - cosine * cosine).max(0.0).sqrt());
+        cosine >= FRAC_1_SQRT_2 && height_m + sponge.height_m * cosine - sponge.radius_m * sine >= 0.0
     }
 
     /// Returns the state of the sponge with its tip at a height over a face \[m\]. Without a tool body the sponge counts as touching

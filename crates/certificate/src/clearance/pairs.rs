@@ -368,7 +368,13 @@ pub(crate) fn checks(limit_m: f64, lines: &[PairBound]) -> impl Iterator<Item = 
             &[*line],
         )
     });
-    std::iter::once(check(Requirement::Clearance, limit_m, &of(PairRule::Clearance))).chain(reduced)
+    // A pair that the job waives and that keeps clear all the same is like any other.
+    let is_kept = |line: &&PairBound| line.rule == PairRule::Waived && line.status == Status::Proved;
+    let keeping = lines
+        .iter()
+        .filter(|line| line.rule == PairRule::Clearance || is_kept(line));
+    let keeping: Vec<_> = keeping.collect();
+    std::iter::once(check(Requirement::Clearance, limit_m, &keeping)).chain(reduced)
 }
 
 /// Status of a requirement over its lines. Without collision geometry there is nothing to be clear of, and nothing is proved.

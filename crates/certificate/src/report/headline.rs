@@ -20,6 +20,9 @@ const MOST_NUMBERS: usize = 3;
 /// End of the first line of a dry run until both plans are compared.
 const NOT_COMPARED: &str = "; not checked: whether it follows the plan that it names";
 
+/// End of the first line of a recovery until both plans are compared.
+const NOT_FROM_STOP: &str = "; not checked: whether the plan that it names was stopped so";
+
 /// Returns the first line of a plan that is not proved yet.
 #[must_use]
 pub fn planned_headline(plan: &Plan) -> String {
@@ -63,6 +66,10 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
         certificate.rests_on.without_floor()
     );
     let judged = match &basis.recovery {
+        Some(recovery) if basis.dry_run.is_none() => {
+            let compared = if certificate.parent_compared { "" } else { NOT_FROM_STOP };
+            format!("{}; {judged}{compared}", recovery.words())
+        }
         Some(recovery) => format!("{}; {judged}", recovery.words()),
         None => judged,
     };
@@ -214,6 +221,12 @@ impl Certificate {
     pub fn set_parent_compared(&mut self) {
         self.parent_compared = true;
         self.headline = headline(self);
+    }
+
+    /// Returns the requirements that are laxer than usual, as the first line ends; empty where none is.
+    #[must_use]
+    pub fn laxer(&self) -> String {
+        laxer_text(self)
     }
 
     /// Returns the words " but for …" that belong to a passing verdict: the waived requirements with the first case of each. Empty if

@@ -29,7 +29,7 @@ use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Derivatives, Moment, Stretch, TipPiece};
 use crate::motion::tip_limits::{self, Tips};
-use crate::report::check::{Check, Unit, WorstCase};
+use crate::report::check::{Check, Discrepancy, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
@@ -37,11 +37,13 @@ use crate::washing::contact::tighter;
 use crate::washing::face::Face;
 use crate::washing::instants;
 use nalgebra::Vector3;
+use platewash_kinematics::trig::acos;
 use platewash_workcell::contact::{Bends, Columns, Foundation, SpongeState, TouchRegion};
-use platewash_workcell::job::LINE_TOLERANCE_M;
+use platewash_workcell::job::{LINE_TOLERANCE_M, Recovery};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Sponge;
 use platewash_workcell::trajectory::SegmentKind;
+use platewash_workcell::words::{millimetres, plate_name};
 
 /// Gap allowed between the bound of the speed and the greatest speed found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;
@@ -53,6 +55,40 @@ struct TouchSpeedLimit<'a> {
     limit: f64,
     /// True for the free sponge; false for the compressed one.
     is_free: bool,
+}
+
+/// Checks that the retreat of a motion home begins and goes on with the sponge at the face that it leaves; `None` for other plans. Behind
+/// the plate, or beside it and lower, a way along the normal would lead into it.
+pub(crate) fn from_face(
+    subject: &Subject<'_>,
+    along: &[TipPiece<'_>],
+    schedule: Option<&Schedule>,
+    tips: &Tips,
+) -> Option<Check> {
+    let retreat = subject.job.recovery.as_ref().and_then(Recovery::retreat)?;
+    let requirement = Requirement::ContactHeight;
+    let spans = schedule?.spans.iter().enumerate();
+    let (index, span) = spans.clone().find(|(_, span)| span.kind == SegmentKind::Retreat)?;
+    let (Some(plate), Some(first)) = (subject.plates().get(retreat.plate), along.get(span.pieces.start)) else {
+        return Some(Check::not_judged(requirement));
+    };
+    // The tip keeps to the line up from where it begins.
+    let height_m = plate.height_of(&first.stretch().ends[0].position) - LINE_TOLERANCE_M;
+    let cosine = tips.least_upright_cosine_of(index);
+    if subject.job.workcell.tool.is_over_face(height_m, cosine) {
+        return Some(Check::stated(requirement, Vec::new()));
+    }
+    let found = format!(
+        "the tip {} over its face, the tool up to {:.1}° from the normal",
+        millimetres(height_m),
+        acos(cosine.clamp(-1.0, 1.0)).to_degrees()
+    );
+    let expected = "the sponge's upper rim over the face, the tool at most 45° from the normal: only so a way along the normal leads away";
+    let what = format!("retreat from {}", plate_name(retreat.plate));
+    Some(Check::stated(
+        requirement,
+        vec![Discrepancy::new(what, found, expected)],
+    ))
 }
 
 /// Checks the touching speed on every plate that the sponge comes down on or leaves.

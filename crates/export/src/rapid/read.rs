@@ -602,6 +602,7 @@ impl<'a> Run<'a> {
             interpolation: SegmentShape::RoundedLines,
             tool: self.tool,
             start_within_deg: self.start_rad.map(|_| within_deg),
+            settings: Vec::new(),
         })
     }
 }

@@ -81,6 +81,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
         interpolation: SegmentShape::Cubics,
         tool: None,
         start_within_deg: None,
+        settings: Vec::new(),
     })
 }
 

@@ -4,7 +4,7 @@
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
 use crate::dialect::Place;
-use crate::reading::{ReadPoint, ReadTool, Reading, SegmentShape};
+use crate::reading::{ReadPoint, ReadSetting, ReadTool, Reading, SegmentShape};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{JointVector, Pose};
@@ -17,6 +17,12 @@ const LOOKAHEAD_S: [f64; 2] = [0.03, 0.2];
 
 /// Gains that a controller takes.
 const GAIN: [f64; 2] = [100.0, 2000.0];
+
+/// Look-ahead time \[s\] and gain where a `servoj` states none.
+const USUAL_SERVO: [f64; 2] = [0.1, 300.0];
+
+/// Acceleration \[rad/s²\] and speed \[rad/s\] where a `movej` states none.
+const USUAL_MOVE: [f64; 2] = [1.4, 1.05];
 
 /// Largest motion of a `movej` where no motion is meant \[rad\].
 const NOWHERE_RAD: f64 = 1e-6;
@@ -102,6 +108,7 @@ pub(crate) struct Controller {
     points: Vec<ReadPoint>,
     tip: Option<Pose>,
     load: Option<(f64, [f64; 3])>,
+    settings: Vec<ReadSetting>,
 }
 
 /// Values of an instruction's parameters, in their order; `None` where not given.
@@ -140,7 +147,8 @@ impl Controller {
             "movej" => return self.movej(values, place),
             "servoj" => return self.servoj(values, place),
             "stopj" => {
-                positive(values, 0, "a")?;
+                let a = positive(values, 0, "a")?;
+                self.set("a of stopj", a, &place);
                 if matches!(self.stage, Stage::Before) {
                     return Err("stopj before any motion".to_owned());
                 }
@@ -158,6 +166,19 @@ impl Controller {
         Ok(())
     }
 
+    /// Notes a setting, once for each value.
+    fn set(&mut self, name: &'static str, value: f64, place: &Place) {
+        let value = value.to_string();
+        if !self
+            .settings
+            .iter()
+            .any(|before| before.name == name && before.value == value)
+        {
+            let place = place.clone();
+            self.settings.push(ReadSetting { place, name, value });
+        }
+    }
+
     /// Checks that the arm does not move yet: the tool must not change in the midst of the motion.
     fn check_standing(&self, what: &str) -> Result<(), String> {
         match self.moves() {
@@ -168,10 +189,12 @@ impl Controller {
 
     fn movej(&mut self, values: &ParameterValues, place: Place) -> Result<(), String> {
         let q_rad = joints(values)?;
-        for (k, name) in [(1, "a"), (2, "v")] {
-            if values.get(k).is_some_and(Option::is_some) {
-                positive(values, k, name)?;
-            }
+        for (k, name, setting) in [(1, "a", "a of movej"), (2, "v", "v of movej")] {
+            let stated = match values.get(k).is_some_and(Option::is_some) {
+                true => positive(values, k, name)?,
+                false => USUAL_MOVE[k - 1],
+            };
+            self.set(setting, stated, &place);
         }
         for (k, name) in [(3, "t"), (4, "r")] {
             let found = values.get(k).and_then(Option::as_ref).map_or(Ok(0.0), Value::number)?;
@@ -217,8 +240,10 @@ impl Controller {
                 "servoj with t = {t_s} s: it hastens to its target, which is even motion up to {LONGEST_S} s alone"
             ));
         }
-        within(values, 4, "lookahead_time", LOOKAHEAD_S)?;
-        within(values, 5, "gain", GAIN)?;
+        for (k, name, range) in [(4, "lookahead_time", LOOKAHEAD_S), (5, "gain", GAIN)] {
+            let stated = within(values, k, name, range)?;
+            self.set(name, stated.unwrap_or(USUAL_SERVO[k - 4]), &place);
+        }
         self.t_s += t_s;
         let t_s = self.t_s;
         self.points.push(ReadPoint {
@@ -264,6 +289,7 @@ impl Controller {
             interpolation: SegmentShape::Lines,
             tool,
             start_within_deg: None,
+            settings: self.settings,
         })
     }
 }
@@ -283,13 +309,14 @@ fn positive(values: &ParameterValues, k: usize, name: &str) -> Result<f64, Strin
     }
 }
 
-fn within(values: &ParameterValues, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<(), String> {
+/// The value of a parameter, if it is given, within its range.
+fn within(values: &ParameterValues, k: usize, name: &str, [least, most]: [f64; 2]) -> Result<Option<f64>, String> {
     let Some(Some(value)) = values.get(k) else {
-        return Ok(());
+        return Ok(None);
     };
     let found = value.number()?;
     match (least..=most).contains(&found) {
-        true => Ok(()),
+        true => Ok(Some(found)),
         false => Err(format!("expected {name} from {least} to {most}, found {found}")),
     }
 }

@@ -61,6 +61,11 @@ pub enum RecoveryError {
         "the plan is the motion home of a recovery: give the plan that was stopped first, with where the arm stands now"
     )]
     MotionHome,
+    /// The plan is a dry run.
+    #[error(
+        "the plan is a dry run, whose plates are in the air where nothing is: move the arm home by hand, then run it again from its start"
+    )]
+    DryRun,
     /// The plan's hash is missing, or not that of its contents.
     #[error("the plan was changed after it was written; a recovery names its parent by its hash")]
     NotSealed,
@@ -175,6 +180,9 @@ fn check(plan: &Plan, arm: &RobotModel, at: &JointVector) -> Result<(), Recovery
     }
     if plan.job.is_motion_home() {
         return Err(RecoveryError::MotionHome);
+    }
+    if plan.job.dry_run.is_some() {
+        return Err(RecoveryError::DryRun);
     }
     if !plan.is_sealed() {
         return Err(RecoveryError::NotSealed);

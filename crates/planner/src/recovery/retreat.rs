@@ -12,7 +12,7 @@ use crate::timing::{self, SlowStretch, TimedPath};
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
-use platewash_workcell::job::retreat_speed_m_s;
+use platewash_workcell::job::{LINE_TOLERANCE_M, retreat_speed_m_s};
 use platewash_workcell::words::plate_name;
 use platewash_workcell::workcell::is_pair;
 
@@ -30,6 +30,9 @@ const STEPS_BACK: u32 = 12;
 
 /// Distance by which a pair that is too near at the start may come nearer \[m\].
 pub(crate) const NEARER_M: f64 = 1e-4;
+
+/// Height by which the sponge is farther over a face than need be for its retreat from it \[m\].
+const ROOM_M: f64 = 1e-3;
 
 /// Share of the speed limit that a retreat uses.
 const PACE: f64 = 0.9;
@@ -105,7 +108,16 @@ impl<'a> Start<'a> {
             let other = |plate| Some(plate) != under_way;
             a.1.total_cmp(&b.1).then(other(a.0).cmp(&other(b.0)))
         };
-        let plate = near.iter().filter_map(under).min_by(nearer).map(|(plate, _)| plate);
+        // Elsewhere, as behind a plate, no way along its normal leads away from it.
+        let tip = scene.robot.fk(at).rigid(&scene.tip);
+        let tool = &pipeline.terms.workcell.tool;
+        let is_over = |(plate, _): &(usize, f64)| {
+            let plate = &pipeline.plates[*plate];
+            let height_m = plate.height_of(&tip.translation) - LINE_TOLERANCE_M;
+            tool.is_over_face(height_m - ROOM_M, -tip.rotation.column(2).dot(&plate.axis()))
+        };
+        let under = near.iter().filter_map(under).filter(is_over);
+        let plate = under.min_by(nearer).map(|(plate, _)| plate);
         near.retain(|pair| !plate.is_some_and(|plate| under_sponge(pair, plate)));
         Self {
             pipeline,

@@ -14,6 +14,9 @@ const AS_NEAR_RAD: f64 = 0.035;
 /// Largest distance of a joint from the plan at which the arm counts as stopped on it \[rad\].
 const ON_PLAN_RAD: f64 = 0.06;
 
+/// Rounding of a printed time \[s\].
+const PRINTED_S: f64 = 0.005;
+
 /// Moments of each piece of the motion that are looked at.
 const LOOKS: u32 = 4;
 
@@ -51,9 +54,11 @@ impl Stop {
         let Some(found_s) = time_s else {
             return Ok(by_joints);
         };
-        if !(0.0..=duration_s).contains(&found_s) {
+        // The end as it is printed may be a little later; −0 is 0.
+        if !(0.0..=duration_s + PRINTED_S).contains(&found_s) {
             return Err(RecoveryError::Time { found_s, duration_s });
         }
+        let found_s = found_s.min(duration_s) + 0.0;
         let stated_off_rad = off_rad(found_s);
         match by_joints.time_s {
             Some(fits_s) if stated_off_rad > ON_PLAN_RAD.max(nearest_rad + AS_NEAR_RAD) => {

@@ -122,7 +122,8 @@ pub fn share_beyond_reach(robot: &RobotModel, terms: &JobTerms, plate: &Plate) -
         .points(apart_m)
         .filter(|(place, _)| bound.is_beyond(place, CELL * apart_m));
     let beyond_m2: f64 = beyond.map(|(_, area_m2)| area_m2).sum();
-    beyond_m2 / surface.area_m2()
+    // Adding 0 makes −0 into 0.
+    beyond_m2 / surface.area_m2() + 0.0
 }
 
 /// Greatest distance from the tip, on the face, of a place that the sponge touches or passes over \[m\]. On a flat face the sponge's
@@ -140,9 +141,14 @@ fn touch_m(sponge: &Sponge, is_flat: bool, lean_rad: f64) -> f64 {
 /// Greatest share of a plate's face that a job requires to be swept or pressed.
 #[must_use]
 pub fn required_share(terms: &JobTerms, plate: &Plate) -> f64 {
-    let contact = terms.contact_of(plate).map(|wanted| {
-        let dwelling = wanted.time_share.max(wanted.dose_share);
-        wanted.share.max(dwelling)
+    let contact = terms
+        .contact_of(plate)
+        .filter(|_| terms.judged_requirements().contact.is_some());
+    let contact = contact.map(|wanted| {
+        // A place that the sponge never touches has no time and no dose there: enough where none is asked for.
+        let time_share = if wanted.time_s > 0.0 { wanted.time_share } else { 0.0 };
+        let dose_share = if wanted.dose_pa_m > 0.0 { wanted.dose_share } else { 0.0 };
+        wanted.share.max(time_share).max(dose_share)
     });
     terms.requirements.coverage.max(contact.unwrap_or(0.0))
 }

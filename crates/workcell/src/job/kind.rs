@@ -34,7 +34,7 @@ pub enum Statement {
     NearAtStop,
     /// Requirements of the contact (`job.requirements.contact`).
     Contact,
-    /// What holds the plates (`job.requirements.holder`).
+    /// Holder of the plates (`job.requirements.holder`).
     Holder,
     /// Landing speed (`job.requirements.landing_m_s`).
     LandingSpeed,
@@ -44,7 +44,7 @@ pub enum Statement {
     Wrist,
 }
 
-/// What a kind of plan does with a statement.
+/// Rule of a kind of plan for a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StatementRule {
     /// The statement must be there.

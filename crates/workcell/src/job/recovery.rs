@@ -11,10 +11,14 @@ use crate::plate::GREATEST_M;
 use crate::words::plate_name;
 use crate::workcell::{ReducedClearance, is_pair};
 use platewash_kinematics::JointVector;
+use platewash_kinematics::words::nonzero_decimals;
 use serde::{Deserialize, Serialize};
 
 /// Greatest speed of the sponge where it leaves a plate after a stop \[m/s\].
 pub const RETREAT_M_S: f64 = 0.02;
+
+/// Least length of a retreat \[m\].
+const LEAST_RETREAT_M: f64 = 1e-4;
 
 /// Greatest speed of the sponge where it leaves a plate after a stop of a job \[m/s\].
 #[must_use]
@@ -111,9 +115,9 @@ impl Recovery {
             RecoveryPart::Home {
                 retreat: Some(RetreatLine { plate, length_m }),
             } => format!(
-                "RECOVERY: from the stop home, nothing is washed; the sponge may touch {} until it is {:.1} mm up",
+                "RECOVERY: from the stop home, nothing is washed; the sponge may touch {} until it is {} mm up",
                 plate_name(plate),
-                1e3 * length_m
+                nonzero_decimals(1e3 * length_m, 1)
             ),
             RecoveryPart::Rest => {
                 let names: Vec<_> = self.left_out.iter().map(|plate| plate_name(*plate)).collect();
@@ -149,7 +153,7 @@ impl Recovery {
             RecoveryPart::Home { retreat: Some(line) } => within(
                 "recovery.part.home.retreat.length_m",
                 line.length_m,
-                [f64::MIN_POSITIVE, GREATEST_M],
+                [LEAST_RETREAT_M, GREATEST_M],
             ),
             _ => Ok(()),
         }

@@ -135,6 +135,10 @@ impl LayoutError {
     pub fn is_proven(&self) -> bool {
         match self {
             Self::NoRoom { count, upper_bound, .. } => cannot_fit(*count, *upper_bound),
+            // A place that is given may lie where none is drawn.
+            Self::EmptyRegion {
+                reason: EmptyReason::TooThin | EmptyReason::WithinBase { .. },
+            } => false,
             _ => true,
         }
     }

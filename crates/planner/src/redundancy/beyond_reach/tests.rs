@@ -2,7 +2,9 @@ use super::*;
 use nalgebra::{Rotation3, UnitQuaternion};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, Pose};
+use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::fixtures::{contact_kitchen_terms, kitchen_plate};
+use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::surface::Surface;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -109,4 +111,31 @@ fn the_bound_is_near_what_the_arm_reaches() {
     assert!(share(0.635 + 0.025 + 0.01 - radius_m) > 0.0);
     assert!(share(0.635 + 0.025) > 0.4);
     assert!(share(0.635 + 0.025 + 0.01 + radius_m) > 1.0 - 1e-9);
+}
+
+/// A share that asks for no time and no dose is there without any contact.
+#[test]
+fn only_shares_that_need_contact_count_as_required() {
+    let robot = RobotModel::irb120().unwrap();
+    let mut terms = contact_kitchen_terms(&robot, vec![kitchen_plate([0.4, 0.0])]);
+    terms.requirements.coverage = 0.2;
+    let required = |change: &dyn Fn(&mut ContactRequirements)| {
+        let mut terms = terms.clone();
+        let contact = terms.requirements.contact.as_mut().unwrap();
+        (contact.share, contact.time_share, contact.dose_share) = (0.3, 0.9, 0.8);
+        change(contact);
+        required_share(&terms, &terms.plates[0])
+    };
+    assert_eq!(required(&|_| ()), 0.9);
+    assert_eq!(required(&|contact| contact.time_s = 0.0), 0.8);
+    assert_eq!(
+        required(&|contact| (contact.time_s, contact.dose_pa_m) = (0.0, 0.0)),
+        0.3
+    );
+    let mut dry_run = terms.clone();
+    dry_run.dry_run = Some(DryRun {
+        parent: "0".repeat(64),
+        height_m: 0.05,
+    });
+    assert_eq!(required_share(&dry_run, &dry_run.plates[0]), 0.2);
 }
