@@ -11,6 +11,7 @@ use platewash::workcell::dry_run::dry_run_terms;
 use platewash::workcell::job::RecoveryPart;
 use platewash::workcell::random::stream;
 use platewash::workcell::trajectory::SegmentKind;
+use platewash::workcell::workcell::ReducedClearance;
 use platewash::{CancelToken, JointVector, Plan};
 use rand::{Rng, RngExt};
 use std::collections::{BTreeMap, BTreeSet};
@@ -422,6 +423,29 @@ fn a_sponge_behind_a_plate_does_not_leave_along_its_normal() {
     assert_eq!(status(0.0), Status::Proved);
     for higher_m in [0.025, 0.03, 0.05, 0.06] {
         assert_eq!(status(higher_m), Status::Violated, "{higher_m}");
+    }
+}
+
+/// A pair that is far apart at the stop keeps what all pairs keep.
+#[test]
+fn a_pair_that_is_not_near_at_the_stop_is_not_excused() {
+    let (plan, arm) = planned("kitchen");
+    let (_, q) = in_second_wash(&plan);
+    let home = recovered(&plan, &arm, &q, None).unwrap().home;
+    for (pair, by_m) in [(["handle", "floor"], 0.001), (["link_4", "handle"], 0.0099)] {
+        let mut edited = home.clone();
+        edited.job.workcell.reduced_clearances.push(ReducedClearance {
+            pair: pair.map(str::to_owned),
+            by_m,
+            at_stop: true,
+        });
+        edited.hash = Some(edited.seal().unwrap());
+        let certificate = prove(&edited, &arm).unwrap();
+        assert_eq!(
+            certificate.check(Requirement::Exclusions).unwrap().status,
+            Status::Violated,
+            "{pair:?}"
+        );
     }
 }
 

@@ -8,8 +8,9 @@ use crate::report::requirement::Requirement;
 use crate::subject::Subject;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::clearance::{self, ClearanceError, ClearanceModel};
-use platewash_workcell::words::{millimetres, plate_name};
-use platewash_workcell::workcell::{Exclusion, Workcell, is_pair};
+use platewash_workcell::job::NEARER_M;
+use platewash_workcell::words::{millimetres, pair_text, plate_name};
+use platewash_workcell::workcell::{Exclusion, ReducedClearance, Workcell, is_pair};
 use std::collections::BTreeSet;
 
 /// Excluded pairs: those that follow from the arm, and those that only the job excludes.
@@ -58,6 +59,7 @@ impl Exclusions {
     pub fn check(&self, subject: &Subject<'_>, model: &ClearanceModel, clearance: &[PairBound]) -> Check {
         let mut wrong = shapeless(subject);
         wrong.extend(twice(subject));
+        wrong.extend(not_near_at_stop(subject, model));
         let stated = &subject.job.workcell.exclusions;
         let missing = self.own.iter().filter(|own| !stated.contains(own));
         wrong.extend(missing.map(|own| {
@@ -89,6 +91,29 @@ impl Exclusions {
         Check::stated(Requirement::Exclusions, near).waived_if(true)
     }
 }
+
+/// Finds pairs that the job calls near at the stop and that are farther apart there: each keeps what it has, less a little.
+fn not_near_at_stop(subject: &Subject<'_>, model: &ClearanceModel) -> Vec<Discrepancy> {
+    let reduced = &subject.job.workcell.reduced_clearances;
+    if !reduced.iter().any(|reduced| reduced.at_stop) {
+        return Vec::new();
+    }
+    let there = model.all(&subject.job.home_rad[0]);
+    let too_little = |reduced: &&ReducedClearance| {
+        let kept_m = subject.limits.clearance_m - reduced.by_m;
+        let found = there.iter().find(|pair| is_pair(&reduced.pair, (&pair.a, &pair.b)))?;
+        (kept_m < found.distance_m - NEARER_M - ROUNDING_M).then(|| {
+            let what = format!("clearance of {}, as near at the stop", pair_text(&reduced.pair));
+            let expected = format!("no less than {}, which they have there", millimetres(found.distance_m));
+            Discrepancy::new(what, millimetres(kept_m), expected)
+        })
+    };
+    let at_stop = reduced.iter().filter(|reduced| reduced.at_stop);
+    at_stop.filter_map(|reduced| too_little(&reduced)).collect()
+}
+
+/// Rounding of a distance \[m\].
+const ROUNDING_M: f64 = 1e-6;
 
 /// Returns the discrepancy of a waived pair that does not keep clear.
 fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {

@@ -12,7 +12,7 @@ use crate::timing::{self, SlowStretch, TimedPath};
 use nalgebra::Vector3;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
-use platewash_workcell::job::{LINE_TOLERANCE_M, retreat_speed_m_s};
+use platewash_workcell::job::{LINE_TOLERANCE_M, NEARER_M, retreat_speed_m_s};
 use platewash_workcell::words::plate_name;
 use platewash_workcell::workcell::is_pair;
 
@@ -27,9 +27,6 @@ const JOINT_STEP_RAD: f64 = 0.1;
 
 /// Steps of the way back to a configuration of the plan.
 const STEPS_BACK: u32 = 12;
-
-/// Distance by which a pair that is too near at the start may come nearer \[m\].
-pub(crate) const NEARER_M: f64 = 1e-4;
 
 /// Height by which the sponge is farther over a face than need be for its retreat from it \[m\].
 const ROOM_M: f64 = 1e-3;

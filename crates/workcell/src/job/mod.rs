@@ -24,7 +24,7 @@ mod wash_job;
 pub use crate::job::error::{End, JobError};
 pub use crate::job::kind::{PlanKind, Statement, StatementRule};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
-pub use crate::job::recovery::{RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
+pub use crate::job::recovery::{NEARER_M, RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
 pub use crate::job::requirements::{
     ContactRequirements, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M,
     PatternName, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,

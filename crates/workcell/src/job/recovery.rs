@@ -17,6 +17,9 @@ use serde::{Deserialize, Serialize};
 /// Greatest speed of the sponge where it leaves a plate after a stop \[m/s\].
 pub const RETREAT_M_S: f64 = 0.02;
 
+/// Distance by which a pair that is near at the stop may come nearer on the way home \[m\].
+pub const NEARER_M: f64 = 1e-4;
+
 /// Least length of a retreat \[m\].
 const LEAST_RETREAT_M: f64 = 1e-4;
 
