@@ -487,3 +487,78 @@ fn a_script_with_other_settings_of_the_motion_does_not_hold() {
     .stdout;
     assert!(said.starts_with("HOLDS: urscript program"), "{said}");
 }
+
+/// The order of a table's columns and the names of files change nothing; what does is named alone.
+#[test]
+fn columns_in_another_order_and_renamed_files_are_no_change() {
+    let folder = planned();
+    let dir = folder.path();
+    platewash(dir, &["export", "out/plan.json", "--to", "csv", "--out", "table"]).done();
+    platewash(
+        dir,
+        &["export", "out/plan.json", "--to", "ros2", "--out", "goals", "--quiet"],
+    )
+    .done();
+    let table = fs::read_dir(dir.join("table"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let table = table
+        .into_iter()
+        .find(|path| path.extension().unwrap() == "csv")
+        .unwrap();
+    let text = fs::read_to_string(table).unwrap();
+    let ordered = |places: &dyn Fn(usize) -> Vec<usize>| {
+        let row = |line: &str| {
+            let cells: Vec<_> = line.split(',').collect();
+            places(cells.len())
+                .iter()
+                .map(|place| cells[*place])
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        text.lines().map(row).collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let verify = |name: &str, text: &str| {
+        fs::write(dir.join(name), text).unwrap();
+        platewash(dir, &["verify", "out/plan.json", "--program", name])
+            .done()
+            .stdout
+    };
+    let third = |count: usize| [vec![2, 1, 0], (3..count).collect()].concat();
+    for (name, text) in [
+        ("copy.csv", text.clone()),
+        ("third.csv", ordered(&third)),
+        ("reversed.csv", ordered(&|count| (0..count).rev().collect())),
+    ] {
+        let said = verify(name, &text);
+        let is_same = said.lines().next().unwrap().contains("; as it was handed over; ");
+        assert!(said.starts_with("HOLDS") && is_same, "{name}: {said}");
+    }
+    let goal = fs::read_to_string(dir.join("goals/follow_joint_trajectory.yaml")).unwrap();
+    let said = verify("goal.yaml", &goal);
+    assert!(
+        said.starts_with("HOLDS") && said.contains("; as it was handed over; "),
+        "{said}"
+    );
+    // A change in a table with its columns elsewhere is one change.
+    let line = text.lines().nth(200).unwrap();
+    let mut cells: Vec<_> = line.split(',').map(str::to_owned).collect();
+    cells[3] = format!("{:.9}", cells[3].parse::<f64>().unwrap() + 1e-7);
+    let changed = text.replacen(line, &cells.join(","), 1);
+    let moved = |text: &str| {
+        let row = |line: &str| {
+            let cells: Vec<_> = line.split(',').collect();
+            third(cells.len())
+                .iter()
+                .map(|place| cells[*place])
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        text.lines().map(row).collect::<Vec<_>>().join("\n")
+    };
+    let said = verify("changed.csv", &moved(&changed));
+    assert!(
+        said.lines().next().unwrap().contains("; CHANGED in 1 place; "),
+        "{said}"
+    );
+}

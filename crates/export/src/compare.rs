@@ -21,7 +21,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::words::shortened;
 use serde::Serialize;
 use similar::{Algorithm, DiffTag, capture_diff_slices};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Greatest number of changes that are listed.
 const MOST_CHANGES: usize = 20;
@@ -268,21 +268,62 @@ pub(crate) fn changes(found: ParsedProgram<'_>, expected: ParsedProgram<'_>) -> 
     let rounding_s = rounding_s(found.1, expected.1);
     let mut all = Vec::new();
     for file in found.0 {
-        let named = expected.0.iter().find(|other| other.name == file.name);
-        // A single file under another name, of a program of one file.
-        let only = match (found.0, expected.0) {
-            ([_], [only]) => Some(only),
-            _ => None,
-        };
+        let expected = same_file(file, found.0, expected.0);
+        let in_order = expected.and_then(|expected| in_columns_of(&file.text, &expected.text));
+        let in_order = in_order.map(|text| ProgramFile {
+            name: file.name.clone(),
+            text,
+        });
         let texts = Texts {
-            found: file,
-            expected: named.or(only),
+            found: in_order.as_ref().unwrap_or(file),
+            expected,
             steps: &steps,
             rounding_s,
         };
         texts.changes(&mut all);
     }
     all
+}
+
+/// The file of a program that another file is: the one of its name, or one of its kind whose name no file has, with the most equal lines. A
+/// new name is no change.
+fn same_file<'a>(file: &ProgramFile, found: &[ProgramFile], expected: &'a [ProgramFile]) -> Option<&'a ProgramFile> {
+    let kind = |name: &str| name.rsplit_once('.').map(|(_, kind)| kind.to_ascii_lowercase());
+    let is_free = |other: &&ProgramFile| found.iter().all(|file| file.name != other.name);
+    let lines: HashSet<&str> = file.text.lines().collect();
+    let alike = |other: &&ProgramFile| other.text.lines().filter(|line| lines.contains(line)).count();
+    let named = expected.iter().find(|other| other.name == file.name);
+    let of_kind = expected
+        .iter()
+        .filter(|other| kind(&other.name) == kind(&file.name) && is_free(other));
+    named.or_else(|| of_kind.max_by_key(alike))
+}
+
+/// The text of a table with its columns in the order of another one; `None` where it is no table of the same columns, or has them so.
+fn in_columns_of(found: &str, expected: &str) -> Option<String> {
+    let cells = |line: &str| {
+        line.trim_end()
+            .split(',')
+            .map(|cell| cell.trim().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let [found_names, names] =
+        [found, expected].map(|text| text.trim_start_matches('\u{feff}').lines().next().map(cells));
+    let (found_names, names) = (found_names?, names?);
+    let places: Option<Vec<usize>> = names
+        .iter()
+        .map(|name| found_names.iter().position(|other| other == name))
+        .collect();
+    let places = places.filter(|_| found_names.len() == names.len() && found_names != names)?;
+    let row = |line: &str| {
+        let cells = cells(line);
+        let moved: Option<Vec<&str>> = places
+            .iter()
+            .map(|place| cells.get(*place).map(String::as_str))
+            .collect();
+        moved.map_or_else(|| line.to_owned(), |moved| moved.join(","))
+    };
+    Some(found.lines().map(row).collect::<Vec<_>>().join("\n"))
 }
 
 /// One file beside the one that was handed over.

@@ -39,8 +39,27 @@ impl Dialect for Csv {
     }
 
     fn is_in(&self, file: &ProgramFile) -> bool {
-        let head = file.text.trim_start_matches('\u{feff}');
-        is_table(file) && (head.starts_with("t_s,plan_t_s,q1_rad") || head.starts_with("t_s,q1_rad"))
+        let head = file
+            .text
+            .trim_start_matches('\u{feff}')
+            .lines()
+            .next()
+            .unwrap_or_default();
+        let begins = head.starts_with("t_s,plan_t_s,q1_rad") || head.starts_with("t_s,q1_rad");
+        // Tables of other kinds have these columns and more.
+        let is_known = |name: &str| {
+            TIMES
+                .iter()
+                .chain(&POSITIONS)
+                .chain(&SPEEDS)
+                .any(|known| *known == name)
+        };
+        let names = || head.split(',').map(str::trim);
+        let is_in_any_order = names().all(is_known)
+            && [TIMES[0], POSITIONS[0]]
+                .into_iter()
+                .all(|name| names().any(|other| other == name));
+        is_table(file) && (begins || is_in_any_order)
     }
 
     fn points(&self) -> Points {
