@@ -191,7 +191,7 @@ fn impossible_layouts_end_soon_with_a_bound() {
     case(
         "region = \"appendix\"",
         "rho_m = [0.3, 0.3000000001]",
-        "INFEASIBLE",
+        "NOT FOUND",
         &["rho_m", "too thin"],
     );
     case(

@@ -76,7 +76,7 @@ pub enum LayoutError {
         plate: usize,
     },
     /// The region has no room for any plate.
-    #[error("the region is empty: {reason}")]
+    #[error("no place can be drawn from the region: {reason}")]
     EmptyRegion {
         /// Reason.
         reason: EmptyReason,
@@ -137,7 +137,7 @@ impl LayoutError {
             Self::NoRoom { count, upper_bound, .. } => cannot_fit(*count, *upper_bound),
             // A place that is given may lie where none is drawn.
             Self::EmptyRegion {
-                reason: EmptyReason::TooThin | EmptyReason::WithinBase { .. },
+                reason: EmptyReason::TooThin,
             } => false,
             _ => true,
         }
