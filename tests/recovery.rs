@@ -284,6 +284,35 @@ fn both_plans_are_exported_for_the_arm_where_it_stands() {
                 }
             }
             assert_eq!(checks_start(&edited), within_deg == 0.5, "{dialect:?}");
+            // An edit of the check is named by its own line.
+            let (marked, line) = told
+                .files
+                .iter()
+                .find_map(|file| {
+                    Some((
+                        file,
+                        file.text.lines().position(|line| {
+                            line.contains("Nothing has moved") && line.contains("main") || line.contains("PATIENCE_S =")
+                        })?,
+                    ))
+                })
+                .unwrap();
+            let changed: Vec<_> = marked
+                .text
+                .lines()
+                .enumerate()
+                .map(|(k, text)| {
+                    if k == line {
+                        text.replace("pointer", "Pointer").replace("= 5.0", "= 6.0")
+                    } else {
+                        text.to_owned()
+                    }
+                })
+                .collect();
+            let mut edited = told.files.clone();
+            edited.iter_mut().find(|file| file.name == marked.name).unwrap().text = changed.join("\n") + "\n";
+            let refused = dialect.read(&edited, &arm).unwrap_err();
+            assert_eq!(refused.place.line, line + 1, "{refused}");
         }
         let mut stands = start;
         stands[2] += 0.3_f64.to_radians();

@@ -104,17 +104,17 @@ fn is_block(key: &str) -> bool {
 /// Checks that the procedures with the checks before the motion are as they were exported, and returns the largest distance from the start
 /// that they allow \[°\].
 fn check_blocks(found: &Modules) -> Result<f64, ReadError> {
-    let mut first = Ok(0.0);
-    for within_deg in START_WITHIN_DEG {
-        match check_blocks_within(found, within_deg) {
-            Ok(()) => return Ok(within_deg),
-            Err(error) => first = first.and(Err(error)),
-        }
-    }
-    first
-}
-
-fn check_blocks_within(found: &Modules, within_deg: f64) -> Result<(), ReadError> {
+    let states = |within_deg: &f64| {
+        let check = found.procedures.get(CHECK_JOINT);
+        check.is_some_and(|check| {
+            check
+                .body
+                .iter()
+                .any(|placed| placed.token == Token::Number(*within_deg))
+        })
+    };
+    let [at_home, _] = START_WITHIN_DEG;
+    let within_deg = START_WITHIN_DEG.into_iter().find(states).unwrap_or(at_home);
     let written = modules(&[ProgramFile {
         name: "checks".to_owned(),
         text: checks(within_deg),
@@ -138,7 +138,7 @@ fn check_blocks_within(found: &Modules, within_deg: f64) -> Result<(), ReadError
             return Err(ReadError::at(&procedure.place.file, line, reason));
         }
     }
-    Ok(())
+    Ok(within_deg)
 }
 
 impl Modules {

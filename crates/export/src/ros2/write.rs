@@ -160,9 +160,13 @@ pub(crate) fn check(file: &ProgramFile) -> Result<f64, Fault> {
     if let Some(within_deg) = START_WITHIN_DEG.into_iter().find(is_written) {
         return Ok(within_deg);
     }
-    let lines = || file.text.lines().zip(TEXT.lines());
-    let other = lines().position(|(found, expected)| found != expected);
-    let line = other.unwrap_or_else(|| lines().count()) + 1;
+    let same = |within_deg| {
+        let expected = script(within_deg);
+        let both = file.text.lines().zip(expected.lines());
+        both.take_while(|(found, expected)| found == expected).count()
+    };
+    // The one that the text is like for longer is the one that was exported.
+    let line = START_WITHIN_DEG.into_iter().map(same).max().unwrap_or(0) + 1;
     let reason = "expected the player as this version writes it; found another line: nothing is known of what it sends";
     Err(Fault::new(line, reason))
 }
