@@ -321,11 +321,14 @@ pub fn verify_program(options: &Options, plan: &Path, program: &[PathBuf]) -> Re
         (true, false) => "HOLDS, START NOT CHECKED",
         (false, _) => "DOES NOT HOLD",
     };
-    let settings: String = compared
+    let mut settings: String = compared
         .settings
         .iter()
         .map(|change| format!("; {} {} ({} handed over)", change.what, change.found, change.expected))
         .collect();
+    if compared.tool.is_some() {
+        settings += "; tool or load not the plan's";
+    }
     let answer = HandoverAnswer {
         headline: format!(
             "{}{verdict}{}: {} program, tip within {} mm of the plan{settings}; {changed}; {NOT_JUDGED}",

@@ -548,3 +548,238 @@ fn columns_in_another_order_and_renamed_files_are_no_change() {
         "{said}"
     );
 }
+
+/// Settings of RAPID that change the motion: each changed once in an exported program.
+#[test]
+fn a_module_with_other_settings_of_the_motion_does_not_hold() {
+    let folder = planned();
+    let dir = folder.path();
+    platewash(
+        dir,
+        &[
+            "export",
+            "out/plan.json",
+            "--to",
+            "rapid",
+            "--speed-share",
+            "0.5",
+            "--quiet",
+        ],
+    )
+    .done();
+    let path = module(&dir.join("out/rapid"));
+    let text = fs::read_to_string(&path).unwrap();
+    let verify = |text: &str| {
+        fs::write(&path, text).unwrap();
+        platewash(dir, &["verify", "out/plan.json", "--program", path.to_str().unwrap()])
+    };
+    let edited = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    };
+    let (_, middle) = a_move(&text);
+    let in_the_middle = |from: &str, to: &str| {
+        assert!(middle.contains(from), "{from}");
+        edited(&middle, &middle.replacen(from, to, 1))
+    };
+    let moves: Vec<_> = text.lines().filter(|line| line.contains("\\T:=")).collect();
+    let stops: Vec<_> = moves.iter().filter(|line| line.contains(",fine,")).collect();
+    let zones = moves.len() - stops.len();
+    let passed = stops[1].replacen(",fine,", ",z5,", 1);
+    for (text, words) in [
+        (
+            text.replace(",z5,", ",fine,"),
+            format!("stops at further {zones} targets (4 in all handed over)"),
+        ),
+        (
+            in_the_middle(",z5,", ",fine,"),
+            "stops at further 1 target (4 in all handed over)".to_owned(),
+        ),
+        (
+            edited(stops[1], &passed),
+            "stops missing at 1 target (4 in all handed over)".to_owned(),
+        ),
+        (
+            in_the_middle(",z5,", ",z1,"),
+            "zone z1 (fine and z5 handed over)".to_owned(),
+        ),
+        (
+            in_the_middle(",z5,", ",[FALSE,5,8,8,0.8,8,0.1],"),
+            "zone [FALSE,5,8,8,0.8,8,0.1] (fine and z5 handed over)".to_owned(),
+        ),
+        (
+            in_the_middle("v100", "v1000"),
+            "speed data v1000 (v100 handed over)".to_owned(),
+        ),
+        (
+            edited("pwStart\\NoEOffs,v20,", "pwStart\\NoEOffs,v1000,"),
+            "speed data of the motion to the start v1000 (v20 handed over)".to_owned(),
+        ),
+        (
+            edited("pwStart\\NoEOffs,v20,", "pwStart\\NoEOffs,v20\\T:=0.01,"),
+            "\\T of the motion to the start 0.01 (nothing handed over)".to_owned(),
+        ),
+        (
+            edited("CONST num pwShareMost:=0.5;", "CONST num pwShareMost:=1;"),
+            "pwShareMost 1 (0.5 handed over)".to_owned(),
+        ),
+        (edited("[[0,0,150]", "[[0,0,160]"), "tool".to_owned()),
+        (edited("],[0.3,[0,0,75]", "],[1.3,[0,0,75]"), "tool".to_owned()),
+        (edited("0.0005925,", "0.05,"), "tool".to_owned()),
+        (
+            edited("[0.3,[0,0,75],[1,0,0,0]", "[0.3,[0,0,75],[0.7071068,0,0.7071068,0]"),
+            "tool".to_owned(),
+        ),
+    ] {
+        let ran = verify(&text);
+        assert_eq!(ran.code, 4, "{words}: {}", ran.stdout);
+        let first = ran.stdout.lines().next().unwrap();
+        assert!(
+            first.starts_with("DOES NOT HOLD: ") && first.contains(&format!("; {words}")),
+            "{words}: {}",
+            ran.stdout
+        );
+    }
+    for (text, words) in [
+        (
+            edited(&middle, &format!("    AccSet 50,100;\n{middle}")),
+            "AccSet changes",
+        ),
+        (
+            edited(&middle, &format!("    VelSet 50,5000;\n{middle}")),
+            "VelSet changes",
+        ),
+        (in_the_middle("wobj0", "wobj1"), "work object"),
+        (
+            in_the_middle(",pwTool", ",tool0"),
+            "expected the tool of the motions before",
+        ),
+        (in_the_middle("pwTool", "pwTool\\TLoad:=load0"), "TLoad"),
+    ] {
+        verify(&text).refused(2, &["kitchen.mod:", words]);
+    }
+    // A longer time is judged as a motion.
+    let time = middle.split("\\T:=").nth(1).unwrap().split('/').next().unwrap();
+    let said = verify(&in_the_middle(time, "0.4")).stdout;
+    assert!(
+        said.starts_with("DOES NOT HOLD") && said.contains(": time: 0.400000 s"),
+        "{said}"
+    );
+    // The same stops, slower, with what changes nothing beside the motion.
+    let slower = edited("PERS num pwShare:=0.5;", "PERS num pwShare:=0.2;").replacen(
+        "CONST num pwShareMost:=0.5;",
+        "CONST num pwShareMost:=0.3;",
+        1,
+    );
+    let noted = slower.replacen(
+        &middle,
+        &format!("    SetDO doWater,1;\n    TPWrite \"half\"; ! here\n{middle}"),
+        1,
+    );
+    let said = verify(&noted).done().stdout;
+    assert!(said.starts_with("HOLDS: rapid program"), "{said}");
+}
+
+/// Settings of ROS 2 that change the motion: each changed once in an exported goal.
+#[test]
+fn a_goal_with_other_settings_of_the_motion_does_not_hold() {
+    let folder = planned();
+    let dir = folder.path();
+    platewash(
+        dir,
+        &["export", "out/plan.json", "--to", "ros2", "--out", "robot", "--quiet"],
+    )
+    .done();
+    let path = dir.join("robot/follow_joint_trajectory.yaml");
+    let text = fs::read_to_string(&path).unwrap();
+    let verify = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        fs::write(&path, text.replacen(from, to, 1)).unwrap();
+        platewash(dir, &["verify", "out/plan.json", "--program", path.to_str().unwrap()])
+    };
+    let path_line = text
+        .lines()
+        .find(|line| line.contains("name: joint_2") || line.contains("name: \"joint_2\""))
+        .unwrap();
+    let path_rad = path_line.split("position: ").nth(1).unwrap().trim_end_matches('}');
+    let path_tolerance = |position: &str| path_line.replace(path_rad, position);
+    let goal_line = text
+        .lines()
+        .filter(|line| line.contains("joint_2") && line.contains("position"))
+        .nth(1)
+        .unwrap();
+    let late = "goal_time_tolerance: {sec: 1, nanosec: 0}";
+    let of_path = "path_tolerance of joint_2, position";
+    for (from, to, words) in [
+        (
+            path_line,
+            path_tolerance("0.001"),
+            format!("{of_path} 0.001 ({path_rad} handed over)"),
+        ),
+        (
+            path_line,
+            path_tolerance("0.0"),
+            format!("{of_path} the controller's own ({path_rad} handed over)"),
+        ),
+        (
+            path_line,
+            path_line.replace(&format!(", position: {path_rad}"), ""),
+            format!("{of_path} the controller's own"),
+        ),
+        (
+            path_line,
+            path_line.replace('}', ", velocity: 0.1}"),
+            "path_tolerance of joint_2, velocity 0.1 (the controller's own handed over)".to_owned(),
+        ),
+        (
+            path_line,
+            path_line.replace('}', ", acceleration: 0.1}"),
+            "path_tolerance of joint_2, acceleration 0.1 (the controller's own handed over)".to_owned(),
+        ),
+        (
+            goal_line,
+            goal_line.replace("0.01", "0.0001"),
+            "goal_tolerance of joint_2, position 0.0001 (0.01 handed over)".to_owned(),
+        ),
+        (
+            late,
+            late.replace("sec: 1", "sec: 0"),
+            "goal_time_tolerance the controller's own (1 handed over)".to_owned(),
+        ),
+        (
+            late,
+            "goal_time_tolerance: {sec: 0, nanosec: 5}".to_owned(),
+            "goal_time_tolerance 0.000000005".to_owned(),
+        ),
+    ] {
+        let ran = verify(from, &to);
+        assert_eq!(ran.code, 4, "{to}: {} {}", ran.stdout, ran.stderr);
+        let first = ran.stdout.lines().next().unwrap();
+        assert!(
+            first.starts_with("DOES NOT HOLD: ") && first.contains(&format!("; {words}")),
+            "{words}: {}",
+            ran.stdout
+        );
+    }
+    for (from, to, words) in [
+        (late, "", "goal_time_tolerance; it is missing"),
+        ("path_tolerance:", "path:", "found the key \"path\""),
+        (
+            "  joint_names:",
+            "  header: {stamp: {sec: 1700000000, nanosec: 0}}\n  joint_names:",
+            "stamp",
+        ),
+    ] {
+        verify(from, to).refused(2, &["follow_joint_trajectory.yaml:", words]);
+    }
+    // Wider ones, and none.
+    for (from, to) in [
+        (path_line, path_tolerance("0.9")),
+        (path_line, path_tolerance("-1.0")),
+        (path_line, path_line.replace('}', ", velocity: -1.0}")),
+        (late, late.replace("sec: 1", "sec: 9")),
+    ] {
+        let said = verify(from, &to).done().stdout;
+        assert!(said.starts_with("HOLDS: ros2 program"), "{to}: {said}");
+    }
+}

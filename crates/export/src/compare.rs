@@ -7,10 +7,11 @@
 //! and the notation of numbers do not count: editors and controllers change them. For a changed line the differences of a point
 //! are listed in numbers.
 
+use crate::controller_settings::changed_settings;
 use crate::dialect::{self, DIALECTS, Dialect, Points, ProgramFile, ReadError, start_within_deg};
 use crate::export::{self, ExportError};
 use crate::judgement::{self, ProgramJudgement};
-use crate::reading::{ReadPoint, ReadSetting, Reading, number_length};
+use crate::reading::{ReadPoint, Reading, number_length};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_certificate::{Certified, ProveError};
@@ -139,7 +140,7 @@ pub(crate) fn compare_in(
     let given: Vec<_> = expected.files.iter().filter(given).cloned().collect();
     let said = dialect.read(&given, arm);
     let said = said.map_or_else(|_| expected.reading.clone(), at_share);
-    let settings_expected = said.settings.clone();
+    let settings_changed = changed_settings(&found, &said);
     let mut changes = changes((files, &found), (&expected.files, &said));
     let more_changes = changes.len().saturating_sub(MOST_CHANGES);
     changes.truncate(MOST_CHANGES);
@@ -156,7 +157,7 @@ pub(crate) fn compare_in(
         checks_start: found
             .start_within_deg
             .is_some_and(|within_deg| within_deg <= most_deg * (1.0 + DIGITS)),
-        settings: changed_settings(&found, &settings_expected),
+        settings: settings_changed,
         tool: found
             .tool
             .and_then(|tool| tool.refusal(&certified.plan().job.workcell.tool)),
@@ -202,45 +203,6 @@ impl ProgramComparison {
     pub fn holds(&self) -> bool {
         self.tool.is_none() && self.settings.is_empty() && self.judgement.holds()
     }
-}
-
-/// Lists the settings of a program that are not among those that were handed over, and those that it lacks.
-fn changed_settings(found: &Reading, expected: &[ReadSetting]) -> Vec<Change> {
-    let is_same = |a: &ReadSetting, b: &ReadSetting| a.name == b.name && a.value == b.value;
-    let values = |name: &str| {
-        let named: Vec<_> = expected
-            .iter()
-            .filter(|other| other.name == name)
-            .map(|other| &*other.value)
-            .collect();
-        match named.is_empty() {
-            true => "nothing".to_owned(),
-            false => named.join(" and "),
-        }
-    };
-    let changed = found
-        .settings
-        .iter()
-        .filter(|setting| !expected.iter().any(|other| is_same(setting, other)));
-    let changed = changed.map(|setting| Change {
-        place: setting.place.to_string(),
-        what: setting.name.to_owned(),
-        found: setting.value.clone(),
-        expected: values(setting.name),
-    });
-    let lacking = expected
-        .iter()
-        .filter(|other| !found.settings.iter().any(|setting| setting.name == other.name));
-    let lacking = lacking.map(|other| Change {
-        place: found
-            .points
-            .last()
-            .map_or_else(String::new, |point| point.place.to_string()),
-        what: other.name.to_owned(),
-        found: "nothing".to_owned(),
-        expected: other.value.clone(),
-    });
-    changed.chain(lacking).collect()
 }
 
 /// Greatest number of characters of a line that are shown.

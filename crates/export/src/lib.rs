@@ -16,6 +16,7 @@
 //! | URScript, of Universal Robots: written and read | `urscript` |
 //! | a table of positions and speeds, for any other use | `csv` |
 //! | a tool as a controller has it, beside the plan's | `tool_frame` |
+//! | settings of a controller that change the motion, as a program states them and as they were handed over | `controller_settings` |
 //! | settings, and as lines of a program | `settings` |
 //! | the choice of points of a plan that a program names | `points` |
 //! | the assumed motion of an arm along a program, and the proof of that motion | `judgement` |
@@ -26,6 +27,7 @@
 //! | trajectories of any planner, to be judged alone | `trajectory` |
 
 pub mod compare;
+pub mod controller_settings;
 pub mod csv;
 pub mod dialect;
 mod export;

@@ -2,6 +2,7 @@
 //!
 //! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
+use crate::controller_settings::ReadSetting;
 use crate::dialect::Place;
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
@@ -21,19 +22,8 @@ pub struct Reading {
     /// Largest distance of a joint from the start at which the program moves at all \[°\]; `None` where it does not check, as it was
     /// exported, where the arm stands.
     pub start_within_deg: Option<f64>,
-    /// Settings that change how the controller moves, in the order of the program: each value once.
+    /// Settings that change how the controller moves, in the order of the program: each value of a name once.
     pub settings: Vec<ReadSetting>,
-}
-
-/// Setting of a controller that changes the motion, as a program states it, or as it is where the program states nothing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadSetting {
-    /// The line that states it, or the first that it counts for.
-    pub place: Place,
-    /// Name, as the program has it.
-    pub name: &'static str,
-    /// Value, in words.
-    pub value: String,
 }
 
 impl Reading {

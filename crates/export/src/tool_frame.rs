@@ -2,8 +2,9 @@
 
 use crate::reading::ReadTool;
 use crate::refusal::Refusal;
+use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::Pose;
-use platewash_workcell::tool::Tool;
+use platewash_workcell::tool::{Tool, ToolMass};
 
 /// Largest difference of a tip from the plan's: \[m\], \[rad\].
 const TIP_WITHIN: (f64, f64) = (5e-4, 0.01);
@@ -34,6 +35,9 @@ pub(crate) fn check(found: &Pose, expected: &Pose) -> Result<(), Refusal> {
     })
 }
 
+/// Largest difference of a part of the inertia from the plan's: as a share of its greatest part, and what digits round away \[kg·m²\].
+const INERTIA_WITHIN: (f64, f64) = (1e-2, 2e-9);
+
 impl ReadTool {
     /// Returns the refusal if it is not the tool of a plan.
     pub(crate) fn refusal(&self, plan: &Tool) -> Option<Refusal> {
@@ -49,13 +53,34 @@ impl ReadTool {
             .map(|i| (self.com_m[i] - expected.com_m[i]).abs())
             .fold(0.0, f64::max);
         let is_near = off_kg <= most_part * expected.mass_kg && off_m <= most_m;
-        (!is_near).then(|| Refusal::Load {
+        if is_near {
+            return self.inertia_refusal(expected);
+        }
+        Some(Refusal::Load {
             reason: format!(
                 "the program states a load of {:.3} kg, its centre {:.1} mm from the plan's; the plan's weighs {:.3} kg: plan with the tool \
                  as it is",
                 self.mass_kg,
                 1e3 * off_m,
                 expected.mass_kg
+            ),
+        })
+    }
+
+    /// Returns the refusal where the moments and products of inertia that it states are not the plan's.
+    fn inertia_refusal(&self, expected: &ToolMass) -> Option<Refusal> {
+        let (moments, axes) = self.inertia?;
+        let [ixx, ixy, ixz, iyy, iyz, izz] = expected.inertia_kg_m2;
+        let expected = Matrix3::new(ixx, ixy, ixz, ixy, iyy, iyz, ixz, iyz, izz);
+        let turn = axes.to_rotation_matrix();
+        let found = turn.matrix() * Matrix3::from_diagonal(&Vector3::from(moments)) * turn.matrix().transpose();
+        let (most_part, most_kg_m2) = INERTIA_WITHIN;
+        let off_kg_m2 = (found - expected).amax();
+        (off_kg_m2 > most_part * expected.amax() + most_kg_m2).then(|| Refusal::Load {
+            reason: format!(
+                "the program states a load whose inertia is {off_kg_m2:.2e} kg·m² from the plan's, whose greatest part is {:.2e} kg·m²: plan \
+                 with the tool as it is",
+                expected.amax()
             ),
         })
     }

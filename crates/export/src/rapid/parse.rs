@@ -8,6 +8,7 @@ use crate::reading::{self, ReadTool, Token};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash_kinematics::{JointVector, Pose};
 use std::collections::HashMap;
+use std::fmt;
 
 /// Most files and lines that are read.
 const MOST_LINES: usize = 1_000_000;
@@ -359,6 +360,22 @@ impl Value {
     fn numbers<const N: usize>(&self) -> Option<[f32; N]> {
         let numbers: Option<Vec<_>> = self.list::<N>()?.into_iter().map(Self::number).collect();
         numbers?.try_into().ok()
+    }
+}
+
+impl fmt::Display for Value {
+    /// Writes it as RAPID has it, a text as `"…"`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Truth(true) => f.write_str("TRUE"),
+            Self::Truth(false) => f.write_str("FALSE"),
+            Self::Text => f.write_str("\"…\""),
+            Self::List(values) => {
+                let values: Vec<_> = values.iter().map(Self::to_string).collect();
+                write!(f, "[{}]", values.join(","))
+            }
+        }
     }
 }
 

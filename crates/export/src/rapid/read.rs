@@ -7,6 +7,7 @@
 //!
 //! Numbers are IEEE singles, as on the controller.
 
+use crate::controller_settings::{Accepted, SettingList};
 use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
@@ -23,8 +24,11 @@ const CHECK_JOINT: &str = "pwcheckjoint";
 /// Most statements that are carried out.
 const MOST_STEPS: usize = 1_000_000;
 
-/// Least speed of the tip to which `VelSet` may limit it \[mm/s\]: that of a controller where nothing else is set.
-const USUAL_MM_S: f32 = 5000.0;
+/// Shares of accelerations and of their ramps \[%\] where no `AccSet` is carried out.
+const USUAL_ACC_SET: [f32; 2] = [100.0, 100.0];
+
+/// Share of the speed \[%\] and greatest speed of the tip \[mm/s\] where no `VelSet` is carried out.
+const USUAL_VEL_SET: [f32; 2] = [100.0, 5000.0];
 
 /// Options of `MoveAbsJ` that are refused, and why.
 const REFUSED: [(&str, &str); 6] = [
@@ -55,8 +59,12 @@ struct Motion {
     q_rad: JointVector,
     /// Place at which the target is declared.
     declared: Option<Place>,
+    /// Speed data, as a name or a value.
+    speed: String,
     time: Option<Time>,
     corner_m: Option<f64>,
+    /// Zone, as a name or a value.
+    zone: String,
     tool: ReadTool,
 }
 
@@ -179,14 +187,15 @@ impl Modules {
             }
             "exit" => Ok(Statement::Exit),
             "accset" | "velset" => {
+                let usual = if key == "accset" { USUAL_ACC_SET } else { USUAL_VEL_SET };
                 let share = cursor.number()?;
                 cursor.sign(",")?;
-                let second = cursor.number()?;
-                let least = if key == "accset" { 100.0 } else { USUAL_MM_S };
-                match share == 100.0 && second >= least {
+                let found = [share, cursor.number()?];
+                match found == usual {
                     true => Ok(Statement::Nothing),
                     false => Err(begin.refused(format!(
-                        "{name} other than 100 % changes how long motions take: expected 100 and {least} or more"
+                        "{name} changes how motions are timed: expected {},{}, as where it is not set; found {},{}",
+                        usual[0], usual[1], found[0], found[1]
                     ))),
                 }
             }
@@ -219,7 +228,7 @@ impl Modules {
             _ => Err(cursor.expected("\\NoEOffs or `,` after the target")),
         })?;
         cursor.sign(",")?;
-        self.speed(cursor)?;
+        let speed = self.speed(cursor)?;
         let mut times = Vec::new();
         options(cursor, |cursor, option| match option {
             "t" => {
@@ -230,7 +239,7 @@ impl Modules {
             _ => Err(cursor.expected("\\T or `,` after the speed")),
         })?;
         cursor.sign(",")?;
-        let corner_m = self.corner(cursor)?;
+        let (corner_m, zone) = self.corner(cursor)?;
         options(cursor, |cursor, _| Err(cursor.expected("`,` after the zone")))?;
         cursor.sign(",")?;
         let at = cursor.clone();
@@ -254,8 +263,10 @@ impl Modules {
         Ok(Statement::Move(Box::new(Motion {
             q_rad,
             declared,
+            speed,
             time,
             corner_m,
+            zone,
             tool,
         })))
     }
@@ -275,33 +286,42 @@ impl Modules {
         Ok(value)
     }
 
-    /// A speed, which counts for nothing where `\T` is given.
-    fn speed(&self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
+    /// Speed data, in words.
+    fn speed(&self, cursor: &mut Cursor<'_>) -> Result<String, ReadError> {
         if let Some(Token::Word(name)) = cursor.peek()
             && rapid::is_speed(&name.to_ascii_lowercase())
         {
             cursor.next("a speed")?;
-            return Ok(());
+            return Ok(name.to_ascii_lowercase());
         }
         let at = cursor.clone();
-        match parse::is_speed(&self.named(cursor, "speeddata")?.0) {
-            true => Ok(()),
+        let value = self.named(cursor, "speeddata")?.0;
+        match parse::is_speed(&value) {
+            true => Ok(value.to_string()),
             false => Err(at.expected("speed data of four numbers")),
         }
     }
 
-    fn corner(&self, cursor: &mut Cursor<'_>) -> Result<Option<f64>, ReadError> {
+    /// The radius of the corner of a zone \[m\], `None` for a stop; and the zone in words.
+    fn corner(&self, cursor: &mut Cursor<'_>) -> Result<(Option<f64>, String), ReadError> {
         if cursor.take_word("fine") {
-            return Ok(None);
+            return Ok((None, "fine".to_owned()));
         }
         if let Some(Token::Word(name)) = cursor.peek()
             && let Some(mm) = rapid::zone_mm(&name.to_ascii_lowercase())
         {
             cursor.next("a zone")?;
-            return Ok(Some(f64::from(mm) / 1e3));
+            return Ok((Some(f64::from(mm) / 1e3), name.to_ascii_lowercase()));
         }
         let at = cursor.clone();
-        parse::corner(&self.named(cursor, "zonedata")?.0).map_err(|reason| at.refused(reason))
+        let value = self.named(cursor, "zonedata")?.0;
+        let corner_m = parse::corner(&value).map_err(|reason| at.refused(reason))?;
+        let word = if corner_m.is_some() {
+            value.to_string()
+        } else {
+            "fine".to_owned()
+        };
+        Ok((corner_m, word))
     }
 
     fn tool(&self, cursor: &mut Cursor<'_>) -> Result<Value, ReadError> {
@@ -385,6 +405,7 @@ struct Run<'a> {
     calls: Vec<String>,
     points: Vec<ReadPoint>,
     tool: Option<ReadTool>,
+    settings: SettingList,
     /// The share of the run, once it was checked.
     running: Option<f32>,
     /// Configuration in which the arm was found to stand, once it was checked \[rad\].
@@ -401,6 +422,7 @@ impl<'a> Run<'a> {
             calls: Vec::new(),
             points: Vec::new(),
             tool: None,
+            settings: SettingList::default(),
             running: None,
             start_rad: None,
             is_over: false,
@@ -480,6 +502,10 @@ impl<'a> Run<'a> {
                     ));
                 }
                 self.running = Some(share);
+                if let Some(Data { place, .. }) = self.modules.data.get(&MOST.to_ascii_lowercase()) {
+                    let accepted = Accepted::AtMost(f64::from(most));
+                    self.settings.note_with(MOST, &most.to_string(), place, accepted);
+                }
             }
             CHECK_START if self.modules.procedures.contains_key(CHECK_JOINT) => {
                 let start = self
@@ -511,6 +537,17 @@ impl<'a> Run<'a> {
             return Err("expected the tool of the motions before, found another one".to_owned());
         }
         self.tool = Some(motion.tool);
+        match (self.points.is_empty(), motion.time) {
+            (true, Some(time)) => {
+                let written = time.written_s.to_string();
+                self.settings.note("\\T of the motion to the start", &written, place);
+            }
+            (true, None) => self
+                .settings
+                .note("speed data of the motion to the start", &motion.speed, place),
+            (false, _) => self.settings.note("speed data", &motion.speed, place),
+        }
+        self.settings.note("zone", &motion.zone, place);
         let (t_s, place) = match (self.points.last(), motion.time) {
             // The start of this motion is unknown: its duration is not counted.
             (None, _) if motion.corner_m.is_some() => {
@@ -602,7 +639,7 @@ impl<'a> Run<'a> {
             interpolation: SegmentShape::RoundedLines,
             tool: self.tool,
             start_within_deg: self.start_rad.map(|_| within_deg),
-            settings: Vec::new(),
+            settings: self.settings.into_vec(),
         })
     }
 }

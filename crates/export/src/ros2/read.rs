@@ -6,6 +6,7 @@
 //! it has by default; they are the same in both, but that 6.9 takes effort where it commands effort. Those of 4.42 (Jazzy), between them, were
 //! not read.
 
+use crate::controller_settings::{Accepted, SettingList};
 use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::ros2::node::{self, Entry, Fault, Kind, Node};
@@ -37,9 +38,12 @@ pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Readin
     let mut first: Option<(&ProgramFile, Reading)> = None;
     for file in files {
         let found = one(file, arm).map_err(|fault| refused(file, fault))?;
-        match &first {
+        match &mut first {
             None => first = Some((file, found)),
-            Some((other, expected)) => same(&other.name, expected, &found).map_err(|fault| refused(file, fault))?,
+            Some((other, expected)) => {
+                same(&other.name, expected, &found).map_err(|fault| refused(file, fault))?;
+                expected.settings.extend(found.settings);
+            }
         }
     }
     let Some((file, reading)) = first else {
@@ -71,8 +75,9 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     let is_goal = entries(&root, "a message")?
         .iter()
         .any(|entry| entry.key == "trajectory");
+    let mut settings = SettingList::default();
     let points = match is_goal {
-        true => goal(&root, &file.name, &known)?,
+        true => goal(&root, &file.name, &known, &mut settings)?,
         false => trajectory(&root, &file.name, &known)?,
     };
     Ok(Reading {
@@ -81,11 +86,11 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
         interpolation: SegmentShape::Cubics,
         tool: None,
         start_within_deg: None,
-        settings: Vec::new(),
+        settings: settings.into_vec(),
     })
 }
 
-fn goal(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, Fault> {
+fn goal(root: &Node<'_>, file: &str, known: &[&str], settings: &mut SettingList) -> Result<Vec<ReadPoint>, Fault> {
     let goal = Fields::of(
         root,
         "a FollowJointTrajectory goal",
@@ -93,9 +98,23 @@ fn goal(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, F
     )?;
     let points = trajectory(goal.needed("trajectory")?, file, known)?;
     for key in ["path_tolerance", "goal_tolerance"] {
-        tolerances(goal.needed(key)?, key, known)?;
+        let place = |line: usize| Place {
+            file: file.to_owned(),
+            line,
+        };
+        for (line, name, found) in tolerances(goal.needed(key)?, key, known)? {
+            let (value, accepted) = tolerance_setting(found);
+            settings.note_with(&name, &value, &place(line), accepted);
+        }
     }
-    duration(goal.needed("goal_time_tolerance")?)?;
+    let late = goal.needed("goal_time_tolerance")?;
+    let found = seconds_between(0, i128::from(duration(late)?));
+    let (value, accepted) = tolerance_setting(found);
+    let place = Place {
+        file: file.to_owned(),
+        line: late.line,
+    };
+    settings.note_with("goal_time_tolerance", &value, &place, accepted);
     Ok(points)
 }
 
@@ -235,9 +254,20 @@ fn row(point: &Fields<'_, '_>, name: &str, expected: usize, by: &str) -> Result<
     }
 }
 
-fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<(), Fault> {
+/// A tolerance as a setting: wider ones are accepted; 0 leaves it to the controller, whose own is not known, and -1 removes it.
+fn tolerance_setting(found: f64) -> (String, Accepted) {
+    match found {
+        -1.0 => ("none".to_owned(), Accepted::AtLeast(f64::INFINITY)),
+        0.0 => ("the controller's own".to_owned(), Accepted::Equal),
+        found => (found.to_string(), Accepted::AtLeast(found)),
+    }
+}
+
+/// The tolerances of a list: the line of each, its name, and its number.
+fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<Vec<(usize, String, f64)>, Fault> {
     const RULE: (&str, &str) = ("tolerance", CONTROLLER);
     let mut names: Vec<String> = Vec::new();
+    let mut all = Vec::new();
     for tolerance in list(node)? {
         let numbers = ["position", "velocity", "acceleration"];
         let fields = Fields::of(tolerance, "a JointTolerance", &[&["name"], &numbers[..]].concat())?;
@@ -253,9 +283,13 @@ fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<(), Fault>
                 format!("expected each joint once; found {} again", quoted(&name)),
             );
         }
-        names.push(name);
-        for number in numbers.into_iter().filter_map(|key| fields.get(key)) {
+        for key in numbers {
+            let Some(number) = fields.get(key) else {
+                all.push((tolerance.line, format!("{which} of {name}, {key}"), 0.0));
+                continue;
+            };
             let found = float(number)?;
+            all.push((number.line, format!("{which} of {name}, {key}"), found));
             if !(found >= 0.0 || found == -1.0) {
                 let found = format!(
                     "expected a tolerance above 0, or 0 for the controller's own, or -1.0 for none; found {found}"
@@ -263,9 +297,10 @@ fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<(), Fault>
                 return broken(number.line, RULE, found);
             }
         }
+        names.push(name);
     }
     match names.len() {
-        AXES => Ok(()),
+        AXES => Ok(all),
         found => broken(
             node.line,
             RULE,

@@ -3,8 +3,9 @@
 //! The arm goes evenly in the joints to where a `servoj` sends it, and is there when its time is over. `movej` has a path in time of its
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
+use crate::controller_settings::SettingList;
 use crate::dialect::Place;
-use crate::reading::{ReadPoint, ReadSetting, ReadTool, Reading, SegmentShape};
+use crate::reading::{ReadPoint, ReadTool, Reading, SegmentShape};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{JointVector, Pose};
@@ -108,7 +109,7 @@ pub(crate) struct Controller {
     points: Vec<ReadPoint>,
     tip: Option<Pose>,
     load: Option<(f64, [f64; 3])>,
-    settings: Vec<ReadSetting>,
+    settings: SettingList,
 }
 
 /// Values of an instruction's parameters, in their order; `None` where not given.
@@ -148,7 +149,7 @@ impl Controller {
             "servoj" => return self.servoj(values, place),
             "stopj" => {
                 let a = positive(values, 0, "a")?;
-                self.set("a of stopj", a, &place);
+                self.settings.note("a of stopj", &a.to_string(), &place);
                 if matches!(self.stage, Stage::Before) {
                     return Err("stopj before any motion".to_owned());
                 }
@@ -166,19 +167,6 @@ impl Controller {
         Ok(())
     }
 
-    /// Notes a setting, once for each value.
-    fn set(&mut self, name: &'static str, value: f64, place: &Place) {
-        let value = value.to_string();
-        if !self
-            .settings
-            .iter()
-            .any(|before| before.name == name && before.value == value)
-        {
-            let place = place.clone();
-            self.settings.push(ReadSetting { place, name, value });
-        }
-    }
-
     /// Checks that the arm does not move yet: the tool must not change in the midst of the motion.
     fn check_standing(&self, what: &str) -> Result<(), String> {
         match self.moves() {
@@ -194,7 +182,7 @@ impl Controller {
                 true => positive(values, k, name)?,
                 false => USUAL_MOVE[k - 1],
             };
-            self.set(setting, stated, &place);
+            self.settings.note(setting, &stated.to_string(), &place);
         }
         for (k, name) in [(3, "t"), (4, "r")] {
             let found = values.get(k).and_then(Option::as_ref).map_or(Ok(0.0), Value::number)?;
@@ -242,7 +230,8 @@ impl Controller {
         }
         for (k, name, range) in [(4, "lookahead_time", LOOKAHEAD_S), (5, "gain", GAIN)] {
             let stated = within(values, k, name, range)?;
-            self.set(name, stated.unwrap_or(USUAL_SERVO[k - 4]), &place);
+            let stated = stated.unwrap_or(USUAL_SERVO[k - 4]);
+            self.settings.note(name, &stated.to_string(), &place);
         }
         self.t_s += t_s;
         let t_s = self.t_s;
@@ -289,7 +278,7 @@ impl Controller {
             interpolation: SegmentShape::Lines,
             tool,
             start_within_deg: None,
-            settings: self.settings,
+            settings: self.settings.into_vec(),
         })
     }
 }
