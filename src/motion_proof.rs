@@ -84,7 +84,7 @@ pub struct MotionReport {
     pub robot: String,
     /// Number of points.
     pub points: usize,
-    /// Motion between two points: `linear`, `cubic` or `quintic`.
+    /// Motion between two points that state all that any point states: `linear`, `cubic` or `quintic`.
     pub interpolation: &'static str,
     /// Times of the first and the last point \[s\]; `None` where the points state none.
     pub span_s: Option<[f64; 2]>,
@@ -157,7 +157,7 @@ pub fn prove_motion(
     let rules = MotionRules {
         clearance_m,
         acceleration_rad_s2,
-        rests_outside: motion.interpolation == Interpolation::Linear,
+        rests_outside: motion.rests_outside(),
         timing: motion.start.map_or(Timing::Free, |_| Timing::Stated),
     };
     let judged = judged_motion(motion, acceleration_rad_s2.as_ref());
@@ -169,7 +169,7 @@ pub fn prove_motion(
 /// acceleration limits \[rad/s²\], at which the arm brakes.
 #[must_use]
 pub fn judged_motion(motion: &PointMotion, acceleration_rad_s2: Option<&JointVector>) -> PiecewiseMotion {
-    let states_speeds = motion.start.is_some() && motion.interpolation != Interpolation::Linear;
+    let states_speeds = motion.start.is_some() && !motion.rests_outside();
     match acceleration_rad_s2.filter(|limits| states_speeds && limits.iter().all(|limit| *limit > 0.0)) {
         Some(limits) => with_stop(&motion.motion, limits),
         None => motion.motion.clone(),
@@ -207,7 +207,7 @@ impl MotionReport {
             headline: String::new(),
             robot: arm.name().to_owned(),
             points: motion.motion.pieces().len() + 1,
-            interpolation: motion.interpolation.word(),
+            interpolation: motion.interpolation().word(),
             span_s: start_s.map(|start_s| [start_s, start_s + motion.motion.duration_s()]),
             span: motion
                 .start
@@ -237,8 +237,24 @@ impl MotionReport {
                 .collect(),
             checks: proof.checks,
         };
-        report.headline = report.first_line(arm);
+        let notes: String = report.notes.iter().map(|note| format!("; {note}")).collect();
+        report.headline = report.first_line(arm) + &notes;
         report
+    }
+
+    /// Names of the bodies that come too near, or may; `None` where the clearance is proved.
+    #[must_use]
+    pub fn too_near(&self) -> Option<&[String; 2]> {
+        let fault = self
+            .at_fault()
+            .filter(|rule| rule.requirement == Requirement::Clearance)?;
+        fault.pair.as_ref()
+    }
+
+    /// Adds a fact beside the verdict to the notes and to the first line; one clause.
+    pub fn note(&mut self, words: &str) {
+        self.headline += &format!("; {words}");
+        self.notes.push(words.to_owned());
     }
 
     /// The rule at fault: one that is broken, or else one that is not proved.
@@ -254,13 +270,14 @@ impl MotionReport {
             (MotionVerdict::Proved, _) => {
                 let bound_m = self.bound_m().map(|m| m.max(self.required_clearance_m));
                 let least = bound_m.map_or_else(String::new, |m| format!("at least {}", millimetres_down(m)));
-                let span = self.span_s.map_or("for any timing".to_owned(), |_| {
-                    format!("over {} s", rounded(self.duration_s, 6))
-                });
+                let span = self
+                    .span_s
+                    .map_or("for any timing (speeds are not judged)".to_owned(), |_| {
+                        format!("over {} s", rounded(self.duration_s, 6))
+                    });
                 format!(
-                    "PROVED: a motion through {points} {span} keeps its joint limits, and clearance {least} ({required}){}{}",
-                    self.ends_words(),
-                    self.notes.iter().map(|note| format!("; {note}")).collect::<String>()
+                    "PROVED: a motion through {points} {span} keeps its joint limits, and clearance {least} ({required}){}",
+                    self.ends_words()
                 )
             }
             (MotionVerdict::Broken, Some(rule)) => format!("BROKEN: {}", self.fault_words(rule, arm)),
@@ -453,7 +470,7 @@ fn assumptions(
 ) -> Vec<String> {
     let timed = motion.start.is_some();
     let mut all = vec![
-        controller_words(motion.interpolation, timed).to_owned(),
+        controller_words(motion.interpolation(), timed).to_owned(),
         "The motion begins at the first point; how the arm gets there is not judged.".to_owned(),
         format!(
             "The collision shapes of the description enclose the arm and what it carries; a mesh of a link counts as its convex hull{}.",
@@ -466,6 +483,13 @@ fn assumptions(
             }
         ),
     ];
+    if motion.simpler() > 0 {
+        all.push(
+            "Between two points of which one states no accelerations it moves along the cubic, and where one states no speeds along the \
+             straight line in joint space, at constant speed."
+                .to_owned(),
+        );
+    }
     if stop_s > 0.0 {
         all.push(
             "Behind the last point each joint brakes on its own, at its stated acceleration limit, until it rests."

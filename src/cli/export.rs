@@ -6,7 +6,7 @@ use super::files::{Files, check_places};
 use super::numbers::between_commas;
 use super::options::Options;
 use super::output;
-use super::plan_file::{PlanFile, text};
+use super::plan_file::{PlanFile, refused as refused_file};
 use anyhow::{Context, Error, Result, bail, ensure};
 use clap::Args;
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -18,6 +18,7 @@ use platewash::export::{
     Change, CompareError, ExportError, ExportSettings, ExportedProgram, Refusal, compare, contact_not_judged, dialect,
     export, ros2,
 };
+use platewash::kinematics::urdf::file::read_bytes;
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::plan::Plan;
 use platewash::workcell::words::{count_with_noun, printable};
@@ -371,10 +372,8 @@ fn with_siblings(program: &[PathBuf]) -> Vec<PathBuf> {
 
 fn read(path: &Path) -> Result<ProgramFile> {
     let name = path.file_name().unwrap_or(path.as_os_str());
-    Ok(ProgramFile {
-        name: name.to_string_lossy().into_owned(),
-        text: text(path, MAX_BYTES)?,
-    })
+    let bytes = read_bytes(path, MAX_BYTES).map_err(|e| refused_file(path, format_args!("cannot be read: {e}")))?;
+    Ok(ProgramFile::from_bytes(&name.to_string_lossy(), bytes)?)
 }
 
 impl HandoverAnswer {

@@ -17,7 +17,9 @@ use platewash::scenario::{ArmError, MeshPlaces, Note, ObstacleText, RobotSection
 use platewash::viewer::page::html;
 use platewash::viewer::view::{ArmMotion, View};
 use platewash::workcell::workcell::Workcell;
-use platewash::{Failure, JointVector, Pose, RobotModel, judged_motion, prove_motion};
+use platewash::{Failure, JointVector, MotionReport, Pose, RobotModel, judged_motion, prove_motion};
+use serde::Serialize;
+use std::fmt;
 use std::path::PathBuf;
 
 /// Longest trajectory that is read \[bytes\].
@@ -26,7 +28,8 @@ const MAX_BYTES: u64 = 256 << 20;
 /// Arguments of `prove-motion`.
 #[derive(Debug, Args)]
 pub struct ProveMotionArguments {
-    /// Trajectory: a table (.csv), or a ROS message JointTrajectory, RobotTrajectory or FollowJointTrajectory goal (.yaml, .json)
+    /// Trajectory: a table (.csv), or ROS messages with a JointTrajectory: alone, or in those of planners, action clients and rosbridge
+    /// (.yaml, .json)
     trajectory: PathBuf,
     /// File with the obstacles: TOML sections [[obstacle]], [floor] and [table] as in a scenario, or a planning scene of MoveIt (.scene)
     /// [default: none, and no floor]
@@ -68,6 +71,35 @@ enum Interpolation {
     Cubic,
     /// The quintic with the positions, speeds and accelerations of both points
     Quintic,
+}
+
+impl ProveMotionArguments {
+    /// The motion between two points, if it was chosen.
+    fn choice(&self) -> Option<trajectory::Interpolation> {
+        self.interpolation.map(|choice| match choice {
+            Interpolation::Linear => trajectory::Interpolation::Linear,
+            Interpolation::Cubic => trajectory::Interpolation::Cubic,
+            Interpolation::Quintic => trajectory::Interpolation::Quintic,
+        })
+    }
+}
+
+impl ProveMotionArguments {
+    /// Note on a mesh that comes too near and whose convex parts reach beyond it.
+    fn note_on_mesh(&self, options: &Options, report: &MotionReport) -> Option<Note> {
+        let pair = report.too_near()?;
+        let text = ObstacleText::load(self.obstacles.as_ref()?).ok()?;
+        let notes = text.notes_on_meshes(&mesh_places(options));
+        let is_it = |note: &Note| matches!(note, Note::LargerThanMesh { body, .. } if pair.contains(body));
+        notes.into_iter().find(is_it)
+    }
+}
+
+fn mesh_places(options: &Options) -> MeshPlaces {
+    MeshPlaces {
+        package_path: options.package_path.clone(),
+        files: options.files.clone(),
+    }
 }
 
 fn clearance(text: &str) -> Result<f64> {
@@ -134,10 +166,7 @@ fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
 
 /// The arm with its tool among the obstacles.
 fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotModel) -> Result<Workcell> {
-    let meshes = MeshPlaces {
-        package_path: options.package_path.clone(),
-        files: options.files.clone(),
-    };
+    let meshes = mesh_places(options);
     let load = |file: &PathBuf| ObstacleText::load(file).map_err(Failure::from);
     let mount = arguments.mount.unwrap_or_else(Pose::identity);
     let mut cell = Workcell::without_tool(arm, mount, Vec::new())?;
@@ -156,7 +185,67 @@ fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotMode
     Ok(cell)
 }
 
-/// Judges a trajectory of an arm among obstacles.
+/// Reports on the trajectories of a file.
+#[derive(Debug, Serialize)]
+struct ReportList {
+    headline: String,
+    /// True where every one is proved.
+    proved: bool,
+    trajectories: Vec<PlacedReport>,
+}
+
+/// Report on a trajectory, and the line of its first point.
+#[derive(Debug, Serialize)]
+struct PlacedReport {
+    line: usize,
+    #[serde(flatten)]
+    report: MotionReport,
+}
+
+impl ReportList {
+    fn new(reports: impl Iterator<Item = (usize, MotionReport)>) -> Self {
+        let trajectories: Vec<_> = reports.map(|(line, report)| PlacedReport { line, report }).collect();
+        let count = trajectories.len();
+        let at_fault = trajectories
+            .iter()
+            .enumerate()
+            .find(|(_, placed)| !placed.report.proved);
+        let headline = match at_fault {
+            None => format!(
+                "PROVED: {count} trajectories, each by itself; how the arm gets from the end of one to the start of the next is not judged"
+            ),
+            Some((k, PlacedReport { line, report })) => {
+                let (verdict, words) = report
+                    .headline
+                    .split_once(": ")
+                    .unwrap_or(("NOT PROVED", &report.headline));
+                format!("{verdict}: trajectory {} of {count} (line {line}): {words}", k + 1)
+            }
+        };
+        Self {
+            proved: at_fault.is_none(),
+            headline,
+            trajectories,
+        }
+    }
+}
+
+impl fmt::Display for ReportList {
+    /// Writes the first line of each; with `{:#}` each report.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.headline)?;
+        for (k, PlacedReport { line, report }) in self.trajectories.iter().enumerate() {
+            let place = format!("trajectory {} (line {line})", k + 1);
+            match f.alternate() {
+                true => writeln!(f, "\n{place}\n{report:#}")?,
+                false => writeln!(f, "  {place}: {}", report.headline)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Judges the trajectories of an arm among obstacles.
 pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCode> {
     let fixed: FixedJoints = arguments.fix.iter().cloned().collect();
     let arm = arm(options, &fixed)?;
@@ -164,24 +253,41 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
     let path = &arguments.trajectory;
     let name = path.display().to_string();
     let text = read_text(path, MAX_BYTES).with_context(|| format!("{name}: cannot be read"))?;
-    let file = TrajectoryFile::read(&name, text, &arm, &fixed)?;
-    let choice = arguments.interpolation.map(|choice| match choice {
-        Interpolation::Linear => trajectory::Interpolation::Linear,
-        Interpolation::Cubic => trajectory::Interpolation::Cubic,
-        Interpolation::Quintic => trajectory::Interpolation::Quintic,
-    });
-    let motion = file.motion(&arm, choice)?;
+    let files = TrajectoryFile::read_all(&name, text, &arm, &fixed)?;
     let limits = arguments.acceleration_limits.map(JointVector::from);
-    if limits.is_some() && motion.start.is_none() {
-        bail!("--acceleration-limits: {name} has no times, so nothing is known of accelerations; leave it out");
+    let judge = |file: &TrajectoryFile| -> Result<_> {
+        let motion = file.motion(&arm, arguments.choice())?;
+        if limits.is_some() && motion.start.is_none() {
+            bail!("--acceleration-limits: {name} has no times, so nothing is known of accelerations; leave it out");
+        }
+        let proved = options.during("proving the motion", || {
+            prove_motion(&motion, &cell, &arm, arguments.clearance, limits, &options.cancel)
+        });
+        let mut report = proved.map_err(|error| match error {
+            ProveError::Cancelled(cancelled) => cancelled.into(),
+            other => anyhow!(other).context(name.clone()),
+        })?;
+        if let Some(note) = arguments.note_on_mesh(options, &report) {
+            report.note(&note.to_string());
+        }
+        Ok((motion, report))
+    };
+    if arguments.page.is_some() && files.len() > 1 {
+        bail!(
+            "--page: {name}: a page shows one motion; found {}: give one of them in a file of its own",
+            files.len()
+        );
     }
-    let proved = options.during("proving the motion", || {
-        prove_motion(&motion, &cell, &arm, arguments.clearance, limits, &options.cancel)
-    });
-    let report = proved.map_err(|error| match error {
-        ProveError::Cancelled(cancelled) => cancelled.into(),
-        other => anyhow!(other).context(name.clone()),
-    })?;
+    let mut all = files.iter().map(judge).collect::<Result<Vec<_>>>()?;
+    if all.len() > 1 {
+        let lines = files.iter().map(|file| file.lines.first().copied().unwrap_or(1));
+        let reports = ReportList::new(lines.zip(all.into_iter().map(|(_, report)| report)));
+        options.print(&reports, || arguments.details.printed(&reports))?;
+        return Ok(ExitCode::NotVerified.unless(reports.proved));
+    }
+    let Some((motion, report)) = all.pop() else {
+        bail!("{name}: expected a trajectory; found none");
+    };
     if let Some(file) = &arguments.page {
         let shown = ArmMotion {
             name: &name,

@@ -680,6 +680,33 @@ fn a_module_with_other_settings_of_the_motion_does_not_hold() {
     assert!(said.starts_with("HOLDS: rapid program"), "{said}");
 }
 
+/// Controllers and editors write comments in ISO 8859-1.
+#[test]
+fn a_module_with_a_comment_in_iso_8859_1_is_read() {
+    let folder = planned();
+    let dir = folder.path();
+    platewash(dir, &["export", "out/plan.json", "--to", "rapid", "--quiet"]).done();
+    let path = module(&dir.join("out/rapid"));
+    let text = fs::read(&path).unwrap();
+    let verify = |path: &Path, head: &[u8]| {
+        fs::write(path, [head, &text].concat()).unwrap();
+        platewash(dir, &["verify", "out/plan.json", "--program", path.to_str().unwrap()])
+    };
+    for head in [&b"! D\xfcse gepr\xfcft\n"[..], b"! the user\x92s\n"] {
+        let said = verify(&path, head).done().stdout;
+        assert!(
+            said.starts_with("HOLDS: rapid program") && said.contains("CHANGED in 1 place"),
+            "{said}"
+        );
+    }
+    verify(&path, b"! here\nD\xfcse\n").refused(2, &["kitchen.mod:2: unexpected character 'ü'"]);
+    let other = dir.join("wash.yaml");
+    fs::write(&other, b"time_from_start: 0\n# gepr\xfcft\n").unwrap();
+    platewash(dir, &["verify", "out/plan.json", "--program", "wash.yaml"])
+        .refused(2, &["wash.yaml:2: not UTF-8 text", "save it in UTF-8"]);
+    platewash(dir, &["prove-motion", "wash.yaml"]).refused(2, &["wash.yaml", "line 2: not UTF-8 text"]);
+}
+
 /// Settings of ROS 2 that change the motion: each changed once in an exported goal.
 #[test]
 fn a_goal_with_other_settings_of_the_motion_does_not_hold() {

@@ -391,3 +391,102 @@ fn numbers_of_usual_rounding_are_readable() {
         "{found}"
     );
 }
+
+/// A document of YAML each, of which the second runs into the post.
+#[test]
+fn each_trajectory_of_a_file_is_judged() {
+    let folder = folder();
+    let dir = folder.path();
+    let message = |to: f64| {
+        format!(
+            "joint_names: [joint_1, joint_2, joint_3, joint_4, joint_5, joint_6]\npoints:\n- positions: [0.0, 0.6, 0.0, 0.0, 0.0, 0.0]\n  \
+             time_from_start: {{sec: 0, nanosec: 0}}\n- positions: [{to:?}, 0.6, 0.0, 0.0, 0.0, 0.0]\n  time_from_start: {{sec: 2, nanosec: \
+             0}}\n---\n"
+        )
+    };
+    let around = write(dir, "post.toml", POST);
+    let both = write(dir, "both.yaml", &[message(-1.3), message(1.3)].concat());
+    let found = prove(dir, &[&both, "--obstacles", &around]);
+    assert_eq!(found.code, 4, "{}", found.stderr);
+    let lines: Vec<_> = found.stdout.lines().collect();
+    assert!(
+        lines[0].starts_with("BROKEN: trajectory 2 of 2 (line 10): link_4 and post touch"),
+        "{}",
+        found.stdout
+    );
+    assert!(
+        lines[1].starts_with("  trajectory 1 (line 3): PROVED: "),
+        "{}",
+        found.stdout
+    );
+    assert!(
+        lines[2].starts_with("  trajectory 2 (line 10): BROKEN: "),
+        "{}",
+        found.stdout
+    );
+    let data = prove(dir, &[&both, "--obstacles", &around, "--json"]).json();
+    let verdicts: Vec<_> = data["trajectories"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| &one["verdict"])
+        .collect();
+    assert_eq!(verdicts, ["proved", "broken"]);
+    assert_eq!(data["proved"], false);
+    let details = prove(dir, &[&both, "--obstacles", &around, "--details"]).stdout;
+    assert!(
+        details.contains("trajectory 1 (line 3)\nPROVED: ") && details.contains("clearance of each pair [mm]"),
+        "{details}"
+    );
+    prove(dir, &[&both, "--page", "page.html"]).refused(2, &["--page: both.yaml", "found 2"]);
+    let alone = prove(dir, &[&both]).done().stdout;
+    assert!(
+        alone.starts_with("PROVED: 2 trajectories, each by itself; how the arm gets from the end of one to the start of the next is not"),
+        "{alone}"
+    );
+}
+
+/// A closed cell as one mesh: its walls are parts of their own, and where parts fill it the first line says so.
+#[test]
+fn a_mesh_that_fills_the_cell_of_the_arm_is_named() {
+    let folder = folder();
+    let dir = folder.path();
+    let swing = write(dir, "swing.csv", SWING);
+    // A shell of eight sides, its outer and its inner surface.
+    let (mut corners, mut triangles) = (String::new(), String::new());
+    for (shell, (radius, [low, high])) in [(1.6, [-0.8, 2.3]), (1.5, [-0.75, 2.25])].into_iter().enumerate() {
+        for (z, k) in [low, high].into_iter().flat_map(|z| (0..8).map(move |k| (z, k))) {
+            let (sin, cos) = (0.25 * std::f64::consts::PI * f64::from(k) + 0.2).sin_cos();
+            corners += &format!("{} {} {z}\n", radius * cos, radius * sin);
+        }
+        corners += &format!("0 0 {low}\n0 0 {high}\n");
+        for k in 0..8 {
+            let (k, n, first) = (k, (k + 1) % 8, 18 * shell);
+            for mut face in [[k, n, 8 + n], [k, 8 + n, 8 + k], [n, k, 16], [8 + k, 8 + n, 17]] {
+                if shell == 1 {
+                    face.swap(1, 2);
+                }
+                triangles += &face.map(|corner| (first + corner).to_string()).join(" ");
+                triangles += "\n";
+            }
+        }
+    }
+    let scene =
+        format!("s\n* cell\n0 0 0\n0 0 0 1\n1\nmesh\n36 64\n{corners}{triangles}0 0 0\n0 0 0 1\n0 0 0 0\n0\n.\n");
+    let scene = write(dir, "cell.scene", &scene);
+    let found = prove(dir, &[&swing, "--obstacles", &scene]);
+    assert_eq!(found.code, 4, "{}", found.stderr);
+    let first = found.stdout.lines().next().unwrap();
+    assert!(first.starts_with("BROKEN: cell reaches "), "{first}");
+    assert!(
+        first.contains("; \"cell\" counts as convex parts, which reach up to ")
+            && first.ends_with("cut the mesh into several closed bodies, or state boxes in its place"),
+        "{first}"
+    );
+    let data = prove(dir, &[&swing, "--obstacles", &scene, "--json"]).json();
+    assert!(
+        data["notes"][0].as_str().unwrap().contains("it may fill a hollow"),
+        "{}",
+        data["notes"]
+    );
+}

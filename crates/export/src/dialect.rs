@@ -5,7 +5,7 @@
 //! All dialects. Another one is a line here, beside its file and its fixture.
 
 use crate::csv::Csv;
-use crate::rapid::Rapid;
+use crate::rapid::{Rapid, text_of_latin_1};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::ros2::Ros2;
@@ -169,6 +169,32 @@ pub struct ProgramFile {
     pub name: String,
     /// Text of the file; lines end with a line feed.
     pub text: String,
+}
+
+impl ProgramFile {
+    /// Makes a file of its bytes: UTF-8, or for a module of RAPID also ISO 8859-1.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the first line that is not UTF-8.
+    pub fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, ReadError> {
+        let file = |text| Self {
+            name: name.to_owned(),
+            text,
+        };
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(file(text)),
+            Err(error) => {
+                let (position, bytes) = (error.utf8_error().valid_up_to(), error.into_bytes());
+                let module = file(text_of_latin_1(&bytes));
+                if Rapid.is_in(&module) {
+                    return Ok(module);
+                }
+                let line = 1 + bytes.iter().take(position).filter(|byte| **byte == b'\n').count();
+                let reason = format!("not UTF-8 text (byte {position} of the file); save it in UTF-8");
+                Err(ReadError::at(name, line, reason))
+            }
+        }
+    }
 }
 
 /// A line of a file.

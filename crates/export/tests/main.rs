@@ -14,6 +14,7 @@ mod ros2;
 mod ros2_refused;
 mod trajectory;
 mod trajectory_fields;
+mod trajectory_messages;
 mod urscript;
 mod whole_plan;
 

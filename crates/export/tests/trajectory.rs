@@ -48,7 +48,7 @@ fn reads_messages_with_joints_by_name() {
     for text in [bare.clone(), format!("{bare}---\n"), robot, goal] {
         let found = motion("a.yaml", &text).unwrap();
         assert_eq!(
-            (found.interpolation, found.start.map(ExactTime::seconds)),
+            (found.interpolation(), found.start.map(ExactTime::seconds)),
             (Interpolation::Cubic, Some(0.5))
         );
         let [piece] = found.motion.pieces() else {
@@ -64,7 +64,7 @@ fn reads_messages_with_joints_by_name() {
         {"positions": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], "time_from_start": {"secs": 1, "nsecs": 0}, "effort": []}]}"#;
     let found = motion("a.json", json).unwrap();
     assert_eq!(
-        (found.interpolation, found.motion.pieces()[0].q_rad[1]),
+        (found.interpolation(), found.motion.pieces()[0].q_rad[1]),
         (Interpolation::Linear, expected)
     );
 }
@@ -76,7 +76,7 @@ fn accelerations_make_quintics() {
         "  accelerations: [0.6, 0.5, 0.4, 0.3, 0.2, -0.5]\n  time_from_start",
     );
     let found = motion("a.yaml", &at_rest).unwrap();
-    assert_eq!(found.interpolation, Interpolation::Quintic);
+    assert_eq!(found.interpolation(), Interpolation::Quintic);
     let [piece] = found.motion.pieces() else {
         panic!("{found:?}")
     };
@@ -91,7 +91,7 @@ fn accelerations_make_quintics() {
     let head = ["t_s".to_owned(), columns(""), columns("_rad_s"), columns("_rad_s2")].concat();
     let row = |t: f64| format!("{t}{}\n", ",0.25".repeat(18));
     let found = motion("a.csv", &format!("{head}\n{}{}", row(0.0), row(1.0))).unwrap();
-    assert_eq!(found.interpolation, Interpolation::Quintic);
+    assert_eq!(found.interpolation(), Interpolation::Quintic);
     let bare = head.replace("_rad_s2", "_rad_s");
     assert!(error("a.csv", &format!("{bare}\n{}{}", row(0.0), row(1.0))).contains("there twice"));
 }
@@ -103,7 +103,7 @@ fn reads_tables_by_column() {
     let found = motion("a.csv", full).unwrap();
     assert_eq!(
         (
-            found.interpolation,
+            found.interpolation(),
             found.start.map(ExactTime::seconds),
             found.motion.duration_s()
         ),
@@ -114,7 +114,7 @@ fn reads_tables_by_column() {
     let named = "# a path\njoint_2,joint_1,joint_3,joint_4,joint_5,joint_6\n0,0,0,0,0,0\n0.2,0.1,0.3,0.4,0.5,0.6\n0.2,0.1,0.3,0.4,0.5,0.6\n";
     let found = motion("A.CSV", named).unwrap();
     assert_eq!(
-        (found.interpolation, found.start.map(ExactTime::seconds)),
+        (found.interpolation(), found.start.map(ExactTime::seconds)),
         (Interpolation::Linear, None)
     );
     let pieces = found.motion.pieces();
@@ -126,9 +126,6 @@ fn reads_tables_by_column() {
 #[test]
 fn refuses_messages_with_the_line() {
     let second = |from: &str, to: &str| message(&SECOND.replace(from, to));
-    let accelerations = format!(
-        "positions: {ZEROS}\n  velocities: {ZEROS}\n  accelerations: {ZEROS}\n  time_from_start: {{sec: 2, nanosec: 0}}"
-    );
     let cases = [
         (
             message(SECOND).replace("joint_6,", "finger,"),
@@ -158,16 +155,6 @@ fn refuses_messages_with_the_line() {
             "found 0 s",
         ),
         (second("sec: 2", "sec: -2"), "a.yaml:9:", "whole number"),
-        (
-            second("velocities: [0, 0.0, 0.0, 0.0, 0.0, 0.25]", "effort: []"),
-            "a.yaml:6:",
-            "velocities at every point or at none",
-        ),
-        (
-            message(&accelerations),
-            "a.yaml:6:",
-            "accelerations at every point or at none",
-        ),
         (
             second("[0.6, 0.5", "[60.0, 50.0"),
             "a.yaml:6: point 1: joint joint_5 at 50 rad",
@@ -238,6 +225,87 @@ fn joints_are_fixed_at_stated_values() {
     for (name, text) in [("a.yaml", &message), ("a.csv", &table)] {
         let at = [at[0], at[1], ("thumb", 0.0)];
         assert!(error(name, text, &at).contains("joint \"thumb\" is fixed, and neither"));
+    }
+}
+
+/// Tables as NumPy, spreadsheets and other programs write them.
+#[test]
+fn tables_of_other_programs_are_the_same_motion() {
+    let names = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad";
+    let rows = "0,0,0.6,0,0,0,0\n2,1.3,0.6,0,0,0,0\n";
+    let plain = motion("a.csv", &format!("{names}\n{rows}")).unwrap();
+    let quoted = names
+        .split(',')
+        .map(|name| format!("\"{name}\""))
+        .collect::<Vec<_>>()
+        .join(",");
+    let of_clock = rows
+        .replace("0,0,0.6", "1700000000.25,0,0.6")
+        .replace("2,1.3", "1700000002.25,1.3");
+    for text in [
+        format!("# {names}\n{rows}"),
+        format!("#{names}\r\n{}", rows.replace('\n', "\r\n")),
+        format!("\u{feff}# a note: t_s\n\n# {names}\n{rows}"),
+        format!("{quoted}\n{rows}"),
+        format!("{names},\n{}", rows.replace('\n', ",\n")),
+        format!("{names},\n{rows}"),
+        format!("{names}\n{}", rows.replace("1.3", "\"1.3\"")),
+    ] {
+        assert_eq!(motion("a.csv", &text).unwrap(), plain, "{text}");
+    }
+    let clock = motion("a.csv", &format!("{names}\n{of_clock}")).unwrap();
+    assert_eq!(
+        (clock.motion, clock.start.map(|t| t.to_string())),
+        (plain.motion, Some("1700000000.25".to_owned()))
+    );
+    // A comment with as many commas is no header where there is one already, and a header with other names says so.
+    let other = error(
+        "a.csv",
+        &format!("# 1,2,3,4,5,6,7\n{names}\n# {names}\n0,0,0.6,0,0,0\n"),
+    );
+    assert!(other.contains("a.csv:4: found 6 columns; expected 7"), "{other}");
+    for (text, words) in [
+        (
+            format!("{}\n{rows}", names.replace("t_s", "time")),
+            "rename it t_s (those of a clock may stay",
+        ),
+        (
+            format!("{}\n{rows}", names.replace("t_s", "__time")),
+            "column \"__time\" is unknown; if it has times in seconds",
+        ),
+        (format!("# {}\n{rows}", names.replace("t_s", "t")), "rename it t_s"),
+        (
+            format!("{}\n{rows}", names.replace("q2_rad", "q2_deg")),
+            "angles must be radians",
+        ),
+        (
+            format!("{}\n{rows}", names.replace("q1_rad", "/joint_states/joint_1/position")),
+            "if it has positions of joint_1 in radians, rename it joint_1",
+        ),
+        (
+            rows.to_owned(),
+            "a.csv:1: found numbers in the first line; expected a header there: t_s [s]",
+        ),
+        (
+            format!("{names},gripper\n0,0,0.6,0,0,0,0,0\n"),
+            "can be fixed (--fix gripper=VALUE)",
+        ),
+        (format!("{names},,\n{rows}"), "column \"\" is unknown; it has no name"),
+        (
+            format!("{}\n{rows}", names.replace(',', ";")),
+            "columns are separated by ';'",
+        ),
+        (
+            format!("{}\n{rows}", names.replace(',', " ")),
+            "columns are separated by ' '",
+        ),
+    ] {
+        let found = error("a.csv", &text);
+        assert!(found.contains(words), "{words}: {found}");
+        if found.contains("is unknown") {
+            let all = "q1_rad to q6_rad or the names of the joints (joint_1, joint_2, joint_3, joint_4, joint_5, joint_6) [rad]";
+            assert!(found.contains("expected t_s [s]") && found.contains(all), "{found}");
+        }
     }
 }
 
@@ -465,11 +533,11 @@ fn accelerations_are_used_or_named() {
         motion("a.csv", &text).unwrap()
     };
     let plain = table("", "");
-    assert_eq!((plain.interpolation, plain.notes.len()), (Interpolation::Quintic, 0));
+    assert_eq!((plain.interpolation(), plain.notes.len()), (Interpolation::Quintic, 0));
     // A column of the same name as one of ours makes no plan of it.
     assert_eq!(table(",segment,plate", ",1,1"), plain);
     let plan = table(",segment,plate,tip_x_m,tip_y_m,tip_z_m", ",1,1,0,0,0");
-    assert_eq!(plan.interpolation, Interpolation::Cubic);
+    assert_eq!(plan.interpolation(), Interpolation::Cubic);
     assert!(
         plan.notes[0].starts_with("its accelerations are not used"),
         "{:?}",

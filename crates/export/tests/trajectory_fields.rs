@@ -107,6 +107,31 @@ const GOAL: &str = r#"{"trajectory": {"header": {"seq": 3, "stamp": {"secs": 0, 
  "path_tolerance": [{"name": "joint_1", "position": 0.1, "velocity": 0.2, "acceleration": 0.0}],
  "goal_tolerance": [], "goal_time_tolerance": {"secs": 1, "nsecs": 0}}"#;
 
+const DISPLAY: &str = r#"model_id: "irb120"
+trajectory:
+- joint_trajectory:
+    joint_names: [joint_1, joint_2, joint_3, joint_4, joint_5, joint_6]
+    points:
+    - positions: [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
+      velocities: [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    - positions: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
+      velocities: [0.5, 0.0, 0.0, 0.0, 0.0, 0.0]
+      time_from_start: {sec: 1}
+    - positions: [0.2, 0.2, 0.3, 0.4, 0.5, 0.6]
+      time_from_start: {sec: 2, nanosec: 7}
+trajectory_start:
+  joint_state:
+    header: {seq: 5, frame_id: "world"}
+    name: [joint_1, joint_2]
+    position: [0.0, 0.1]
+    velocity: [0.5, 0.5]
+    effort: [2.0, 2.0]
+  multi_dof_joint_state:
+    joint_names: ["virtual_joint"]
+    transforms: [{translation: {x: 0.0, y: 0.0, z: 0.0}, rotation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}}]
+  is_diff: false
+"#;
+
 fn table() -> String {
     let head: Vec<String> = ["t_s".to_owned(), "segment".to_owned(), "plate".to_owned()]
         .into_iter()
@@ -133,6 +158,11 @@ fn every_number_of_a_message_counts_or_cannot_matter() {
         },
     };
     every_number_counts("a.json", GOAL, in_tolerance);
+    let of_start = |text: &str, at: usize| match key(text, at) {
+        other if other == "position" => "position of the start".to_owned(),
+        other => other,
+    };
+    every_number_counts("a.yaml", DISPLAY, of_start);
 }
 
 #[test]
@@ -152,6 +182,7 @@ fn every_name_counts() {
     for (name, text) in [
         ("a.yaml", MESSAGE.to_owned()),
         ("a.json", GOAL.to_owned()),
+        ("a.yaml", DISPLAY.to_owned()),
         ("a.csv", table()),
     ] {
         let plain = outcome(name, &text).unwrap();
@@ -167,7 +198,8 @@ fn every_name_counts() {
             let word = &text[from..to];
             // Tolerances are not read.
             let is_in_tolerance = text[..from].contains("\"path_tolerance\"") && !word.ends_with("_tolerance");
-            let is_value = word == "base_link" || is_in_tolerance;
+            let is_name = ["base_link", "irb120", "world", "virtual_joint"].contains(&word);
+            let is_value = is_name || word == "false" || is_in_tolerance;
             assert!(
                 is_value || outcome(name, &edited) != Ok(plain.clone()),
                 "{name}: {word}"

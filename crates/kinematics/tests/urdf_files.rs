@@ -13,7 +13,7 @@ fn the_size_limit_counts_bytes_read() {
     assert_eq!(read_text(&path, 5), Ok("12345".to_owned()));
     assert_eq!(read_text(&path, 4), Err(FileError::TooLong { limit: 4 }));
     std::fs::write(&path, b"12\xff").unwrap();
-    assert_eq!(read_text(&path, 5), Err(FileError::NotText { position: 2 }));
+    assert_eq!(read_text(&path, 5), Err(FileError::NotText { position: 2, line: 1 }));
     assert_eq!(read_bytes(folder.path(), 5), Err(FileError::NotRegular));
     assert!(matches!(
         read_bytes(&folder.path().join("none"), 5),

@@ -7,6 +7,7 @@ use crate::keys::fits::{byte_of, line_at};
 use crate::load::{MAX_BYTES, check_table, unread};
 use crate::planning_scene;
 use crate::scenario::Scenario;
+use crate::units::Note;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::{Files, file};
 use platewash_workcell::tool::Tool;
@@ -98,6 +99,17 @@ impl ObstacleText {
         scenario
             .obstacles(arm, tool, 0)
             .map_err(|failure| self.of_failure(failure))
+    }
+
+    /// Returns notes on obstacles that count as convex parts or hulls, which reach beyond their meshes; none for a text that cannot be read.
+    #[must_use]
+    pub fn notes_on_meshes(&self, meshes: &MeshPlaces) -> Vec<Note> {
+        match is_scene(&self.name) {
+            true => planning_scene::notes_on_meshes(&self.text),
+            false => self
+                .sections(&OBSTACLES, "", meshes)
+                .map_or_else(|_| Vec::new(), |(scenario, _)| scenario.notes_on_meshes()),
+        }
     }
 
     /// Returns the tool of an arm: sections `[tool]` and `[[tool_body]]`.

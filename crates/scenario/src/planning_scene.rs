@@ -6,11 +6,13 @@
 //! a pose is x y z and a quaternion x y z w.
 
 use crate::error::{Problem, ScenarioError};
+use crate::resolve::surroundings::LEAST_EXCESS_M;
+use crate::units::Note;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::trig::sin_cos;
-use platewash_workcell::clearance::{SolidParts, solid_parts};
+use platewash_workcell::clearance::{SolidParts, excess_m, solid_parts};
 use platewash_workcell::words::{quoted, shortened};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 
@@ -34,14 +36,36 @@ const LONGEST: usize = 40;
 /// # Errors
 /// [`ScenarioError`] with the line.
 pub(crate) fn read(name: &str, text: &str) -> Result<Vec<Obstacle>, ScenarioError> {
-    let mut reader = Reader {
-        rest: text,
-        line: 1,
-        names: Vec::new(),
-    };
+    let mut reader = Reader::new(text);
     reader
         .scene()
         .map_err(|detail| ScenarioError::new(name, Some(reader.line), Problem::Detail { detail }))
+}
+
+/// Notes on convex parts that reach beyond the meshes of a scene; none for a scene that cannot be read.
+pub(crate) fn notes_on_meshes(text: &str) -> Vec<Note> {
+    let mut reader = Reader::new(text);
+    reader.keeps_meshes = true;
+    if reader.scene().is_err() {
+        return Vec::new();
+    }
+    let note = |mesh: &SceneMesh| {
+        let by_m = excess_m(&mesh.triangles, &mesh.parts);
+        (by_m > LEAST_EXCESS_M).then(|| Note::LargerThanMesh {
+            body: mesh.name.clone(),
+            by_m,
+            is_decomposed: true,
+        })
+    };
+    reader.meshes.iter().filter_map(note).collect()
+}
+
+/// Mesh of a scene, and its convex parts.
+struct SceneMesh {
+    /// Name of the obstacle.
+    name: String,
+    triangles: Vec<[Point3<f64>; 3]>,
+    parts: Vec<Vec<Point3<f64>>>,
 }
 
 /// Rest of a text.
@@ -50,9 +74,22 @@ struct Reader<'a> {
     line: usize,
     /// Names of the objects so far.
     names: Vec<&'a str>,
+    /// True where meshes are kept.
+    keeps_meshes: bool,
+    meshes: Vec<SceneMesh>,
 }
 
 impl<'a> Reader<'a> {
+    fn new(text: &'a str) -> Self {
+        Self {
+            rest: text,
+            line: 1,
+            names: Vec::new(),
+            keeps_meshes: false,
+            meshes: Vec::new(),
+        }
+    }
+
     fn scene(&mut self) -> Result<Vec<Obstacle>, String> {
         self.rest_of_line();
         let states_poses = self.states_poses();
@@ -89,6 +126,7 @@ impl<'a> Reader<'a> {
         let count = self.count("a number of shapes")?;
         let mut all = Vec::new();
         for index in 0..count {
+            let meshes = self.meshes.len();
             let (shape, inner) = self.shape(name)?;
             let pose = self.pose()?;
             self.numbers::<4>("a colour, four numbers")?;
@@ -96,6 +134,9 @@ impl<'a> Reader<'a> {
                 1 => name.to_owned(),
                 _ => format!("{name}[{index}]"),
             };
+            if let Some(mesh) = self.meshes.get_mut(meshes) {
+                mesh.name.clone_from(&name);
+            }
             all.push(Obstacle::new(&name, shape, object * pose * inner));
         }
         if states_poses {
@@ -170,6 +211,13 @@ impl<'a> Reader<'a> {
             .collect::<Result<_, String>>()?;
         let parts = solid_parts(&triangles, SolidParts::Decomposed);
         let mut parts = parts.map_err(|why| format!("mesh of object {}: {why}", quoted(object)))?;
+        if self.keeps_meshes {
+            self.meshes.push(SceneMesh {
+                name: object.to_owned(),
+                triangles,
+                parts: parts.clone(),
+            });
+        }
         let shape = match (parts.len(), parts.pop()) {
             (1, Some(points)) => ObstacleShape::Convex(Shape::Hull { points }),
             (_, last) => ObstacleShape::Parts(parts.into_iter().chain(last).collect()),

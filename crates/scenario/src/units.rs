@@ -69,6 +69,8 @@ pub enum Note {
         body: String,
         /// Upper bound on how far the parts reach beyond the mesh \[m\].
         by_m: f64,
+        /// True where the parts are those of a decomposition, and not its hull.
+        is_decomposed: bool,
     },
 }
 
@@ -164,13 +166,24 @@ impl fmt::Display for Note {
                     "{file} is in {unit}; its plate deviates from the fitted profile by up to {by_mm} mm{at_points}, which adds to its height error{between}"
                 )
             }
-            Self::LargerThanMesh { body, by_m } => write!(
-                f,
-                "{} counts as convex parts, which reach up to {} mm beyond its mesh: a plan can fail for that alone; a mesh cut \
-                 into several bodies is nearer to it, and so may be mesh_parts = \"decomposed\"",
-                quoted(body),
-                decimals_up(1e3 * by_m, 1)
-            ),
+            Self::LargerThanMesh {
+                body,
+                by_m,
+                is_decomposed,
+            } => {
+                let (body, by_mm) = (quoted(body), decimals_up(1e3 * by_m, 1));
+                let (counts, advice) = match is_decomposed {
+                    true => ("convex parts, which reach", "cut the mesh into several closed bodies, or state boxes in its place"),
+                    false => (
+                        "its convex hull, which reaches",
+                        "mesh_parts = \"decomposed\", or a mesh cut into several bodies, is nearer to it",
+                    ),
+                };
+                write!(
+                    f,
+                    "{body} counts as {counts} up to {by_mm} mm beyond its mesh: it may fill a hollow, and a proof can fail for that alone; {advice}"
+                )
+            }
         }
     }
 }

@@ -69,7 +69,38 @@ pub struct Row<'t> {
     most: f64,
 }
 
-/// Returns the names of the columns in a header.
+/// Returns the line of a table's header, from 1, and the names in it; `None` for a text without lines. Empty lines, and comments that start
+/// with `#`, are skipped where there may be any.
+#[must_use]
+pub fn header(text: &str, has_comments: bool) -> Option<(usize, Vec<&str>)> {
+    let (line, header) = lines(text, has_comments).next()?;
+    let mut names = cells(header);
+    names.pop_if(|last| last.is_empty());
+    Some((line, names))
+}
+
+/// The lines of a text with their numbers, from 1.
+fn lines(text: &str, has_comments: bool) -> impl Iterator<Item = (usize, &str)> {
+    let lines = (1..).zip(without_mark(text).lines());
+    let lines = lines.map(move |(line, text)| match has_comments {
+        true => (line, text.split('#').next().unwrap_or_default()),
+        false => (line, text),
+    });
+    lines.filter(move |(_, text)| !(has_comments && text.trim().is_empty()))
+}
+
+/// The cells of a line, without spaces and quotation marks around them.
+fn cells(line: &str) -> Vec<&str> {
+    line.split(',').map(bare).collect()
+}
+
+fn bare(cell: &str) -> &str {
+    let cell = cell.trim();
+    let inner = cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"'));
+    inner.map_or(cell, str::trim)
+}
+
+/// Returns the names of the columns in a header, without an empty one behind its last comma.
 ///
 /// # Errors
 /// [`TableError`] for an empty header, other separators, and columns that are unknown, missing or repeated.
@@ -84,7 +115,8 @@ fn column_names<'a>(line: usize, header: &'a str, shape: &TableShape<'_>) -> Res
         );
         return refused(line, reason);
     }
-    let names: Vec<&str> = header.split(',').map(str::trim).collect();
+    let mut names = cells(header);
+    names.pop_if(|last| last.is_empty());
     let wrong = |column: &str, what: &str| {
         let column = quoted(&shortened(column, LONGEST));
         refused(
@@ -133,13 +165,7 @@ impl<'a> NumberTable<'a> {
     /// # Errors
     /// [`TableError`] with the line.
     pub fn read(text: &'a str, shape: &TableShape<'_>) -> Result<Self, TableError> {
-        let lines = (1..)
-            .zip(without_mark(text).lines())
-            .map(|(line, text)| match shape.has_comments {
-                true => (line, text.split('#').next().unwrap_or_default()),
-                false => (line, text),
-            });
-        let mut lines = lines.filter(|(_, text)| !(shape.has_comments && text.trim().is_empty()));
+        let mut lines = lines(text, shape.has_comments);
         let (header_line, header) = lines.next().unwrap_or((1, ""));
         let names = column_names(header_line, header, shape)?;
         let rows: Vec<_> = lines.take(shape.most_rows + 1).collect();
@@ -181,11 +207,15 @@ impl<'a> NumberTable<'a> {
         in_cell(&self.names, line, place, reason)
     }
 
-    /// Returns the rows, each with as many cells as the header.
+    /// Returns the rows, each with as many cells as the header; an empty one behind a last comma does not count.
     pub fn rows(&self) -> impl Iterator<Item = Result<Row<'_>, TableError>> {
         self.rows.iter().map(|(line, text)| {
-            let cells: Vec<&str> = text.split(',').map(str::trim).collect();
-            let (found, expected) = (cells.len(), self.names.len());
+            let expected = self.names.len();
+            let mut cells = cells(text);
+            if cells.len() == expected + 1 {
+                cells.pop_if(|last| last.is_empty());
+            }
+            let found = cells.len();
             if found != expected {
                 let found = count_with_noun(found, "column");
                 let reason =

@@ -66,6 +66,17 @@ impl Dialect for Rapid {
     }
 }
 
+/// Text of a module that is not UTF-8: ISO 8859-1, in which controllers and editors write comments. Of the bytes that are signs in Windows'
+/// encoding alone only the place is kept; one of them ends lines elsewhere, and stays for the reader to refuse.
+pub(crate) fn text_of_latin_1(bytes: &[u8]) -> String {
+    const NEXT_LINE: u8 = 0x85;
+    let sign = |byte: &u8| match byte {
+        0x80..=0x9f if *byte != NEXT_LINE => char::REPLACEMENT_CHARACTER,
+        byte => char::from(*byte),
+    };
+    bytes.iter().map(sign).collect()
+}
+
 /// Checks that the first word outside of comments and the file's header is `MODULE`.
 fn begins_a_module(text: &str) -> bool {
     let outside = |line: &&str| {

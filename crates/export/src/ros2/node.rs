@@ -4,6 +4,7 @@ use crate::ros2::read::Language;
 use platewash_workcell::words::{quoted, shortened};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 /// Longest text that is read \[bytes\].
 pub(crate) const MAX_BYTES: usize = 1 << 25;
@@ -18,7 +19,7 @@ const MAX_DEPTH: usize = 16;
 const LONGEST: usize = 40;
 
 /// A value of a text.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Node<'a> {
     /// The line at which it begins, from 1.
     pub(crate) line: usize,
@@ -26,7 +27,7 @@ pub(crate) struct Node<'a> {
 }
 
 /// Kind of a value.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) enum Kind<'a> {
     /// Value without quotes: a number, or a word.
     Plain(Cow<'a, str>),
@@ -40,7 +41,7 @@ pub(crate) enum Kind<'a> {
 }
 
 /// A key of a table, and its value.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Entry<'a> {
     pub(crate) key: Cow<'a, str>,
     pub(crate) line: usize,
@@ -80,8 +81,35 @@ fn told(text: &str) -> String {
     }
 }
 
-/// Reads a text: one document, no anchors, aliases and tags, no key twice in a table.
+impl Node<'_> {
+    /// Number of values in it, and its depth.
+    fn extent(&self) -> [usize; 2] {
+        let of = |nodes: &mut dyn Iterator<Item = &Self>| {
+            nodes.fold([1, 0], |[count, depth], node| {
+                let [more, below] = node.extent();
+                [count + more, depth.max(below + 1)]
+            })
+        };
+        match &self.kind {
+            Kind::List(nodes) => of(&mut nodes.iter()),
+            Kind::Table(entries) => of(&mut entries.iter().map(|entry| &entry.value)),
+            _ => [1, 0],
+        }
+    }
+}
+
+/// Reads a text of one document: no tags, no key twice in a table.
 pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
+    let mut all = documents(text, language)?.into_iter();
+    match (all.next(), all.next()) {
+        (Some(root), None) => Ok(root),
+        (None, _) => Err(Fault::new(1, "expected a message; found nothing")),
+        (Some(_), Some(second)) => Err(Fault::new(second.line, "expected one document; found another one")),
+    }
+}
+
+/// Reads the documents of a text, but for empty ones.
+pub(crate) fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>, Fault> {
     if text.len() > MAX_BYTES {
         let reason = format!("expected {MAX_BYTES} bytes at most; found {}", text.len());
         return Err(Fault::new(1, reason));
@@ -98,18 +126,22 @@ pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
         parser: Parser::new_from_str(text),
         language,
         nodes: 0,
+        anchored: HashMap::new(),
     };
     events.expect(|event| matches!(event, Event::StreamStart))?;
-    match events.next()? {
-        (Event::DocumentStart(_), _) => {}
-        (_, line) => return Err(Fault::new(line, "expected a message; found nothing")),
-    }
-    let first = events.next()?;
-    let root = events.node(first, 0)?;
-    events.expect(|event| matches!(event, Event::DocumentEnd))?;
-    match events.next()? {
-        (Event::StreamEnd, _) => Ok(root),
-        (_, line) => Err(Fault::new(line, "expected one document; found another one")),
+    let mut all = Vec::new();
+    loop {
+        match events.next()? {
+            (Event::StreamEnd, _) => return Ok(all),
+            (Event::DocumentStart(_), _) => {}
+            (_, line) => return Err(Fault::new(line, "not YAML: expected a document")),
+        }
+        events.anchored.clear();
+        let first = events.next()?;
+        let root = events.node(first, 0)?;
+        events.expect(|event| matches!(event, Event::DocumentEnd))?;
+        let is_empty = matches!(&root.kind, Kind::Plain(text) if text.is_empty() || text == "~");
+        all.extend((!is_empty).then_some(root));
     }
 }
 
@@ -117,6 +149,8 @@ struct Events<'a> {
     parser: Parser<'a, saphyr_parser::StrInput<'a>>,
     language: Language,
     nodes: usize,
+    /// Values with an anchor, by the number of the anchor.
+    anchored: HashMap<usize, Node<'a>>,
 }
 
 impl<'a> Events<'a> {
@@ -151,30 +185,52 @@ impl<'a> Events<'a> {
                 format!("expected {MAX_DEPTH} levels at most; found more"),
             ));
         }
-        let kind = match event {
-            Event::Alias(_) => return Err(Fault::new(line, "expected a value; found an alias")),
+        let (kind, anchor) = match event {
+            Event::Alias(anchor) => return self.alias(anchor, line, depth),
             Event::Scalar(_, _, anchor, ref tag) => {
-                check_bare_line(line, anchor, tag.is_some())?;
+                check_no_tag(line, tag.is_some())?;
                 let Event::Scalar(text, style, ..) = event else {
                     return Err(Fault::new(line, "expected a value"));
                 };
-                match (style, self.language) {
+                let kind = match (style, self.language) {
                     (ScalarStyle::Plain, Language::Yaml) => Kind::Plain(text),
                     (ScalarStyle::Plain, Language::Json) => Kind::OfJson(text),
                     _ => Kind::Quoted(text),
-                }
+                };
+                (kind, anchor)
             }
             Event::SequenceStart(anchor, tag) => {
-                check_bare_line(line, anchor, tag.is_some())?;
-                Kind::List(self.list(depth)?)
+                check_no_tag(line, tag.is_some())?;
+                (Kind::List(self.list(depth)?), anchor)
             }
             Event::MappingStart(anchor, tag) => {
-                check_bare_line(line, anchor, tag.is_some())?;
-                Kind::Table(self.table(depth)?)
+                check_no_tag(line, tag.is_some())?;
+                (Kind::Table(self.table(depth)?), anchor)
             }
             _ => return Err(Fault::new(line, "expected a value; found the end")),
         };
-        Ok(Node { line, kind })
+        let node = Node { line, kind };
+        // Anchors are numbered from 1.
+        if anchor > 0 {
+            self.anchored.insert(anchor, node.clone());
+        }
+        Ok(node)
+    }
+
+    /// The value that an alias stands for, with the lines of that value.
+    fn alias(&mut self, anchor: usize, line: usize, depth: usize) -> Result<Node<'a>, Fault> {
+        let Some(node) = self.anchored.get(&anchor) else {
+            return Err(Fault::new(line, "found an alias of a value that contains it"));
+        };
+        let [count, below] = node.extent();
+        self.nodes += count;
+        if self.nodes > MAX_NODES || depth + below > MAX_DEPTH {
+            return Err(Fault::new(
+                line,
+                format!("expected {MAX_NODES} values and {MAX_DEPTH} levels at most, aliases written out; found more"),
+            ));
+        }
+        Ok(node.clone())
     }
 
     fn list(&mut self, depth: usize) -> Result<Vec<Node<'a>>, Fault> {
@@ -222,10 +278,9 @@ impl<'a> Events<'a> {
 /// Most keys of a table.
 const MAX_KEYS: usize = 64;
 
-fn check_bare_line(line: usize, anchor: usize, tagged: bool) -> Result<(), Fault> {
-    match (anchor, tagged) {
-        (0, false) => Ok(()),
-        (_, true) => Err(Fault::new(line, "expected a value; found a tag before it")),
-        _ => Err(Fault::new(line, "expected a value; found an anchor before it")),
+fn check_no_tag(line: usize, is_tagged: bool) -> Result<(), Fault> {
+    match is_tagged {
+        false => Ok(()),
+        true => Err(Fault::new(line, "expected a value; found a tag before it")),
     }
 }

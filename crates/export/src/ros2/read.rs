@@ -56,15 +56,23 @@ pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Readin
 }
 
 /// Reads a text as a tree, by the end of its file's name. `other` is the reason to refuse another name.
-pub(crate) fn document<'a>(name: &str, text: &'a str, other: &str) -> Result<Node<'a>, Fault> {
-    let Some(language) = Language::of(name) else {
-        return Err(Fault::new(1, other));
-    };
+fn document<'a>(name: &str, text: &'a str, other: &str) -> Result<Node<'a>, Fault> {
+    node::read(text, language(name, text, other)?)
+}
+
+/// Reads a text of several documents as trees, by the end of its file's name. `other` is the reason to refuse another name.
+pub(crate) fn documents<'a>(name: &str, text: &'a str, other: &str) -> Result<Vec<Node<'a>>, Fault> {
+    node::documents(text, language(name, text, other)?)
+}
+
+/// Language of a text by the end of its file's name; a text of JSON must be some.
+fn language(name: &str, text: &str, other: &str) -> Result<Language, Fault> {
+    let language = Language::of(name).ok_or_else(|| Fault::new(1, other))?;
     if language == Language::Json && text.len() <= node::MAX_BYTES {
         let json = serde_json::from_str::<serde::de::IgnoredAny>(text);
         json.map_err(|e| Fault::new(e.line(), format!("not JSON: {e}")))?;
     }
-    node::read(text, language)
+    Ok(language)
 }
 
 /// Reads one file.
@@ -457,6 +465,11 @@ impl<'n, 'a> Fields<'n, 'a> {
             .map(|entry| &entry.value)
     }
 
+    /// Line at which the table begins, from 1.
+    pub(crate) fn line(&self) -> usize {
+        self.node.line
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
@@ -483,7 +496,7 @@ pub(crate) enum Language {
 impl Language {
     /// Language of a file, by its name.
     pub(crate) fn of(name: &str) -> Option<Self> {
-        match name.rsplit_once('.')?.1 {
+        match name.rsplit_once('.')?.1.to_ascii_lowercase().as_str() {
             "yaml" | "yml" => Some(Self::Yaml),
             "json" => Some(Self::Json),
             _ => None,

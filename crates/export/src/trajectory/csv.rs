@@ -8,8 +8,9 @@ use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::{MAX_ROWS, STATE};
-use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
-use platewash_workcell::words::without_mark;
+use platewash_workcell::number_table::{self, NumberTable, Row, TableError, TableShape};
+use platewash_workcell::words::{quoted, shortened};
+use std::borrow::Cow;
 
 /// Greatest magnitude of a number \[rad, rad/s, rad/s²\].
 const GREATEST: f64 = 1e6;
@@ -27,8 +28,9 @@ pub(super) fn read(
     arm: &RobotModel,
     fixed: &FixedJoints,
 ) -> Result<(JointPoints, Vec<usize>), ReadError> {
-    let columns = Columns::of(&file.text, arm, fixed);
-    let read = columns.table(&file.text).and_then(|table| {
+    let text = with_bare_header(&file.text);
+    let columns = Columns::of(&text, arm, fixed);
+    let read = columns.table(&text).and_then(|table| {
         let is_there = |name: &str| table.places(&[name]).is_some();
         let known = check_fixed_names(arm, fixed, is_there);
         known.map_err(|reason| TableError {
@@ -41,8 +43,36 @@ pub(super) fn read(
     read.map_err(|error| ReadError::at(&file.name, error.line, error.without_line()))
 }
 
+/// The text of a table with its header as a line of its own: NumPy writes the header behind a `#`, right before the first row of numbers.
+fn with_bare_header(text: &str) -> Cow<'_, str> {
+    let is_number = |cell: &str| cell.trim().parse::<f64>().is_ok();
+    let is_row = |line: &&str| line.split(',').all(is_number);
+    let mut before = None;
+    for line in text.lines().filter(|line| !line.trim().is_empty()) {
+        if line.trim_start_matches('\u{feff}').starts_with('#') {
+            before = Some(line);
+            continue;
+        }
+        let Some(header) = before.filter(|_| is_row(&line)) else {
+            break;
+        };
+        let names = header.trim_start_matches(['\u{feff}', '#']);
+        if names.split(',').count() != line.split(',').count() {
+            break;
+        }
+        let at = header.as_ptr() as usize - text.as_ptr() as usize;
+        return Cow::Owned([&text[..at], names, &text[at + header.len()..]].concat());
+    }
+    Cow::Borrowed(text)
+}
+
+/// Longest name of a column that a message repeats, in characters.
+const LONGEST: usize = 40;
+
 /// Names of the columns of positions, speeds and accelerations.
 struct Columns {
+    /// Names of the arm's joints.
+    names: [String; AXES],
     /// Columns of the six axes, and the position of each that is fixed.
     axes: [[String; AXES]; 3],
     at: [Option<f64>; AXES],
@@ -55,16 +85,15 @@ impl Columns {
     fn of(text: &str, arm: &RobotModel, fixed: &FixedJoints) -> Self {
         let named = |name: &str| [name.to_owned(), format!("{name}_rad_s"), format!("{name}_rad_s2")];
         let names = arm.joints().each_ref().map(|joint| joint.name.as_str());
-        let header = without_mark(text)
-            .lines()
-            .find(|line| !line.trim().is_empty() && !line.starts_with('#'));
-        let is_named = header.is_some_and(|header| header.split(',').any(|column| names.contains(&column.trim())));
+        let header = number_table::header(text, true);
+        let is_named = header.is_some_and(|(_, header)| header.iter().any(|column| names.contains(column)));
         let axis = |rate: usize, joint: usize| match is_named {
             true => named(names[joint])[rate].clone(),
             false => STATE[rate][joint].to_owned(),
         };
         let others = fixed.iter().filter(|(name, _)| !names.contains(&name.as_str()));
         Self {
+            names: names.map(str::to_owned),
             axes: std::array::from_fn(|rate| std::array::from_fn(|joint| axis(rate, joint))),
             at: names.map(|name| fixed.get(name).copied()),
             others: others.map(|(name, at)| (named(name), *at)).collect(),
@@ -82,6 +111,8 @@ impl Columns {
         let still: Vec<[&str; 1]> = self.fixed().map(|(name, _)| [name]).collect();
         let mut optional: Vec<&[&str]> = vec![&TIME, &speeds, &accelerations, &PLACE, &TIP, &PLAN_TIME];
         optional.extend(still.iter().map(|name| &name[..]));
+        let known = |column: &str| positions.contains(&column) || optional.iter().any(|group| group.contains(&column));
+        self.check_header(text, known)?;
         NumberTable::read(
             text,
             &TableShape {
@@ -92,6 +123,77 @@ impl Columns {
                 has_comments: true,
             },
         )
+    }
+
+    /// Refuses a header with a column that is not known, and says what to do about it.
+    fn check_header(&self, text: &str, is_known: impl Fn(&str) -> bool) -> Result<(), TableError> {
+        let Some((line, names)) = number_table::header(text, true) else {
+            return Ok(());
+        };
+        let refused = |reason| {
+            Err(TableError {
+                line,
+                column: None,
+                reason,
+            })
+        };
+        let expected = self.expected();
+        if let [all] = names[..]
+            && let Some(found) = all.chars().find(|c| [';', '\t', ' '].contains(c))
+        {
+            return refused(format!(
+                "columns are separated by {found:?}; expected commas between them, and a point for decimals: {expected}"
+            ));
+        }
+        if names.iter().all(|name| name.parse::<f64>().is_ok()) {
+            return refused(format!(
+                "found numbers in the first line; expected a header there: {expected}"
+            ));
+        }
+        let Some(unknown) = names.iter().find(|name| !is_known(name)) else {
+            return Ok(());
+        };
+        let advice = self.advice(unknown);
+        let unknown = quoted(&shortened(unknown, LONGEST));
+        refused(format!("column {unknown} is unknown; {advice}; expected {expected}"))
+    }
+
+    /// Columns that are read, in words.
+    fn expected(&self) -> String {
+        let names = self.names.join(", ");
+        format!(
+            "t_s [s], which may be left out; q1_rad to q6_rad or the names of the joints ({names}) [rad]; and, where they are known, speeds \
+             qd1_rad_s or NAME_rad_s and accelerations qdd1_rad_s2 or NAME_rad_s2"
+        )
+    }
+
+    /// Advice on a column that is not known.
+    fn advice(&self, column: &str) -> String {
+        let small = column.to_ascii_lowercase();
+        let has = |words: &[&str]| words.iter().any(|word| small.contains(word));
+        if has(&["time", "stamp", "clock", "sec"]) || ["t", "ts", "t_ms", "t_ns"].contains(&small.as_str()) {
+            return "if it has times in seconds, rename it t_s (those of a clock may stay as they are; milliseconds and nanoseconds must be \
+                    converted)"
+                .to_owned();
+        }
+        if has(&["deg"]) {
+            return "angles must be radians".to_owned();
+        }
+        if let Some(joint) = self
+            .names
+            .iter()
+            .find(|name| small.contains(&name.to_ascii_lowercase()))
+        {
+            return format!("if it has positions of {joint} in radians, rename it {joint}; speeds are {joint}_rad_s");
+        }
+        match small.as_str() {
+            "" => "it has no name".to_owned(),
+            _ => format!(
+                "a joint that does not move can be fixed (--fix {}=VALUE), what another one moves is not judged, and anything else can be \
+                 removed",
+                shortened(column, LONGEST)
+            ),
+        }
     }
 
     /// Columns of joints that are fixed, with the number that each must have.

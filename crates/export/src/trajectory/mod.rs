@@ -5,11 +5,12 @@
 //! | points; the motion between them; reading by a file's name | here |
 //! | tables: times, positions, speeds and accelerations as CSV | `csv` |
 //! | times, as exactly as they are written | `time` |
-//! | ROS messages as YAML and JSON: `JointTrajectory`, `RobotTrajectory`, `FollowJointTrajectory` goals | `ros` |
+//! | ROS messages as YAML and JSON: `JointTrajectory`; messages around one | `ros`; `wrapper` |
 
 mod csv;
 mod ros;
 mod time;
+mod wrapper;
 
 pub use crate::trajectory::time::ExactTime;
 
@@ -35,6 +36,9 @@ pub struct JointPoints {
     pub qd_rad_s: Option<Vec<JointVector>>,
     /// Joint accelerations \[rad/s²\]; `None` where the points have none.
     pub qdd_rad_s2: Option<Vec<JointVector>>,
+    /// Number of rates that each point states, where some state fewer than others: 0, 1 (speeds) or 2 (speeds and accelerations). Rates that a
+    /// point does not state count for nothing.
+    pub rates: Option<Vec<usize>>,
     /// Joints that were stated not to move, axes of the arm or not.
     pub fixed: FixedJoints,
     /// Statements of a file beside the motion that a reader of the verdict should know; one clause each.
@@ -42,7 +46,7 @@ pub struct JointPoints {
 }
 
 /// Motion of each joint between two points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Interpolation {
     /// At constant speed: a straight line in joint space. The speed jumps at the points.
     Linear,
@@ -72,14 +76,35 @@ impl Interpolation {
 pub struct PointMotion {
     /// The motion, from 0 s. Without times each piece takes 1 s.
     pub motion: PiecewiseMotion,
-    /// Motion between two points.
-    pub interpolation: Interpolation,
+    /// Motion between two points, one for each piece.
+    pub shapes: Vec<Interpolation>,
     /// Time of the first point; `None` where the points have no times.
     pub start: Option<ExactTime>,
     /// Joints that were stated not to move, axes of the arm or not.
     pub fixed: FixedJoints,
     /// Statements of the file beside the motion: [`JointPoints::notes`].
     pub notes: Vec<String>,
+}
+
+impl PointMotion {
+    /// Motion between two points that state all that any point states.
+    #[must_use]
+    pub fn interpolation(&self) -> Interpolation {
+        self.shapes.iter().copied().max().unwrap_or(Interpolation::Linear)
+    }
+
+    /// Returns true where the motion begins or ends with a straight line: no speed is stated there, and the arm rests outside.
+    #[must_use]
+    pub fn rests_outside(&self) -> bool {
+        [self.shapes.first(), self.shapes.last()].contains(&Some(&Interpolation::Linear))
+    }
+
+    /// Number of pieces that are simpler than others, as one of their points states fewer rates.
+    #[must_use]
+    pub fn simpler(&self) -> usize {
+        let most = self.interpolation();
+        self.shapes.iter().filter(|shape| **shape < most).count()
+    }
 }
 
 /// Reason that points are no motion. Points are counted from 0.
@@ -203,24 +228,28 @@ impl PointsError {
 const FAR_RAD: f64 = PI;
 
 impl JointPoints {
-    /// Returns the motion through the points. Without a choice it is quintic where there are speeds and accelerations, cubic where there are
-    /// speeds alone, and otherwise linear, as ROS 2's joint_trajectory_controller moves.
+    /// Returns the motion through the points. Without a choice it is quintic between points with speeds and accelerations, cubic between points
+    /// with speeds, and otherwise linear, as ROS 2's joint_trajectory_controller moves.
     ///
     /// # Errors
     /// [`PointsError`] with the first fault.
     pub fn motion(&self, arm: &RobotModel, choice: Option<Interpolation>) -> Result<PointMotion, PointsError> {
         self.check(arm)?;
-        let interpolation = choice.unwrap_or(match (&self.qd_rad_s, &self.qdd_rad_s2) {
+        let most = choice.unwrap_or(match (&self.qd_rad_s, &self.qdd_rad_s2) {
             (Some(_), Some(_)) => Interpolation::Quintic,
             (Some(_), None) => Interpolation::Cubic,
             (None, _) => Interpolation::Linear,
         });
+        let shape = |k: usize| match (&self.rates, choice) {
+            (Some(rates), None) => Interpolation::ALL[rates[k].min(rates[k + 1]).min(2)],
+            _ => most,
+        };
         let first_s = self.t_s.as_ref().and_then(|all| all.first()).copied();
         let time = |k: usize| match (&self.t_s, first_s) {
             (Some(all), Some(first_s)) => all[k] - first_s,
             _ => k as f64,
         };
-        let [speeds, accelerations] = self.rates_for(interpolation)?;
+        let [speeds, accelerations] = self.rates_for(most, choice.is_some())?;
         let piece = |k: usize| {
             let (t_s, q_rad) = ([time(k), time(k + 1)], [self.q_rad[k], self.q_rad[k + 1]]);
             // Times that differ by less than rounding once they start from 0.
@@ -228,10 +257,10 @@ impl JointPoints {
                 return Err(self.time_order(k + 1));
             }
             let both = |rows: &[JointVector]| [rows[k], rows[k + 1]];
-            Ok(match speeds {
+            Ok(match speeds.filter(|_| shape(k) > Interpolation::Linear) {
                 None => MotionPiece::line(t_s, q_rad),
                 Some(speeds) => MotionPiece {
-                    qdd_rad_s2: accelerations.map(both),
+                    qdd_rad_s2: accelerations.filter(|_| shape(k) == Interpolation::Quintic).map(both),
                     ..MotionPiece::cubic(t_s, q_rad, both(speeds))
                 },
             })
@@ -243,13 +272,42 @@ impl JointPoints {
                 _ => 0,
             },
         })?;
-        Ok(PointMotion {
+        let mut motion = PointMotion {
             motion,
-            interpolation,
+            shapes: (0..self.q_rad.len() - 1).map(shape).collect(),
             start: first_s.map(|first_s| self.start.later(first_s)),
             fixed: self.fixed.clone(),
             notes: self.notes.clone(),
-        })
+        };
+        if let simpler @ 1.. = motion.shapes.iter().filter(|shape| **shape < most).count() {
+            let missing = if most == Interpolation::Cubic {
+                "speeds"
+            } else {
+                "speeds or accelerations"
+            };
+            motion.notes.push(format!(
+                "{simpler} of {} simpler than {}, as some points state no {missing}",
+                match motion.shapes.len() {
+                    1 => "1 piece is".to_owned(),
+                    count => format!("{count} pieces are"),
+                },
+                most.word()
+            ));
+        }
+        let unused: Vec<_> = [
+            ("speeds", Interpolation::Cubic, self.qd_rad_s.is_some()),
+            ("accelerations", Interpolation::Quintic, self.qdd_rad_s2.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(what, needed, is_there)| (is_there && most < needed).then_some(what))
+        .collect();
+        if !unused.is_empty() {
+            let (unused, word) = (unused.join(" and "), most.word());
+            motion
+                .notes
+                .push(format!("its {unused} are not used, as {word} interpolation was chosen"));
+        }
+        Ok(motion)
     }
 
     /// Checks that there are two points at least, as many times and speeds, and that all numbers make sense.
@@ -260,11 +318,12 @@ impl JointPoints {
             found => Err(PointsError::Count { what, expected, found }),
         };
         self.t_s.as_ref().map_or(Ok(()), |all| count("times", all.len()))?;
-        for (what, rows) in self.rates() {
+        for (what, rows) in self.rows() {
             rows.map_or(Ok(()), |all| count(what, all.len()))?;
         }
+        self.rates.as_ref().map_or(Ok(()), |all| count("rates", all.len()))?;
         let is_finite = |point: usize| {
-            let rates = self.rates().into_iter().filter_map(|(_, rows)| rows);
+            let rates = self.rows().into_iter().filter_map(|(_, rows)| rows);
             let numbers = self.q_rad[point].iter().chain(rates.flat_map(|all| all[point].iter()));
             let time = self.t_s.iter().map(|all| &all[point]);
             numbers.chain(time).all(|v| v.is_finite())
@@ -295,12 +354,22 @@ impl JointPoints {
     }
 
     /// Speeds and accelerations, as far as an interpolation needs them.
-    fn rates_for(&self, choice: Interpolation) -> Result<[Option<&[JointVector]>; 2], PointsError> {
+    fn rates_for(
+        &self,
+        choice: Interpolation,
+        at_every_point: bool,
+    ) -> Result<[Option<&[JointVector]>; 2], PointsError> {
         let missing = |missing| PointsError::Incomplete { choice, missing };
+        let least = self.rates.iter().flatten().copied().min().filter(|_| at_every_point);
+        match (choice, least) {
+            (Interpolation::Cubic | Interpolation::Quintic, Some(0)) => return Err(missing("speeds at some of them")),
+            (Interpolation::Quintic, Some(1)) => return Err(missing("accelerations at some of them")),
+            _ => {}
+        }
         if choice != Interpolation::Linear && self.t_s.is_none() {
             return Err(missing("times"));
         }
-        let [speeds, accelerations] = self.rates().map(|(what, rows)| rows.ok_or_else(|| missing(what)));
+        let [speeds, accelerations] = self.rows().map(|(what, rows)| rows.ok_or_else(|| missing(what)));
         Ok(match choice {
             Interpolation::Linear => [None, None],
             Interpolation::Cubic => [Some(speeds?), None],
@@ -309,7 +378,7 @@ impl JointPoints {
     }
 
     /// Speeds and accelerations, with their names.
-    fn rates(&self) -> [(&'static str, Option<&[JointVector]>); 2] {
+    fn rows(&self) -> [(&'static str, Option<&[JointVector]>); 2] {
         [
             ("speeds", self.qd_rad_s.as_deref()),
             ("accelerations", self.qdd_rad_s2.as_deref()),
@@ -377,26 +446,50 @@ pub struct TrajectoryFile {
 }
 
 impl TrajectoryFile {
-    /// Reads a trajectory of an arm from a text, by the end of the file's name: `.csv`, or a ROS message as `.yaml`, `.yml` or `.json`.
+    /// Reads the trajectory of an arm from a text, by the end of the file's name: `.csv`, or a ROS message as `.yaml`, `.yml` or `.json`.
     /// Joints are matched by name. A joint of the arm that the file leaves out, and one of the file that is none of the six axes, must be in
     /// `fixed`, or be fixed in the arm itself; where the file has it, its position there must be the same at every point.
     ///
     /// # Errors
-    /// [`ReadError`] with the line.
+    /// [`ReadError`] with the line, and for a file with several trajectories.
     pub fn read(name: &str, text: String, arm: &RobotModel, fixed: &FixedJoints) -> Result<Self, ReadError> {
+        let mut all = Self::read_all(name, text, arm, fixed)?;
+        let count = all.len();
+        match (all.pop(), count) {
+            (Some(file), 1) => Ok(file),
+            (last, _) => {
+                let line = last.and_then(|file| file.lines.first().copied()).unwrap_or(1);
+                let reason = format!("expected one trajectory; found {count}, the last of them here");
+                Err(ReadError::at(name, line, reason))
+            }
+        }
+    }
+
+    /// Reads all trajectories of a text, as [`TrajectoryFile::read`]: a YAML text may have several documents, and a message several
+    /// trajectories.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the line, and for a text without any.
+    pub fn read_all(name: &str, text: String, arm: &RobotModel, fixed: &FixedJoints) -> Result<Vec<Self>, ReadError> {
         let file = ProgramFile {
             name: name.to_owned(),
             text,
         };
-        let mut all = arm.fixed_joints().clone();
-        all.extend(fixed.iter().map(|(name, at)| (name.clone(), *at)));
-        let (mut points, lines) = match file.name.to_ascii_lowercase().ends_with(".csv") {
-            true => csv::read(&file, arm, &all)?,
-            false => ros::read(&file, arm, &all)?,
+        let mut joints = arm.fixed_joints().clone();
+        joints.extend(fixed.iter().map(|(name, at)| (name.clone(), *at)));
+        let all = match file.name.to_ascii_lowercase().ends_with(".csv") {
+            true => vec![csv::read(&file, arm, &joints)?],
+            false => ros::read_all(&file, arm, &joints)?,
         };
-        points.fixed = all;
-        let name = file.name;
-        Ok(Self { name, points, lines })
+        let with_name = |(mut points, lines): (JointPoints, Vec<usize>)| {
+            points.fixed.clone_from(&joints);
+            Self {
+                name: name.to_owned(),
+                points,
+                lines,
+            }
+        };
+        Ok(all.into_iter().map(with_name).collect())
     }
 
     /// Returns the motion through the points: see [`JointPoints::motion`].

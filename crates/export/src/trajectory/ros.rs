@@ -1,64 +1,45 @@
-//! Trajectories as ROS messages in YAML or JSON, of ROS 1 and ROS 2: `trajectory_msgs/JointTrajectory`, `moveit_msgs/RobotTrajectory`, and
-//! goals of `control_msgs/action/FollowJointTrajectory`.
+//! Trajectories as ROS messages in YAML or JSON, of ROS 1 and ROS 2: `trajectory_msgs/JointTrajectory`, in the messages of planners, action
+//! clients and recorders.
 //!
 //! Joints are matched by name. A stamp that is not zero becomes a note. Frame and number of a header, tolerances and efforts change nothing of
 //! the positions that are asked of the joints, and are not read.
 
 use crate::dialect::{ProgramFile, ReadError};
-use crate::ros2::node::{Fault, Node};
+use crate::ros2::node::{Fault, Kind, Node};
 use crate::ros2::number::ParsedNumber;
-use crate::ros2::read::{Fields, document, entries, list, parse_number, refused, text};
+use crate::ros2::read::{Fields, documents, list, parse_number, refused, text};
 use crate::ros2::write::NS_PER_S;
+use crate::trajectory::wrapper::{self, FoundTrajectory, RobotState, number};
 use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
+use platewash_kinematics::words::rounded;
 use platewash_kinematics::{Joint, JointVector, RobotModel};
 use platewash_workcell::words::quoted;
 
-/// Reads a message: the points, and the line of each.
-pub(super) fn read(
+/// Greatest difference at which the state from which a trajectory was planned is its first point, or a joint is where it is judged \[rad, m\].
+const SAME_START: f64 = 1e-4;
+
+/// Reads the trajectories of a file: the points of each, and the line of each point.
+pub(super) fn read_all(
     file: &ProgramFile,
     arm: &RobotModel,
     fixed: &FixedJoints,
-) -> Result<(JointPoints, Vec<usize>), ReadError> {
-    // `ros2 topic echo` ends each message so.
-    let ended = file.text.trim_end().strip_suffix("\n---").unwrap_or(&file.text);
-    let root = document(
-        &file.name,
-        ended,
-        "expected a trajectory .csv, .yaml, .yml or .json; found another name",
-    );
-    let read = root.and_then(|root| message(&root, &Joints { arm, fixed }));
-    read.map_err(|fault| refused(file, fault))
-}
-
-/// Finds the `JointTrajectory` of a message.
-fn message(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<usize>), Fault> {
-    let has = |key: &str| Ok(entries(root, "a message")?.iter().any(|entry| entry.key == key));
-    if has("joint_trajectory")? {
-        let robot = ["joint_trajectory", "multi_dof_joint_trajectory"];
-        let fields = Fields::of(root, "a RobotTrajectory", &robot)?;
-        if let Some(other) = fields.get("multi_dof_joint_trajectory") {
-            check_no_points(other)?;
+) -> Result<Vec<(JointPoints, Vec<usize>)>, ReadError> {
+    let other = "expected a trajectory .csv, .yaml, .yml or .json; found another name";
+    let joints = Joints { arm, fixed };
+    let read = || {
+        let mut all = Vec::new();
+        for root in documents(&file.name, &file.text, other)? {
+            for found in wrapper::find(&root)? {
+                all.push(joints.read(found)?);
+            }
         }
-        return trajectory(fields.needed("joint_trajectory")?, joints);
-    }
-    if has("trajectory")? {
-        let goal = [
-            "trajectory",
-            "multi_dof_trajectory",
-            "path_tolerance",
-            "component_path_tolerance",
-            "goal_tolerance",
-            "component_goal_tolerance",
-            "goal_time_tolerance",
-        ];
-        let fields = Fields::of(root, "a FollowJointTrajectory goal", &goal)?;
-        if let Some(other) = fields.get("multi_dof_trajectory") {
-            check_no_points(other)?;
+        match all.is_empty() {
+            true => Err(Fault::new(1, "expected a message; found nothing")),
+            false => Ok(all),
         }
-        return trajectory(fields.needed("trajectory")?, joints);
-    }
-    trajectory(root, joints)
+    };
+    read().map_err(|fault| refused(file, fault))
 }
 
 /// Joints that a message may have.
@@ -75,18 +56,6 @@ struct Columns<'a> {
     places: Vec<Option<usize>>,
 }
 
-/// Refuses a motion of joints with more than one degree of freedom.
-fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
-    let fields = Fields::of(node, "a MultiDOFJointTrajectory", &["header", "joint_names", "points"])?;
-    match fields.get("points").map(list).transpose()? {
-        Some([point, ..]) => Err(Fault::new(
-            point.line,
-            "expected no motion of joints with more than one degree of freedom; found points of one",
-        )),
-        _ => Ok(()),
-    }
-}
-
 fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<usize>), Fault> {
     let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
     let columns = joints.columns(fields.needed("joint_names")?)?;
@@ -94,6 +63,8 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
     let nodes = list(fields.needed("points")?)?;
     let (mut points, mut lines) = (JointPoints::default(), Vec::new());
     let (mut times, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
+    let mut rates = Vec::new();
+    let has_times = nodes.iter().any(|node| states_time(node));
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
         let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
@@ -103,21 +74,18 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
             return Err(Fault::new(node.line, format!("expected {count} positions; found none")));
         };
         points.q_rad.push(positions);
-        speeds.extend(row("velocities")?);
-        accelerations.extend(row("accelerations")?);
-        if let Some(time) = point.get("time_from_start") {
-            times.push(duration(time)?);
+        let [qd, qdd] = [row("velocities")?, row("accelerations")?];
+        if qd.is_none() && qdd.is_some() {
+            let reason = "expected velocities beside the accelerations; found none";
+            return Err(Fault::new(node.line, reason));
         }
-        for (what, found) in [
-            ("velocities", speeds.len()),
-            ("accelerations", accelerations.len()),
-            ("time_from_start", times.len()),
-        ] {
-            if found != 0 && found != points.q_rad.len() {
-                let reason =
-                    format!("expected {what} at every point or at none; some points have them and others do not");
-                return Err(Fault::new(node.line, reason));
-            }
+        rates.push(usize::from(qd.is_some()) + usize::from(qdd.is_some()));
+        speeds.push(qd.unwrap_or_default());
+        accelerations.push(qdd.unwrap_or_default());
+        // A time that is left out is 0, as in messages.
+        if has_times {
+            let time = point.get("time_from_start").map(duration).transpose()?;
+            times.push(time.unwrap_or_default());
         }
         if let [.., before, found] = times[..]
             && found <= before
@@ -136,9 +104,15 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
     points.start = times.first().copied().unwrap_or_default();
     let after = |time: &ExactTime| time.since(points.start);
     points.t_s = (!times.is_empty()).then(|| times.iter().map(after).collect());
-    points.qd_rad_s = (!speeds.is_empty()).then_some(speeds);
-    points.qdd_rad_s2 = (!accelerations.is_empty()).then_some(accelerations);
+    let most = rates.iter().copied().max().unwrap_or(0);
+    points.qd_rad_s = (most > 0).then_some(speeds);
+    points.qdd_rad_s2 = (most > 1).then_some(accelerations);
+    points.rates = rates.iter().any(|rate| *rate < most).then_some(rates);
     Ok((points, lines))
+}
+
+fn states_time(point: &Node<'_>) -> bool {
+    matches!(&point.kind, Kind::Table(entries) if entries.iter().any(|entry| entry.key == "time_from_start"))
 }
 
 /// Reads the stamp of a header.
@@ -148,6 +122,48 @@ fn stamp(header: &Node<'_>) -> Result<ExactTime, Fault> {
 }
 
 impl Joints<'_> {
+    /// Reads a trajectory with what is stated around it.
+    fn read(&self, found: FoundTrajectory<'_, '_>) -> Result<(JointPoints, Vec<usize>), Fault> {
+        let (mut points, lines) = trajectory(found.node, self)?;
+        points.notes.extend(found.notes);
+        if let (Some(state), Some(first)) = (found.start, points.q_rad.first()) {
+            let state = RobotState::read(state)?;
+            points.notes.extend(self.start_notes(&state, first));
+            points.notes.extend(state.notes);
+        }
+        Ok((points, lines))
+    }
+
+    /// Differences between the state from which a trajectory was planned, and its first point \[rad\].
+    fn start_notes(&self, state: &RobotState, first: &JointVector) -> Vec<String> {
+        let mut notes = Vec::new();
+        let mut strangers = Vec::new();
+        for (name, at) in &state.positions {
+            let axis = self.arm.joints().iter().position(|joint| joint.name == *name);
+            let judged = axis.map(|axis| first[axis]).or_else(|| self.fixed.get(name).copied());
+            match judged {
+                Some(judged) if (judged - at).abs() > SAME_START => {
+                    let (name, [at, judged]) = (quoted(name), [*at, judged].map(|q| rounded(q, 6)));
+                    notes.push(match axis {
+                        Some(_) => format!(
+                            "its trajectory_start has joint {name} at {at}, its first point at {judged}, and the way there is not judged"
+                        ),
+                        None => format!("its trajectory_start has joint {name} at {at}, which is judged at {judged}"),
+                    });
+                }
+                Some(_) => {}
+                None => strangers.push(quoted(name)),
+            }
+        }
+        if !strangers.is_empty() {
+            notes.push(format!(
+                "its trajectory_start also has joints that the arm does not have: {}",
+                strangers.join(", ")
+            ));
+        }
+        notes
+    }
+
     /// Reads the names of a message's joints.
     fn columns(&self, node: &Node<'_>) -> Result<Columns<'_>, Fault> {
         let known = self.arm.joints().each_ref().map(|joint| joint.name.as_str());
@@ -219,20 +235,6 @@ impl Columns<'_> {
             None => self.joints.fixed.get(&joint.name).copied().map_or(f64::NAN, at_rest),
         };
         Ok(Some(JointVector::from_iterator(axes.map(number))))
-    }
-}
-
-fn number(node: &Node<'_>) -> Result<f64, Fault> {
-    match parse_number(node) {
-        ParsedNumber::Float(value) | ParsedNumber::TextInYaml11(value) => Ok(value),
-        ParsedNumber::Whole(value) => Ok(value as f64),
-        ParsedNumber::Nothing => {
-            let found = node.kind.message();
-            Err(Fault::new(
-                node.line,
-                format!("expected a finite number in decimals; found {found}"),
-            ))
-        }
     }
 }
 

@@ -31,10 +31,12 @@ pub enum FileError {
         limit: u64,
     },
     /// The file is not UTF-8 text.
-    #[error("not UTF-8 text: byte {position} is at fault")]
+    #[error("line {line}: not UTF-8 text (byte {position} of the file); save it in UTF-8")]
     NotText {
         /// Offset of the first invalid byte.
         position: usize,
+        /// Its line, from 1.
+        line: usize,
     },
 }
 
@@ -68,8 +70,13 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
 
 /// Converts bytes to text.
 pub(crate) fn text(bytes: Vec<u8>) -> Result<String, FileError> {
-    String::from_utf8(bytes).map_err(|e| FileError::NotText {
-        position: e.utf8_error().valid_up_to(),
+    String::from_utf8(bytes).map_err(|e| {
+        let position = e.utf8_error().valid_up_to();
+        let before = e.as_bytes().iter().take(position);
+        FileError::NotText {
+            position,
+            line: 1 + before.filter(|byte| **byte == b'\n').count(),
+        }
     })
 }
 

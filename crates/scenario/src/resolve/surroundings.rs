@@ -17,7 +17,7 @@ use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcel
 use std::path::{Path, PathBuf};
 
 /// Excess of convex parts over a mesh up to which no note is given \[m\].
-const LEAST_EXCESS_M: f64 = 1e-3;
+pub(crate) const LEAST_EXCESS_M: f64 = 1e-3;
 
 /// A mesh's path as a file in a folder states it: those of packages stay as they are.
 pub(crate) fn in_folder(mesh: &Path, folder: &Path) -> PathBuf {
@@ -126,7 +126,11 @@ impl Scenario {
         let note = |name: &str, (file, scale): (&Path, [f64; 3]), parts: SolidParts| {
             let by_m = self.solids.excess_m(&source, file, scale, parts)?;
             let body = name.to_owned();
-            (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh { body, by_m })
+            (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh {
+                body,
+                by_m,
+                is_decomposed: parts != SolidParts::Hull,
+            })
         };
         let of_obstacle = |section: &ObstacleSection| match section.stated("obstacle") {
             Ok(SectionShape::Mesh { file, scale }) => note(&section.name, (file, scale), solid_parts(section)),

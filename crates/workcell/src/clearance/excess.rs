@@ -14,8 +14,12 @@ const WITHIN_M: f64 = 5e-4;
 /// Greatest number of triangles that are cut.
 const MOST_CUTS: usize = 30_000;
 
-/// Upper bound on the distance by which the faces of convex parts reach beyond the mesh that the parts enclose \[m\]. The inside of a
-/// closed mesh is not beyond it; for an open one the surface alone counts.
+/// Number of cells along the longest edge of a mesh in which a hollow within it is looked for.
+const CELLS: f64 = 24.0;
+
+/// Upper bound on the distance by which convex parts reach beyond the mesh that the parts enclose \[m\]. The inside of a closed mesh is not
+/// beyond it; for an open one the surface alone counts. A hollow that no face of a part crosses, as one that is closed all around within a
+/// hull, is found if it is as wide as two of [`CELLS`].
 ///
 /// Over a triangle of a face, the distance from the mesh is at most that of the middle and the distance from there to the farthest corner,
 /// as it is 1-Lipschitz; and at most that of the farthest corner from any triangle of the mesh, as the distance from a convex set is a convex
@@ -27,6 +31,8 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
         return f64::INFINITY;
     };
     let mut found_m: f64 = 0.0;
+    // Distance found in a hollow, and its bound.
+    let mut hollow_m: [f64; 2] = [0.0; 2];
     let mut open = BinaryHeap::new();
     for part in parts {
         let corners: Vec<_> = part.iter().map(vector).collect();
@@ -38,6 +44,8 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
                 return (most - least).length();
             }
         };
+        let [found, bound] = mesh.hollow_m(&hull);
+        hollow_m = [hollow_m[0].max(found), hollow_m[1].max(bound)];
         let faces = hull.triangles.iter();
         open.extend(faces.map(|face| mesh.cell(face.map(|k| hull.corners[k as usize]), &mut found_m)));
     }
@@ -49,7 +57,9 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
         let quarters = open.pop().map(|cell| cell.quarters()).into_iter().flatten();
         open.extend(quarters.map(|corners| mesh.cell(corners, &mut found_m)));
     }
-    open.peek().map_or(0.0, |cell| cell.bound_m)
+    let bound_m = open.peek().map_or(0.0, |cell| cell.bound_m);
+    let [found, hollow_bound_m] = hollow_m;
+    if found > bound_m { hollow_bound_m } else { bound_m }
 }
 
 /// Mesh from which distances are measured.
@@ -87,16 +97,46 @@ impl Mesh {
         Some(Self { surface, is_closed })
     }
 
+    /// Greatest distance from a closed mesh of the middles of cells that lie in a convex part and not in the mesh, and the bound on those of the
+    /// points of these cells \[m\]; 0 where there are none.
+    fn hollow_m(&self, hull: &ConvexHull) -> [f64; 2] {
+        let planes = hull.planes();
+        if !self.is_closed || planes.is_empty() {
+            return [0.0; 2];
+        }
+        let [least, most] = bounds(self.surface.vertices());
+        let edge_m = (most - least).max_element() / CELLS;
+        let [least, most] = bounds(&hull.corners);
+        let counts = ((most - least) / edge_m).ceil();
+        let along = |count: f64| 0..count as usize;
+        let mut found_m: f64 = 0.0;
+        for i in along(counts.x) {
+            for j in along(counts.y) {
+                for k in along(counts.z) {
+                    let place = Vector::new(i as f64, j as f64, k as f64);
+                    let middle = least + (place + Vector::splat(0.5)) * edge_m;
+                    if planes.iter().all(|(normal, at)| normal.dot(middle) <= *at) {
+                        found_m = found_m.max(self.beyond_m(middle).0);
+                    }
+                }
+            }
+        }
+        [found_m, found_m + 0.5 * edge_m * 3f64.sqrt()]
+    }
+
+    /// Distance of a point from the mesh, 0 inside a closed one \[m\]; and the nearest triangle.
+    fn beyond_m(&self, point: Vector) -> (f64, u32) {
+        let (nearest, (triangle, _)) = self.surface.project_local_point_and_get_location(point, false);
+        match self.is_closed && nearest.is_inside {
+            true => (0.0, triangle),
+            false => ((nearest.point - point).length(), triangle),
+        }
+    }
+
     /// Returns a triangle with its bound, and raises the distance that was found.
     fn cell(&self, corners: [Vector; 3], found_m: &mut f64) -> Cell {
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let (nearest, (triangle, _)) = self.surface.project_local_point_and_get_location(middle, false);
-        let is_inside = self.is_closed && nearest.is_inside;
-        let beyond_m = if is_inside {
-            0.0
-        } else {
-            (nearest.point - middle).length()
-        };
+        let (beyond_m, triangle) = self.beyond_m(middle);
         *found_m = found_m.max(beyond_m);
         let triangle = self.surface.triangle(triangle);
         let of_corner = |corner: &Vector| triangle.distance_to_local_point(*corner, true);
@@ -193,6 +233,19 @@ mod tests {
         let hull = solid_parts(mesh, SolidParts::Hull).unwrap();
         let found = excess_m(mesh, &hull);
         assert!((0.1..0.1 + 2.0 * WITHIN_M).contains(&found), "{found}");
+    }
+
+    /// No face of its hull is far from a box with walls all around: the hollow within is.
+    #[test]
+    fn a_closed_hollow_is_filled_by_its_hull() {
+        let inner = cuboid([0.08, 0.18, 0.13]).into_iter().map(|[a, b, c]| [a, c, b]);
+        let mesh: Vec<_> = cuboid([0.1, 0.2, 0.15]).into_iter().chain(inner).collect();
+        let hull = solid_parts(&mesh, SolidParts::Hull).unwrap();
+        let found = excess_m(&mesh, &hull);
+        let cell_m = 0.4 / CELLS;
+        assert!((0.08..0.08 + cell_m).contains(&found), "{found}");
+        let solid = cuboid([0.1, 0.2, 0.15]);
+        assert!(excess_m(&solid, &hull) <= 1.001 * WITHIN_M);
     }
 
     #[test]

@@ -4,9 +4,11 @@
 //! out. Each triangle is cut by their planes, cell by cell. A piece that is in a cell belongs to the part of that cell, and a piece that is
 //! in none to the nearest; all corners of a piece belong to the same part. A part is the hull of its pieces, so that it holds them, and the
 //! pieces make up the triangle: the parts enclose the surface, for any proposal. A part without thickness, as of a mesh that is a sheet,
-//! gets one. A few parts are enclosed alike, in cells that are joined before (`few.rs`).
+//! gets one. Closed convex bodies of which a mesh is made are cells of their own (`separate.rs`). A few parts are enclosed alike, in cells that
+//! are joined before (`few.rs`).
 
 mod few;
+mod separate;
 #[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests;
@@ -126,7 +128,7 @@ pub fn solid_parts(triangles: &[[Point3<f64>; 3]], parts: SolidParts) -> Result<
             if found > MOST_TRIANGLES {
                 return Err(SolidError::TooMany { found });
             }
-            enclosing(&corners, &cells(&corners, &CUTS)?)
+            enclosing(&corners, &proposed(&corners)?)
         }
         SolidParts::Few => few::parts(&corners, points)?,
     };
@@ -250,6 +252,20 @@ fn box_about(points: &[Vector]) -> Vec<Vector> {
     let sides = [least - Vector::splat(SHEET_M), most + Vector::splat(SHEET_M)];
     let corner = |k: usize| Vector::new(sides[k & 1].x, sides[k >> 1 & 1].y, sides[k >> 2].z);
     (0..8).map(corner).collect()
+}
+
+/// Proposes cells of a body that stands still: its closed convex bodies, and parts of the rest that are nearly convex.
+///
+/// # Errors
+/// [`SolidError::NotDecomposed`] where the collision library fails.
+fn proposed(triangles: &[[Vector; 3]]) -> Result<Vec<Part>, SolidError> {
+    let (bodies, rest) = separate::bodies(triangles);
+    let around = |body: Vec<[Vector; 3]>| Part::around(distinct(body.into_iter().flatten()));
+    let mut all: Vec<Part> = bodies.into_iter().map(around).collect();
+    if !rest.is_empty() {
+        all.extend(cells(&rest, &CUTS)?);
+    }
+    Ok(all)
 }
 
 /// Proposes parts of a mesh that are nearly convex.

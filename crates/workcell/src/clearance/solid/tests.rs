@@ -127,6 +127,71 @@ fn decomposition_keeps_a_trough_hollow() {
     assert_eq!(parts, solid_parts(&trough(), SolidParts::Decomposed).unwrap());
 }
 
+/// The walls of a closed room touch along edges and corners; each is a body of its own, in a file's order or any other.
+#[test]
+fn walls_of_a_closed_room_are_its_parts() {
+    let wall = |axis: usize, at: f64| {
+        let (mut low, mut high) = ([-1.5; 3], [1.5; 3]);
+        (low[axis], high[axis]) = (at - 0.05, at);
+        cuboid(low, high)
+    };
+    let mut room: Mesh = (0..3)
+        .flat_map(|axis| [wall(axis, -1.5), wall(axis, 1.55)].concat())
+        .collect();
+    for stride in [1, 5, 7] {
+        room = (0..room.len()).map(|k| room[k * stride % room.len()]).collect();
+        let parts = solid_parts(&room, SolidParts::Decomposed).unwrap();
+        assert_eq!(parts.len(), 6);
+        for (place, away_m) in [([0.0; 3], 1.5), ([1.4, -1.4, 1.4], 0.1)] {
+            let found_m = outside(&parts, Point3::from(Vector3::from(place)));
+            assert!((found_m - away_m).abs() < 1e-9, "{place:?}: {found_m}");
+        }
+    }
+    // Boxes that touch along an edge or in a face, and one apart.
+    let apart = [
+        cuboid([0.0; 3], [1.0; 3]),
+        cuboid([1.0, 1.0, 0.0], [2.0, 2.0, 1.0]),
+        cuboid([0.0, 0.0, 1.0], [1.0, 1.0, 2.0]),
+        cuboid([4.0; 3], [5.0; 3]),
+    ];
+    let (bodies, rest) = separate::bodies(
+        &apart
+            .concat()
+            .iter()
+            .map(|t| t.map(|p| Vector::new(p.x, p.y, p.z)))
+            .collect::<Vec<_>>(),
+    );
+    assert_eq!((bodies.len(), rest.len()), (4, 0));
+}
+
+/// Neither side of a hollow body is a body, nor is one that is inside out, open, or bent inwards.
+#[test]
+fn hollow_bodies_are_left_to_the_other_cuts() {
+    let turned = |mesh: Mesh| -> Mesh { mesh.into_iter().map(|[a, b, c]| [a, c, b]).collect() };
+    let (cube, far) = (cuboid([0.0; 3], [1.0; 3]), cuboid([4.0; 3], [5.0; 3]));
+    let inner = turned(cuboid([0.1; 3], [0.9; 3]));
+    let mut dented = cube.clone();
+    dented
+        .iter_mut()
+        .flatten()
+        .filter(|p| p.x + p.y + p.z == 3.0)
+        .for_each(|p| *p = Point3::new(0.2, 0.2, 0.2));
+    for (mesh, bodies) in [
+        ([cube.clone(), inner].concat(), 0),
+        ([turned(cube.clone()), far.clone()].concat(), 1),
+        ([cube[..11].to_vec(), far.clone()].concat(), 1),
+        ([dented, far.clone()].concat(), 1),
+        // Another body lies within the first one.
+        ([cube.clone(), cuboid([0.4; 3], [0.6; 3])].concat(), 1),
+        (cube, 0),
+    ] {
+        let triangles: Vec<_> = mesh.iter().map(|t| t.map(|p| Vector::new(p.x, p.y, p.z))).collect();
+        let (found, rest) = separate::bodies(&triangles);
+        assert_eq!(found.len(), bodies);
+        assert_eq!(found.iter().map(Vec::len).sum::<usize>() + rest.len(), triangles.len());
+    }
+}
+
 /// Few parts are enough for a trough, which has five walls, and one for a box; a heap of boxes becomes no more than may be.
 #[test]
 fn few_parts_keep_a_trough_hollow() {

@@ -1,0 +1,367 @@
+//! Messages that planners, action clients and recorders put around a trajectory.
+//!
+//! | message | keys |
+//! | --- | --- |
+//! | `moveit_msgs/DisplayTrajectory` | `trajectory` (a list), `trajectory_start`, `model_id` |
+//! | `moveit_msgs/RobotTrajectory` | `joint_trajectory`, `multi_dof_joint_trajectory` |
+//! | goal of `moveit_msgs/ExecuteTrajectory`, `moveit_msgs/MotionPlanResponse` | `trajectory` with a `joint_trajectory`, and others |
+//! | response of `moveit_msgs/GetMotionPlan`, of `GetCartesianPath`, result of `MoveGroup` | `motion_plan_response`, `solution`, `planned_trajectory` |
+//! | goal of `control_msgs/FollowJointTrajectory` | `trajectory`, tolerances |
+//! | an action's goal of ROS 1, or of ROS 2's service | `goal`, `goal_id`, `header` |
+//! | rosbridge | `op`, and `msg` or `args` |
+//!
+//! What they state beside the trajectory is used, becomes a note, or is on the list of docs/prove-motion.md of what cannot matter.
+
+use crate::ros2::node::{Fault, Kind, Node};
+use crate::ros2::number::ParsedNumber;
+use crate::ros2::read::{Fields, entries, list, parse_number, text};
+use platewash_workcell::words::{count_with_noun, quoted};
+
+/// Code of success in `moveit_msgs/MoveItErrorCodes`.
+const SUCCESS: f64 = 1.0;
+
+/// Most keys that a message names.
+const MOST_KEYS: usize = 6;
+
+/// A trajectory in a message.
+#[derive(Debug)]
+pub(super) struct FoundTrajectory<'n, 'a> {
+    /// The `JointTrajectory`.
+    pub(super) node: &'n Node<'a>,
+    /// The `RobotState` from which it was planned.
+    pub(super) start: Option<&'n Node<'a>>,
+    /// Statements around it that a reader of the verdict should know; one clause each.
+    pub(super) notes: Vec<String>,
+}
+
+/// Finds the trajectories of a message, in their order.
+pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
+    let keys = entries(root, "a message")?;
+    let value = |key: &str| keys.iter().find(|entry| entry.key == key).map(|entry| &entry.value);
+    let one = |found: FoundTrajectory<'n, 'a>| Ok(vec![found]);
+    if value("op").is_some() {
+        return bridge(root);
+    }
+    if value("goal").is_some() {
+        let fields = Fields::of(root, "an action's goal", &["header", "goal_id", "goal"])?;
+        check_header(&fields)?;
+        if let Some(id) = fields.get("goal_id") {
+            Fields::of(id, "a goal_id", &["stamp", "id", "uuid"])?;
+        }
+        return find(fields.needed("goal")?);
+    }
+    if value("motion_plan_response").is_some() {
+        let fields = Fields::of(root, "a response of GetMotionPlan", &["motion_plan_response"])?;
+        return find(fields.needed("motion_plan_response")?);
+    }
+    if value("joint_trajectory").is_some() {
+        return one(robot_trajectory(root)?);
+    }
+    if value("solution").is_some() {
+        let known = ["start_state", "solution", "fraction", "error_code"];
+        let fields = Fields::of(root, "a response of GetCartesianPath", &known)?;
+        return one(planned(&fields, "solution", "start_state")?);
+    }
+    if value("planned_trajectory").is_some() {
+        let known = [
+            "error_code",
+            "trajectory_start",
+            "planned_trajectory",
+            "executed_trajectory",
+            "planning_time",
+        ];
+        let fields = Fields::of(root, "a result of MoveGroup", &known)?;
+        let mut found = planned(&fields, "planned_trajectory", "trajectory_start")?;
+        if fields.get("executed_trajectory").is_some() {
+            found.notes.push("its executed_trajectory is not judged".to_owned());
+        }
+        return one(found);
+    }
+    match value("trajectory") {
+        Some(Node {
+            kind: Kind::List(_), ..
+        }) => display(root),
+        Some(inner) if has_key(inner, "joint_trajectory") => {
+            // The goal of ExecuteTrajectory, or MotionPlanResponse.
+            let known = [
+                "trajectory",
+                "controller_names",
+                "trajectory_start",
+                "group_name",
+                "planning_time",
+                "error_code",
+            ];
+            let what = "a goal of ExecuteTrajectory, or a MotionPlanResponse,";
+            one(planned(
+                &Fields::of(root, what, &known)?,
+                "trajectory",
+                "trajectory_start",
+            )?)
+        }
+        Some(_) => one(follow_goal(root)?),
+        None if value("joint_names").is_some() || value("points").is_some() => one(plain(root)),
+        None => Err(Fault::new(root.line, unknown(root, value("position").is_some()))),
+    }
+}
+
+/// Checks the keys of a header, whose values change nothing of the motion.
+fn check_header(fields: &Fields<'_, '_>) -> Result<(), Fault> {
+    let header = fields.get("header");
+    let read = header.map(|header| Fields::of(header, "a Header", &["stamp", "frame_id", "seq"]));
+    read.transpose().map(|_| ())
+}
+
+fn plain<'n, 'a>(node: &'n Node<'a>) -> FoundTrajectory<'n, 'a> {
+    FoundTrajectory {
+        node,
+        start: None,
+        notes: Vec::new(),
+    }
+}
+
+fn has_key(node: &Node<'_>, key: &str) -> bool {
+    matches!(&node.kind, Kind::Table(entries) if entries.iter().any(|entry| entry.key == key))
+}
+
+/// Reason for refusing a table that is none of the messages.
+fn unknown(root: &Node<'_>, has_position: bool) -> String {
+    let keys: Vec<_> = entries(root, "a message")
+        .unwrap_or_default()
+        .iter()
+        .map(|entry| entry.key.as_ref())
+        .collect();
+    let found = match (&keys[..], has_position) {
+        ([], _) => "nothing".to_owned(),
+        (_, true) => "positions of a JointState, which are no trajectory".to_owned(),
+        (keys, false) => {
+            let shown: Vec<_> = keys.iter().take(MOST_KEYS).map(|key| quoted(key)).collect();
+            let more = if keys.len() > MOST_KEYS { ", …" } else { "" };
+            format!("the keys {}{more}", shown.join(", "))
+        }
+    };
+    format!(
+        "expected a JointTrajectory with joint_names, a RobotTrajectory, a DisplayTrajectory, a goal of FollowJointTrajectory or \
+         ExecuteTrajectory, a MotionPlanResponse, or a rosbridge message of one; found {found}"
+    )
+}
+
+fn bridge<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
+    const PUBLISH: [&str; 8] = [
+        "op",
+        "id",
+        "topic",
+        "type",
+        "latch",
+        "queue_size",
+        "queue_length",
+        "msg",
+    ];
+    const GOAL: [&str; 8] = [
+        "op",
+        "id",
+        "action",
+        "action_type",
+        "feedback",
+        "fragment_size",
+        "compression",
+        "args",
+    ];
+    let operation = entries(root, "a message")?
+        .iter()
+        .find(|entry| entry.key == "op")
+        .map(|entry| &entry.value);
+    let word = operation.map(text).transpose()?.unwrap_or_default();
+    match word.as_str() {
+        "publish" => find(Fields::of(root, "a rosbridge message", &PUBLISH)?.needed("msg")?),
+        "send_action_goal" => find(Fields::of(root, "a rosbridge message", &GOAL)?.needed("args")?),
+        other => Err(Fault::new(
+            root.line,
+            format!(
+                "expected a rosbridge message whose op is publish or send_action_goal; found {}",
+                quoted(other)
+            ),
+        )),
+    }
+}
+
+/// The trajectories of a `DisplayTrajectory`. The state from which they were planned is that of the first.
+fn display<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
+    let fields = Fields::of(
+        root,
+        "a DisplayTrajectory",
+        &["model_id", "trajectory", "trajectory_start"],
+    )?;
+    let parts = fields.needed("trajectory")?;
+    let mut all = list(parts)?
+        .iter()
+        .map(robot_trajectory)
+        .collect::<Result<Vec<_>, _>>()?;
+    match all.first_mut() {
+        Some(first) => first.start = fields.get("trajectory_start"),
+        None => {
+            return Err(Fault::new(
+                parts.line,
+                "expected a trajectory in the DisplayTrajectory; found none",
+            ));
+        }
+    }
+    Ok(all)
+}
+
+/// The trajectory of a planner's answer.
+fn planned<'n, 'a>(fields: &Fields<'n, 'a>, key: &str, start: &str) -> Result<FoundTrajectory<'n, 'a>, Fault> {
+    let mut found = robot_trajectory(fields.needed(key)?)?;
+    found.start = fields.get(start);
+    if let Some(code) = fields.get("error_code") {
+        let code = Fields::of(code, "a MoveItErrorCodes", &["val", "message", "source"])?;
+        let value = code.get("val").map(number).transpose()?.unwrap_or(0.0);
+        if value != SUCCESS {
+            found
+                .notes
+                .push(format!("its error_code is {value}, and {SUCCESS} means success"));
+        }
+    }
+    if let Some(fraction) = fields.get("fraction") {
+        let value = number(fraction)?;
+        if value != 1.0 {
+            found.notes.push(format!(
+                "its fraction is {value}: it is a part of the path that was asked for"
+            ));
+        }
+    }
+    Ok(found)
+}
+
+fn robot_trajectory<'n, 'a>(node: &'n Node<'a>) -> Result<FoundTrajectory<'n, 'a>, Fault> {
+    let known = ["joint_trajectory", "multi_dof_joint_trajectory"];
+    let fields = Fields::of(node, "a RobotTrajectory", &known)?;
+    if let Some(other) = fields.get("multi_dof_joint_trajectory") {
+        check_no_points(other)?;
+    }
+    Ok(plain(fields.needed("joint_trajectory")?))
+}
+
+fn follow_goal<'n, 'a>(root: &'n Node<'a>) -> Result<FoundTrajectory<'n, 'a>, Fault> {
+    let known = [
+        "trajectory",
+        "multi_dof_trajectory",
+        "path_tolerance",
+        "component_path_tolerance",
+        "goal_tolerance",
+        "component_goal_tolerance",
+        "goal_time_tolerance",
+    ];
+    let fields = Fields::of(root, "a FollowJointTrajectory goal", &known)?;
+    if let Some(other) = fields.get("multi_dof_trajectory") {
+        check_no_points(other)?;
+    }
+    Ok(plain(fields.needed("trajectory")?))
+}
+
+/// Refuses a motion of joints with more than one degree of freedom.
+fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
+    let fields = Fields::of(node, "a MultiDOFJointTrajectory", &["header", "joint_names", "points"])?;
+    check_header(&fields)?;
+    match fields.get("points").map(list).transpose()? {
+        Some([point, ..]) => Err(Fault::new(
+            point.line,
+            "expected no motion of joints with more than one degree of freedom; found points of one",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// A number that may be whole.
+pub(super) fn number(node: &Node<'_>) -> Result<f64, Fault> {
+    match parse_number(node) {
+        ParsedNumber::Float(value) | ParsedNumber::TextInYaml11(value) => Ok(value),
+        ParsedNumber::Whole(value) => Ok(value as f64),
+        ParsedNumber::Nothing => {
+            let found = node.kind.message();
+            let reason = format!("expected a finite number in decimals; found {found}");
+            Err(Fault::new(node.line, reason))
+        }
+    }
+}
+
+/// State of a robot from which a trajectory was planned.
+#[derive(Debug, Default)]
+pub(super) struct RobotState {
+    /// Names of joints and their positions \[rad, m\].
+    pub(super) positions: Vec<(String, f64)>,
+    /// Statements beside them that a reader of the verdict should know; one clause each.
+    pub(super) notes: Vec<String>,
+}
+
+impl RobotState {
+    /// Reads a `moveit_msgs/RobotState`.
+    pub(super) fn read(node: &Node<'_>) -> Result<Self, Fault> {
+        let known = [
+            "joint_state",
+            "multi_dof_joint_state",
+            "attached_collision_objects",
+            "is_diff",
+        ];
+        let fields = Fields::of(node, "a RobotState", &known)?;
+        let mut state = Self::default();
+        if let Some(joints) = fields.get("joint_state") {
+            let known = ["header", "name", "position", "velocity", "effort"];
+            let joints = Fields::of(joints, "a JointState", &known)?;
+            check_header(&joints)?;
+            let names = joints.get("name").map(list).transpose()?.unwrap_or_default();
+            let positions = joints.get("position").map(list).transpose()?.unwrap_or_default();
+            if names.len() != positions.len() {
+                let reason = format!(
+                    "expected as many positions as names in the joint_state, {}; found {}",
+                    names.len(),
+                    positions.len()
+                );
+                return Err(Fault::new(joints.line(), reason));
+            }
+            for (name, position) in names.iter().zip(positions) {
+                state.positions.push((text(name)?, number(position)?));
+            }
+        }
+        if let Some(carried) = fields.get("attached_collision_objects")
+            && let count @ 1.. = list(carried)?.len()
+        {
+            state.notes.push(format!(
+                "its trajectory_start attaches {} to the arm, which {} not judged: state them with --tool",
+                count_with_noun(count, "object"),
+                if count == 1 { "is" } else { "are" }
+            ));
+        }
+        if let Some(base) = fields.get("multi_dof_joint_state")
+            && places_the_robot(base)?
+        {
+            state.notes.push(
+                "its trajectory_start places the robot with a joint of more than one degree of freedom, which is not used: state the place \
+                 with --mount"
+                    .to_owned(),
+            );
+        }
+        Ok(state)
+    }
+}
+
+/// Returns true where a `MultiDOFJointState` has a transform that is not the identity.
+fn places_the_robot(node: &Node<'_>) -> Result<bool, Fault> {
+    let known = ["header", "joint_names", "transforms", "twist", "wrench"];
+    let fields = Fields::of(node, "a MultiDOFJointState", &known)?;
+    check_header(&fields)?;
+    for transform in fields.get("transforms").map(list).transpose()?.unwrap_or_default() {
+        let parts = Fields::of(transform, "a Transform", &["translation", "rotation"])?;
+        for key in ["translation", "rotation"] {
+            let Some(part) = parts.get(key) else { continue };
+            Fields::of(part, "a Vector3 or a Quaternion", &["x", "y", "z", "w"])?;
+            for axis in entries(part, "a vector")? {
+                // The last part of a quaternion of no turn is 1.
+                let at_rest = if axis.key == "w" { 1.0 } else { 0.0 };
+                if number(&axis.value)? != at_rest {
+                    return Ok(true);
+                }
+            }
+        }
+    }
+    Ok(false)
+}
