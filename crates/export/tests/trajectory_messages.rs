@@ -89,7 +89,8 @@ fn wrapped_messages_are_the_trajectory_in_them() {
             "",
         ),
         wrapped(
-            "error_code: {val: 1}\nplanning_time: 0.1\nplanned_trajectory:\n  joint_trajectory:\n",
+            "error_code: {val: 1}\nplanning_time: 0.1\nexecuted_trajectory: {joint_trajectory: {joint_names: [], points: []}}\nplanned_trajectory:\n  \
+             joint_trajectory:\n",
             4,
             "",
         ),
@@ -107,6 +108,21 @@ fn wrapped_messages_are_the_trajectory_in_them() {
         // What is left out is 0.
         trajectory(0, 1.3).replacen(", time_from_start: {sec: 0, nanosec: 0}", "", 1),
         trajectory(0, 1.3).replace(", nanosec: 0", ""),
+        // As PyYAML breaks long lists: YAML 1.1 alone reads it.
+        wrapped("goal:\n  trajectory:\n", 4, "  path_tolerance: []\n")
+            .replace("joint_4, joint_5", "joint_4,\n  joint_5"),
+        wrapped("trajectory:\n", 2, "path_tolerance: [ # a [ note\n]\n").replace(
+            "[1.3, 0.6, 0.0, 0.0, 0.0, 0.0], time_from_start: {sec: 2",
+            "[1.3, 0.6,\n0.0, 0.0, # it's {\n0.0, 0.0], time_from_start: {\nsec: 2",
+        ),
+        // As the command line of ROS 1 takes durations.
+        trajectory(0, 1.3)
+            .replace("{sec: 0, nanosec: 0}", "[0, 0]")
+            .replace("{sec: 2, nanosec: 0}", "[2.0, 0.0]"),
+        format!(
+            "{{header: {{}}, goal_id: {{}}, goal: {{trajectory: {{{NAMES}, points: [{{positions: [0, 0.6, 0, 0, 0, 0], time_from_start: [0, 0]}}, \
+                 {{positions: [1.3, 0.6, 0, 0, 0, 0], time_from_start: [2, 0]}}]}}}}}}\n"
+        ),
     ] {
         assert_eq!(read("a.yaml", &text), plain, "{text}");
     }
@@ -162,7 +178,7 @@ fn statements_around_a_trajectory_are_named() {
             read(
                 "a.yaml",
                 &wrapped(
-                    "executed_trajectory: {joint_trajectory: {}}\nplanned_trajectory:\n  joint_trajectory:\n",
+                    "executed_trajectory: {joint_trajectory: {points: [{}]}}\nplanned_trajectory:\n  joint_trajectory:\n",
                     4,
                     "",
                 ),
@@ -289,8 +305,30 @@ fn other_messages_are_refused_by_name() {
         "as many positions as names in the joint_state, 2; found 1",
     );
     unread("", "expected a message; found nothing");
+    for list in ["[0.5, 0]", "[1]", "[1, -1]", "[1, 0, 0]", "[a, 0]"] {
+        let text = trajectory(0, 1.3).replace("{sec: 2, nanosec: 0}", list);
+        unread(
+            &text,
+            "a.yaml:4: expected a Duration [secs, nsecs] of two whole numbers",
+        );
+    }
+    let one: String = trajectory(0, 1.3)
+        .lines()
+        .take(3)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    unread(
+        &one,
+        "found 1: where the arm moves from is not stated; add it as the first point",
+    );
     unread("---\n---\n", "expected a message; found nothing");
     unread("a: &a [*a]\n", "an alias of a value that contains it");
+    // Brackets within words begin nothing.
+    unread("header: {frame_id: a}\n b: [1\nc: 2]\n", "a.yaml:2: not YAML");
+    unread(
+        &wrapped("trajectory:\n  header: {frame_id: 'a [b'}\n d: [\n", 2, ""),
+        "not YAML",
+    );
     // Aliases do not multiply a text without bounds.
     let bomb: String = (0..14)
         .map(|k| match k {

@@ -145,6 +145,36 @@ pub(crate) fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>,
     }
 }
 
+/// Returns a text with every line that continues a list or table in brackets indented far. YAML 1.2 wants such a line farther in than the key
+/// before; YAML 1.1, in which ROS writes and reads messages, does not.
+pub(crate) fn with_indented_brackets(text: &str) -> String {
+    const FAR: &str = "                                ";
+    let mut out = String::with_capacity(text.len());
+    let mut depth = 0_usize;
+    for line in text.split_inclusive('\n') {
+        if depth > 0 {
+            out.push_str(FAR);
+        }
+        out.push_str(line);
+        let (mut quote, mut before) = (None, None);
+        for c in line.chars() {
+            // A bracket, quotation mark or sign of a comment begins something where a value may begin.
+            let begins = before.is_none_or(|c| matches!(c, ' ' | '\t' | ':' | '-' | ',' | '[' | '{'));
+            match (quote, c) {
+                (Some(mark), c) if c == mark => quote = None,
+                (Some(_), _) => {}
+                (None, '"' | '\'') if begins => quote = Some(c),
+                (None, '#') if begins => break,
+                (None, '[' | '{') if begins || depth > 0 => depth += 1,
+                (None, ']' | '}') => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            before = Some(c);
+        }
+    }
+    out
+}
+
 struct Events<'a> {
     parser: Parser<'a, saphyr_parser::StrInput<'a>>,
     language: Language,

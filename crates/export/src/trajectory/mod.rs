@@ -112,7 +112,10 @@ impl PointMotion {
 #[non_exhaustive]
 pub enum PointsError {
     /// There are fewer than two points.
-    #[error("expected two points at least; found {found}")]
+    #[error(
+        "expected two points at least; found {found}{}",
+        if *.found == 1 { ": where the arm moves from is not stated; add it as the first point" } else { "" }
+    )]
     TooFew {
         /// Number of points found.
         found: usize,

@@ -5,7 +5,7 @@
 //! the positions that are asked of the joints, and are not read.
 
 use crate::dialect::{ProgramFile, ReadError};
-use crate::ros2::node::{Fault, Kind, Node};
+use crate::ros2::node::{Fault, Kind, Node, with_indented_brackets};
 use crate::ros2::number::ParsedNumber;
 use crate::ros2::read::{Fields, documents, list, parse_number, refused, text};
 use crate::ros2::write::NS_PER_S;
@@ -29,7 +29,16 @@ pub(super) fn read_all(
     let joints = Joints { arm, fixed };
     let read = || {
         let mut all = Vec::new();
-        for root in documents(&file.name, &file.text, other)? {
+        let indented;
+        let roots = match documents(&file.name, &file.text, other) {
+            // What YAML 1.1 alone reads, as ROS does; a text that neither reads is refused for what was found first.
+            Err(fault) => {
+                indented = with_indented_brackets(&file.text);
+                documents(&file.name, &indented, other).map_err(|_| fault)?
+            }
+            roots => roots?,
+        };
+        for root in roots {
             for found in wrapper::find(&root)? {
                 all.push(joints.read(found)?);
             }
@@ -238,8 +247,19 @@ impl Columns<'_> {
     }
 }
 
-/// A duration of ROS 2 (`sec`, `nanosec`) or ROS 1 (`secs`, `nsecs`).
+/// A duration of ROS 2 (`sec`, `nanosec`) or ROS 1 (`secs`, `nsecs`, or both in a list, as its command line takes them).
 fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
+    if let Kind::List(parts) = &node.kind {
+        let whole = |part: &Node<'_>| number(part).ok().filter(|found| *found >= 0.0 && found.fract() == 0.0);
+        let parts: Vec<_> = parts.iter().map(whole).collect();
+        let [Some(s), Some(ns)] = parts[..] else {
+            return Err(Fault::new(
+                node.line,
+                "expected a Duration [secs, nsecs] of two whole numbers from 0 on; found another list",
+            ));
+        };
+        return of_nanoseconds(node, s as i128 * i128::from(NS_PER_S) + ns as i128);
+    }
     let fields = Fields::of(node, "a Duration", &["sec", "nanosec", "secs", "nsecs"])?;
     if fields.is_empty() {
         return Err(Fault::new(node.line, "expected a Duration with sec; it is missing"));
@@ -267,5 +287,9 @@ fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
         }
     };
     let ns = whole(["sec", "secs"])? * i128::from(NS_PER_S) + whole(["nanosec", "nsecs"])?;
+    of_nanoseconds(node, ns)
+}
+
+fn of_nanoseconds(node: &Node<'_>, ns: i128) -> Result<ExactTime, Fault> {
     ExactTime::of_nanoseconds(ns).ok_or_else(|| Fault::new(node.line, "expected a time of at most 1e15 s; found more"))
 }

@@ -72,7 +72,9 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
         ];
         let fields = Fields::of(root, "a result of MoveGroup", &known)?;
         let mut found = planned(&fields, "planned_trajectory", "trajectory_start")?;
-        if fields.get("executed_trajectory").is_some() {
+        let executed = fields.get("executed_trajectory").map(robot_trajectory).transpose()?;
+        let points = executed.and_then(|found| point_list(found.node));
+        if points.is_some_and(|points| !points.is_empty()) {
             found.notes.push("its executed_trajectory is not judged".to_owned());
         }
         return one(found);
@@ -117,6 +119,13 @@ fn plain<'n, 'a>(node: &'n Node<'a>) -> FoundTrajectory<'n, 'a> {
         start: None,
         notes: Vec::new(),
     }
+}
+
+/// The points of a trajectory, if it has a list of them.
+fn point_list<'n, 'a>(trajectory: &'n Node<'a>) -> Option<&'n [Node<'a>]> {
+    let entries = entries(trajectory, "a JointTrajectory").ok()?;
+    let points = entries.iter().find(|entry| entry.key == "points")?;
+    list(&points.value).ok()
 }
 
 fn has_key(node: &Node<'_>, key: &str) -> bool {
