@@ -21,11 +21,12 @@ Without Python, `cargo xtask check --only lint` and `cargo xtask test --only rus
 /// What type checkers say of the package: a part of `cargo xtask check`.
 const TYPES: &str = "tests/python/test_wheel_types.py";
 
-/// Runs `tests/python` against the release build of the command.
+/// Runs `tests/python`, and the tests of the second prover, against the release build of the command.
 pub fn tests() -> Result<()> {
     let without = format!("--ignore={TYPES}");
     let line = [
         "tests/python",
+        "checker/tests",
         &without,
         // One process a core. Tests of one file stay together: they share plans, and a cluster is alone in its process.
         // `tests/python/conftest.py` puts the longest files first, so that no core is idle at the end.

@@ -1,0 +1,1 @@
+"""A second, independent prover of platewash's plans: it confirms each requirement, or says where it cannot."""

@@ -1,0 +1,63 @@
+"""`python -m platewash_check PLAN.json`: confirms a plan, requirement by requirement."""
+
+import argparse
+import json
+import sys
+import time
+from dataclasses import asdict
+from pathlib import Path
+
+from .arm import Arm
+from .check import check
+from .plan import Plan, Refused
+from .verdict import CONFIRMED
+
+DONE, BAD_INPUT, NOT_CONFIRMED = 0, 2, 4
+
+
+def text(path):
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise Refused(f"{path}: cannot be read: {error}") from None
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="platewash_check", description=__doc__)
+    parser.add_argument("plan", help="plan file, as `platewash run` writes it")
+    parser.add_argument("--urdf", default="urdf/irb120.urdf", help="description of the arm [default: %(default)s]")
+    parser.add_argument("--srdf", help="SRDF of the arm [default: the file beside the description with the ending .srdf]")
+    parser.add_argument("--json", action="store_true", help="print the answers as JSON")
+    options = parser.parse_args(arguments)
+    began = time.time()
+
+    def progress(words):
+        if sys.stderr.isatty():
+            print(f"\r{words:<60}", end="", file=sys.stderr)
+
+    try:
+        beside = Path(options.urdf).with_suffix(".srdf")
+        srdf = options.srdf or (str(beside) if beside.exists() else None)
+        arm = Arm(text(options.urdf), text(srdf) if srdf else None)
+        answers = list(check(arm, Plan(text(options.plan)), progress))
+    except Refused as refused:
+        print(f"error: {refused}", file=sys.stderr)
+        return BAD_INPUT
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        print(f"error: {options.plan}: not a plan of the known form: {error!r}", file=sys.stderr)
+        return BAD_INPUT
+    progress("")
+    open_ones = [answer for answer in answers if answer.status != CONFIRMED]
+    first = "CONFIRMED" if not open_ones else "NOT CONFIRMED"
+    count = f"{len(answers) - len(open_ones)} of {len(answers)} requirements confirmed in {time.time() - began:.1f} s"
+    if options.json:
+        print(json.dumps({"confirmed": not open_ones, "headline": f"{first}: {count}", "answers": [asdict(a) for a in answers]}))
+    else:
+        print(f"{first}: {count}")
+        for answer in answers:
+            print(answer.line())
+    return DONE if not open_ones else NOT_CONFIRMED
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,177 @@
+"""Statements of the plan about itself: 1 to 14 of the certificate that need no bound on the tool's motion."""
+
+import numpy as np
+
+from .verdict import judged, stated
+
+# Differences that are rounding: of lengths [m], of angles and speeds at rest [rad, rad/s], of overlaps [m].
+SAME_M, REST, OVERLAP_M = 1e-9, 1e-9, 1e-6
+WORDS = {"first": "depart", "visit": ("approach", "wash", "retreat"), "between": "transit", "last": "return"}
+
+
+def answers(arm, plan, motion, clearance):
+    yield stated("arm", list(of_arm(arm, plan)))
+    yield stated("tool", list(of_tool(plan)))
+    yield stated("plates", list(below_floor(plan)))
+    yield stated("exclusions", clearance.exclusions() + clearance.still())
+    yield stated("wash_paths", list(of_paths(plan)))
+    yield stated("segments", list(of_segments(plan)))
+    yield stated("every_plate_once", list(once(plan)))
+    yield stated("home_to_home", list(from_home(plan)))
+    yield stated("rest_at_wash_ends", list(at_rest(plan)))
+    yield stated("plates_apart", list(apart(plan, clearance)))
+    low, high, speed, acceleration = motion.extremes()
+    margin = np.minimum(low - arm.lower, arm.upper - high).min(axis=0)
+    joint = lambda values: arm.joints[int(np.argmin(values))].name
+    yield judged("joint_position", margin.min(), 0.0, "rad", joint(margin), at_least=True)
+    limits = np.array(plan.limits["joint_acceleration_rad_s2"], dtype=float)
+    # A limit may be used in full: a part in 10^9 is rounding of the planner's own sums.
+    for name, found, most, unit in (
+        ("joint_speed", speed, arm.speed, "rad/s"),
+        ("joint_acceleration", acceleration, limits, "rad/s^2"),
+    ):
+        share = (found / most).max(axis=0)
+        k = int(np.argmax(share))
+        yield judged(name, found[:, k].max(), most[k] * (1 + 1e-9), unit, arm.joints[k].name)
+
+
+def of_arm(arm, plan):
+    if plan.hash != plan.hash_found:
+        yield "the plan was changed after it was written: its hash does not match"
+    if arm.name != plan.arm["name"]:
+        yield f"the plan is of {plan.arm['name']}, the description of {arm.name}"
+    if arm.urdf_sha256 != plan.arm["urdf_sha256"]:
+        yield "the description is not the plan's (SHA-256)"
+    if arm.srdf_sha256 != plan.arm.get("srdf_sha256"):
+        yield "the SRDF is not the plan's (SHA-256)"
+
+
+def of_tool(plan):
+    """The tip is the middle of the sponge's far face, its z out of the tool; no body reaches into the sponge."""
+    tool = plan.tool
+    (r, p), (tip_r, tip_p) = tool.sponge_pose, tool.tip
+    face = p + r @ np.array([0, 0, 0.5 * tool.height])
+    if np.linalg.norm(face - tip_p) > SAME_M or np.linalg.norm(r[:, 2] - tip_r[:, 2]) > SAME_M:
+        yield "the tip is not the middle of the sponge's far face"
+    if not (tool.radius > 0 and tool.height > 0 and tool.compression >= 0):
+        yield "the sponge has no size"
+    from .clearance import Part
+
+    axis, near = r[:, 2], p - r @ np.array([0, 0, 0.5 * tool.height])
+    for body in tool.bodies:
+        part = Part(body.pose, body.shape)
+        in_part = part.r.T @ axis
+        top = part.support(in_part[None])[0] @ in_part + axis @ part.p + part.pad
+        if top > axis @ near + SAME_M:
+            yield f"{body.name} reaches beyond the sponge's near face"
+
+
+def below_floor(plan):
+    """No plate reaches below the floor: a level half-space that is an obstacle of that name."""
+    for body in plan.obstacles:
+        if body.name != "floor" or body.shape != "half_space":
+            continue
+        normal, height = body.pose[0][:, 2], body.pose[0][:, 2] @ body.pose[1]
+        for k, plate in enumerate(plan.plates):
+            across = plate.radius * np.linalg.norm(np.cross(normal, plate.normal))
+            centre = normal @ plate.pose[1]
+            low = min(centre, centre - plate.thickness * (normal @ plate.normal)) - across - height
+            if low < -SAME_M:
+                yield f"plate {k + 1} reaches {-1e3 * low:.2f} mm below the floor"
+
+
+def of_paths(plan):
+    if sorted(plan.paths) != sorted(plan.order) or [p["plate"] for p in plan.root["wash_paths"]] != plan.order:
+        yield "expected a wash path for each plate, in the order of washing"
+    for plate, path in plan.paths.items():
+        curve = path["curve"]
+        if not (1e-4 <= curve["radius_m"] <= 10 and 0.25 <= curve["turns"] <= 200 and 0 < path["lift_m"] <= 10):
+            yield f"the path of plate {plate + 1} is out of range"
+        if not path["cone_rad"] <= plan.requirements["tilt_rad"] + 1e-12:
+            yield f"the cone of plate {plate + 1} is wider than the tilt limit"
+
+
+def of_segments(plan):
+    """Depart; approach, wash and retreat of each plate, a transit between; return; without gaps, from knot to knot."""
+    kinds, plates = ["depart"], [plan.order[0] if plan.order else None]
+    for k, plate in enumerate(plan.order):
+        if k:
+            kinds.append("transit")
+            plates.append(plate)
+        kinds += ["approach", "wash", "retreat"]
+        plates += [plate] * 3
+    kinds.append("return")
+    plates.append(plan.order[-1] if plan.order else None)
+    if [s["kind"] for s in plan.segments] != kinds or [s["plate"] for s in plan.segments] != plates:
+        yield "the segments are not those of the order"
+        return
+    times = [plan.segments[0]["t_start_s"]] + [s["t_end_s"] for s in plan.segments]
+    if times[0] != 0 or times[-1] != plan.t[-1]:
+        yield "the segments do not cover the motion"
+    if any(a["t_end_s"] != b["t_start_s"] for a, b in zip(plan.segments, plan.segments[1:])):
+        yield "there is a gap between two segments"
+    if not np.isin(times, plan.t).all():
+        yield "a segment does not begin or end at a knot"
+
+
+def once(plan):
+    count = len(plan.plates)
+    if sorted(plan.order) != list(range(count)):
+        yield "not every plate is in the order once"
+    elif plan.requirements["as_listed"] and plan.order != list(range(count)):
+        yield "the plates are not washed as listed"
+    tool, tilt = plan.tool, plan.requirements["tilt_rad"]
+    sponge = tool.radius / np.cos(tilt)
+    for washed, path in plan.paths.items():
+        for other in range(count):
+            a, b = plan.plates[washed], plan.plates[other]
+            if other == washed or np.linalg.norm(np.cross(a.normal, b.normal)) > 1e-9:
+                continue
+            away = b.pose[1] - a.pose[1]
+            between = np.linalg.norm(away - (away @ a.normal) * a.normal) - a.radius - b.radius
+            # The sponge sweeps no more than the rim of another plate.
+            if path["curve"]["radius_m"] + sponge - a.radius - between > min(sponge, b.radius) + SAME_M:
+                yield f"washing plate {washed + 1} also sweeps plate {other + 1}"
+
+
+def from_home(plan):
+    for k, (knot, words) in enumerate(((0, "begins"), (-1, "ends"))):
+        if np.abs(plan.q[knot] - plan.home[k]).max() > REST or np.abs(plan.qd[knot]).max() > REST:
+            yield f"the motion {words} not at home, or not at rest"
+
+
+def at_rest(plan):
+    for segment in plan.segments:
+        span = plan.span(segment)
+        if segment["kind"] == "wash" and (span is None or np.abs(plan.qd[span]).max() > REST):
+            yield f"the arm does not rest at both ends of the wash of plate {segment['plate'] + 1}"
+
+
+def apart(plan, clearance):
+    """No two bodies that stand overlap, where one is a plate or the base."""
+    if plan.requirements["overlap"] != "fail":
+        yield "overlapping plates are only reported in this job, which is not checked"
+        return
+    still = [body for body in clearance.bodies if body.carrier == 0]
+    is_ground = lambda b: b.plane is not None and abs(b.plane[1]) <= 1e-9 and b.plane[0][2] >= 1 - 1e-9
+    for k, a in enumerate(still):
+        for b in still[k + 1 :]:
+            names = (a.name, b.name)
+            plates = [name for name in names if name.startswith("plate ")]
+            if not plates and not set(names) & clearance.links or set(names) <= clearance.links:
+                continue
+            obstacle = a if a in still and a.name not in plates and a.name not in clearance.links else b
+            if holds(plan, obstacle.name, plates) or (set(names) & clearance.links and is_ground(obstacle)):
+                continue
+            gap = clearance.at_rest(a, b)
+            if not gap >= -OVERLAP_M:
+                yield f"{a.name} and {b.name} overlap, or are not shown to be apart ({1e3 * gap:.3f} mm)"
+
+
+def holds(plan, name, plates):
+    """True for an obstacle that holds a plate, as the job states."""
+    for body in plan.obstacles:
+        if body.name == name and body.holds is not None and plates:
+            held = range(len(plan.plates)) if body.holds == "all" else body.holds
+            return int(plates[0][6:]) - 1 in list(held)
+    return False

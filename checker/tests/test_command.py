@@ -1,0 +1,105 @@
+"""Whole plans, the command, and plans that were changed."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from jobs import ROOT, irb120, sealed
+from platewash_check.check import check
+from platewash_check.clearance import Clearance
+from platewash_check.plan import Plan, Refused
+
+CHECKER = Path(__file__).resolve().parents[1]
+
+
+def run(*arguments):
+    line = [sys.executable, "-m", "platewash_check", *map(str, arguments)]
+    return subprocess.run(line, cwd=ROOT, env={"PYTHONPATH": str(CHECKER)}, capture_output=True, text=True)
+
+
+def test_a_plan_is_confirmed_with_the_numbers_of_its_certificate(plan_file):
+    made = plan_file("sink")
+    found = run(made, "--json")
+    assert found.returncode == 0, found.stdout + found.stderr
+    answer = json.loads(found.stdout)
+    assert answer["confirmed"] and answer["headline"].startswith("CONFIRMED: 31 of 31 requirements")
+    bounds = {a["requirement"]: a["bound"] for a in answer["answers"]}
+    # Numbers of platewash's own certificate of this plan, in its units: the two programs agree to a few per cent.
+    for name, least, most in (("wash_speed", 0.2, 0.25), ("pressed", 0.995, 1.0), ("contact_dose", 0.98, 1.0), ("strain", 0.2, 0.4)):
+        assert least <= bounds[name] <= most, (name, bounds[name])
+
+
+def test_bad_files_are_refused(tmp_path, plan_file):
+    good = json.loads(plan_file("sink").read_text())
+    for change, words in (
+        (lambda p: p.update(more=1), "the key 'more' is not known"),
+        (lambda p: p["job"]["workcell"]["tool"].update(handle=1), "tool: the key 'handle' is not known"),
+        (lambda p: p.pop("knots"), "expected the key 'knots'"),
+        (lambda p: p["knots"]["t_s"].pop(), "expected as many times"),
+        (lambda p: p["knots"]["q_rad"][3].pop(), "knots.q_rad"),
+        (lambda p: p["job"]["plates"][0]["pose"].update(quaternion_wxyz=[1, 1, 0, 0]), "expected a length of 1"),
+        (lambda p: p.update(format="platewash-plan/1"), "expected platewash-plan/2"),
+    ):
+        bad = json.loads(json.dumps(good))
+        change(bad)
+        file = tmp_path / "bad.json"
+        file.write_text(json.dumps(bad))
+        found = run(file)
+        assert found.returncode == 2 and words in found.stderr and not found.stdout, found.stderr
+    for text, words in (("{", "not JSON"), ('{"a": NaN}', "NaN"), ('{"a": 1, "a": 2}', "stands twice")):
+        with pytest.raises(Refused, match=words):
+            Plan(text)
+    assert run("none.json").returncode == 2
+
+
+# A requirement, and a change of the plan that breaks it.
+MUTATIONS = {
+    "arm": lambda p, rng: p["job"].update(seed=p["job"]["seed"] + 1),
+    "joint_acceleration": lambda p, rng: scale(p["job"]["limits"]["joint_acceleration_rad_s2"], 0, rng.uniform(0.3, 0.9)),
+    "tip_speed": lambda p, rng: scale(p["job"]["limits"], "tip_speed_m_s", rng.uniform(0.3, 0.6)),
+    "tip_acceleration": lambda p, rng: scale(p["job"]["limits"], "tip_acceleration_m_s2", rng.uniform(0.23, 0.3)),
+    "wash_speed": lambda p, rng: scale(p["job"]["requirements"], "wash_speed_m_s", rng.uniform(0.5, 0.99)),
+    "wash_acceleration": lambda p, rng: scale(p["job"]["requirements"], "wash_acceleration_m_s2", rng.uniform(0.1, 0.3)),
+    "tilt": lambda p, rng: scale(p["wash_paths"][0], "cone_rad", rng.uniform(0.3, 0.8)),
+    "contact_height": lambda p, rng: lift(p, rng.uniform(3e-4, 2e-3)),
+    "path_deviation": lambda p, rng: scale(p["wash_paths"][0]["curve"], "start_angle_rad", 1 + rng.uniform(0.01, 0.1)),
+    "contact_speed": lambda p, rng: scale(p["job"]["requirements"], "landing_m_s", rng.uniform(0.2, 0.8)),
+    "clearance": lambda p, rng: scale(p["job"]["requirements"], "clearance_m", rng.uniform(1.5, 4)),
+    "swept": lambda p, rng: p["job"]["requirements"].update(coverage=0.9999),
+    "pressed": lambda p, rng: p["job"]["requirements"]["contact"].update(share=0.9999),
+    "contact_time": lambda p, rng: scale(p["job"]["requirements"]["contact"], "time_s", rng.uniform(3, 9)),
+    "contact_dose": lambda p, rng: scale(p["job"]["requirements"]["contact"], "dose_pa_m", rng.uniform(2, 9)),
+    "strain": lambda p, rng: scale(p["job"]["requirements"]["contact"], "strain", rng.uniform(0.2, 0.4)),
+    "contact_force": lambda p, rng: scale(p["job"]["requirements"]["contact"]["force_n"], 1, rng.uniform(0.1, 0.4)),
+    "wrist": lambda p, rng: p["job"]["requirements"].update(wrist_rad=rng.uniform(0.6, 1.2)),
+    "home_to_home": lambda p, rng: scale(p["knots"]["qd_rad_s"][0], 0, 0, 1e-3),
+    "plates_apart": lambda p, rng: scale(p["job"]["plates"][0]["surface"], "radius_m", 2.5),
+    "exclusions": lambda p, rng: p["job"]["workcell"]["exclusions"].append({"pair": ["link_3", "floor"], "reason": "srdf"}),
+}
+
+
+def scale(table, key, by, plus=0.0):
+    table[key] = table[key] * by + plus
+
+
+def lift(p, by):
+    p["job"]["plates"][0]["pose"]["position_m"][2] += by
+
+
+@pytest.mark.parametrize("requirement", MUTATIONS)
+def test_changed_plans_are_not_confirmed(requirement, plan_file, monkeypatch):
+    table = json.loads(plan_file("sink").read_text())
+    MUTATIONS[requirement](table, np.random.default_rng(list(MUTATIONS).index(requirement)))
+    text = json.dumps(table) if requirement == "arm" else sealed(table)
+    if requirement != "clearance":
+        # It takes longest, and is none of what is changed.
+        monkeypatch.setattr(Clearance, "run", lambda self, progress: (np.inf, None, 0.0))
+    found = {}
+    for answer in check(irb120(), Plan(text)):
+        found[answer.requirement] = answer.status
+        if answer.requirement == requirement:
+            break
+    assert found[requirement] == "not_confirmed", found
