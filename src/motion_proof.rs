@@ -251,6 +251,14 @@ impl MotionReport {
         fault.pair.as_ref()
     }
 
+    /// Returns what the first line says beside the verdict: speeds at the ends, and notes; one clause each.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let ends = self.ends_words();
+        let ends = ends.split("; ").filter(|clause| !clause.is_empty() && self.proved);
+        ends.map(str::to_owned).chain(self.notes.iter().cloned()).collect()
+    }
+
     /// Adds a fact beside the verdict to the notes and to the first line; one clause.
     pub fn note(&mut self, words: &str) {
         self.headline += &format!("; {words}");

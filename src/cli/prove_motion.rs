@@ -211,9 +211,17 @@ impl ReportList {
             .enumerate()
             .find(|(_, placed)| !placed.report.proved);
         let headline = match at_fault {
-            None => format!(
-                "PROVED: {count} trajectories, each by itself; how the arm gets from the end of one to the start of the next is not judged"
-            ),
+            None => {
+                let remarks = trajectories.iter().enumerate().flat_map(|(k, placed)| {
+                    let of_one = placed.report.remarks().into_iter();
+                    of_one.map(move |words| format!("; trajectory {}: {words}", k + 1))
+                });
+                format!(
+                    "PROVED: {count} trajectories, each by itself; how the arm gets from the end of one to the start of the next is not \
+                     judged{}",
+                    remarks.collect::<String>()
+                )
+            }
             Some((k, PlacedReport { line, report })) => {
                 let (verdict, words) = report
                     .headline

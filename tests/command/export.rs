@@ -478,6 +478,60 @@ fn a_script_with_other_settings_of_the_motion_does_not_hold() {
         );
         assert!(ran.stdout.contains("NOT KEPT"), "{to}: {}", ran.stdout);
     }
+    // The end, and names of the controller.
+    let last = text.lines().rfind(|line| line.contains("movej([")).unwrap();
+    let ran = verify(&format!("{last}\n"), "");
+    assert!(
+        ran.code == 4 && ran.stdout.contains("; end nothing (movej behind stopj handed over)"),
+        "{}",
+        ran.stdout
+    );
+    let wash = text.lines().filter(|line| line.contains("servoj(")).nth(400).unwrap();
+    let target = wash.split_once("servoj(").unwrap().1.split_once(']').unwrap().0;
+    for (from, to, words) in [
+        (
+            wash,
+            format!("{wash}\n    movej({target}], a=0.1, v=0.05)"),
+            "movej while the arm moves",
+        ),
+        (
+            "  movej(start",
+            "  set_payload(3.0, [0.0, 0.0, 0.05])\n  movej(start".to_owned(),
+            "payload",
+        ),
+        (
+            "  start =",
+            "  def norm():\n  end\n  start =".to_owned(),
+            "`norm` is the controller's own",
+        ),
+        (
+            "  start =",
+            "  get_actual_joint_positions = [0, 0, 0, 0, 0, 0]\n  start =".to_owned(),
+            "is the controller's own",
+        ),
+    ] {
+        verify(from, &to).refused(2, &[words]);
+    }
+    // The share that nothing uses.
+    let said = verify("  global speed_share = 0.5\n", "").done().stdout;
+    assert!(said.starts_with("HOLDS: urscript program"), "{said}");
+    let without_tip: String = text
+        .lines()
+        .filter(|line| !line.contains("set_tcp("))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let ran = verify(&text, &without_tip);
+    assert!(
+        ran.code == 4
+            && ran
+                .stdout
+                .lines()
+                .next()
+                .unwrap()
+                .contains("; tool or load not the plan's"),
+        "{}",
+        ran.stdout
+    );
     // Messages, outputs and comments change nothing.
     let said = verify(
         "  stopj(2.0)",
@@ -640,6 +694,26 @@ fn a_module_with_other_settings_of_the_motion_does_not_hold() {
             ran.stdout
         );
     }
+    let (undivided, faster) = (
+        text.replace("/pwRunning", ""),
+        "; \\T divided by pwRunning no (yes handed over)",
+    );
+    let said = verify(&undivided).stdout;
+    assert!(
+        said.starts_with("DOES NOT HOLD") && said.lines().next().unwrap().contains(faster),
+        "{said}"
+    );
+    // A joint speed that is kept at the stated share, and not at the greatest one that the program takes.
+    let target = middle.split("[[").nth(1).unwrap().split(']').next().unwrap();
+    let sixth = target.rsplit(',').next().unwrap();
+    let turned = format!("{:.4}", sixth.parse::<f64>().unwrap() + 60.0);
+    let fast = in_the_middle(&format!(",{sixth}]"), &format!(",{turned}]")).replacen(
+        "PERS num pwShare:=0.5;",
+        "PERS num pwShare:=0.01;",
+        1,
+    );
+    let said = verify(&fast).stdout;
+    assert!(said.contains("joint speed          NOT KEPT"), "{said}");
     for (text, words) in [
         (
             edited(&middle, &format!("    AccSet 50,100;\n{middle}")),
@@ -771,12 +845,12 @@ fn a_goal_with_other_settings_of_the_motion_does_not_hold() {
         (
             late,
             late.replace("sec: 1", "sec: 0"),
-            "goal_time_tolerance the controller's own (1 handed over)".to_owned(),
+            "goal_time_tolerance the controller's own (1.0 handed over)".to_owned(),
         ),
         (
             late,
             "goal_time_tolerance: {sec: 0, nanosec: 5}".to_owned(),
-            "goal_time_tolerance 0.000000005".to_owned(),
+            "goal_time_tolerance 5e-9".to_owned(),
         ),
     ] {
         let ran = verify(from, &to);
@@ -799,6 +873,15 @@ fn a_goal_with_other_settings_of_the_motion_does_not_hold() {
     ] {
         verify(from, to).refused(2, &["follow_joint_trajectory.yaml:", words]);
     }
+    // What it was made for is no less than the share at which it runs.
+    let lone = text.replacen(
+        "# platewash setting: speed_share = 1",
+        "# platewash setting: speed_share = 0.5",
+        1,
+    );
+    fs::write(dir.join("lone.yaml"), lone).unwrap();
+    platewash(dir, &["verify", "out/plan.json", "--program", "lone.yaml"])
+        .refused(2, &["states the speed share 1", "speed_share = 0.5"]);
     // Wider ones, and none.
     for (from, to) in [
         (path_line, path_tolerance("0.9")),
@@ -809,4 +892,63 @@ fn a_goal_with_other_settings_of_the_motion_does_not_hold() {
         let said = verify(from, &to).done().stdout;
         assert!(said.starts_with("HOLDS: ros2 program"), "{to}: {said}");
     }
+}
+
+/// A file is known by its lines, whatever its name and its ending.
+#[test]
+fn renamed_files_of_a_program_are_no_change() {
+    let folder = planned();
+    let dir = folder.path();
+    for target in ["ros2", "rapid"] {
+        platewash(
+            dir,
+            &["export", "out/plan.json", "--to", target, "--out", target, "--quiet"],
+        )
+        .done();
+    }
+    for (file, name, start) in [
+        (
+            "ros2/joint_trajectory.yaml",
+            "washing.yml",
+            "HOLDS, START NOT CHECKED: ros2",
+        ),
+        (
+            "ros2/joint_trajectory.json",
+            "washing.json",
+            "HOLDS, START NOT CHECKED: ros2",
+        ),
+        (
+            "ros2/follow_joint_trajectory.yaml",
+            "goal.yaml",
+            "HOLDS, START NOT CHECKED: ros2",
+        ),
+        ("rapid/kitchen.mod", "kitchen.prg", "HOLDS: rapid"),
+        ("rapid/kitchen.mod", "KITCHEN.SYS", "HOLDS: rapid"),
+        ("rapid/kitchen.mod", "module.txt", "HOLDS: rapid"),
+    ] {
+        fs::copy(dir.join(file), dir.join(name)).unwrap();
+        let said = platewash(dir, &["verify", "out/plan.json", "--program", name])
+            .done()
+            .stdout;
+        assert!(
+            said.starts_with(start) && said.contains("as it was handed over"),
+            "{name}: {said}"
+        );
+    }
+    // The player sends a goal that was not given.
+    let others = ["verify", "out/plan.json", "--program", "washing.yml", "play.py"];
+    fs::copy(dir.join("ros2/play.py"), dir.join("play.py")).unwrap();
+    let said = platewash(dir, &others).done().stdout;
+    assert!(said.starts_with("HOLDS, START NOT CHECKED: ros2"), "{said}");
+    // Marks of byte order are no part of a text.
+    let json = fs::read_to_string(dir.join("washing.json")).unwrap();
+    fs::write(dir.join("marked.json"), format!("\u{feff}{json}")).unwrap();
+    platewash(dir, &["verify", "out/plan.json", "--program", "marked.json"]).done();
+    fs::write(
+        dir.join("none.csv"),
+        "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0,0,0,0,0,0\n",
+    )
+    .unwrap();
+    platewash(dir, &["verify", "out/plan.json", "--program", "none.csv"])
+        .refused(2, &["none.csv:1", "\"t_s\" is missing"]);
 }

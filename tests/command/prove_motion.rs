@@ -392,6 +392,10 @@ fn numbers_of_usual_rounding_are_readable() {
     );
 }
 
+fn both_with_stamp(first: &str, second: &str) -> String {
+    format!("{first}header: {{stamp: {{sec: 5, nanosec: 0}}, frame_id: ''}}\n{second}")
+}
+
 /// A document of YAML each, of which the second runs into the post.
 #[test]
 fn each_trajectory_of_a_file_is_judged() {
@@ -439,6 +443,17 @@ fn each_trajectory_of_a_file_is_judged() {
         "{details}"
     );
     prove(dir, &[&both, "--page", "page.html"]).refused(2, &["--page: both.yaml", "found 2"]);
+    let stamped = both_with_stamp(&message(-1.3), &message(1.3));
+    let stamped = write(dir, "stamped.yaml", &stamped);
+    let first = prove(dir, &[&stamped]).done().stdout;
+    assert!(
+        first
+            .lines()
+            .next()
+            .unwrap()
+            .contains("; trajectory 2: its header.stamp is 5 s"),
+        "{first}"
+    );
     let alone = prove(dir, &[&both]).done().stdout;
     assert!(
         alone.starts_with("PROVED: 2 trajectories, each by itself; how the arm gets from the end of one to the start of the next is not"),

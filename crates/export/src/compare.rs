@@ -14,6 +14,7 @@ use crate::judgement::{self, ProgramJudgement};
 use crate::reading::{ReadPoint, Reading, number_length};
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
+use crate::tool_frame;
 use platewash_certificate::{Certified, ProveError};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
@@ -80,6 +81,19 @@ pub enum CompareError {
         /// The file's name.
         name: String,
     },
+    /// A program states a greater share of the speed than the one that it was made for.
+    #[error(
+        "{name}: it states the speed share {found}, and a line \"platewash setting: speed_share = {made}\" that it was made for that: both must \
+         say the same"
+    )]
+    Share {
+        /// The file's name.
+        name: String,
+        /// Share that the program states.
+        found: f64,
+        /// Share that it was made for.
+        made: f64,
+    },
     /// The program that was handed over cannot be made again.
     #[error("the program that was handed over cannot be made again: {0}")]
     Again(ExportError),
@@ -125,6 +139,16 @@ pub(crate) fn compare_in(
     let mut texts = files.iter().map(|file| &file.text);
     let settings = texts.try_fold(otherwise, |settings, text| ExportSettings::stated(text, settings));
     let settings = settings.ok_or_else(|| CompareError::Setting { name: name(files) })?;
+    // A program whose greatest share stands in it is compared by that.
+    if let (Some(share), None) = (found.speed_share, found.most_share)
+        && share > settings.speed_share * (1.0 + DIGITS)
+    {
+        return Err(CompareError::Share {
+            name: name(files),
+            found: share,
+            made: settings.speed_share,
+        });
+    }
     // A text that states no share of the speed runs at the one that it was made with.
     let at_share = |reading: Reading| Reading {
         speed_share: reading.speed_share.or(Some(settings.speed_share)),
@@ -136,7 +160,11 @@ pub(crate) fn compare_in(
         other => other.map_err(CompareError::Again)?,
     };
     // Of a program in several files that say the same, the ones that are given.
-    let given = |file: &&ProgramFile| files.iter().any(|other| other.name == file.name);
+    let given = |file: &&ProgramFile| {
+        files
+            .iter()
+            .any(|other| same_file(other, &expected.files) == Some(*file))
+    };
     let given: Vec<_> = expected.files.iter().filter(given).cloned().collect();
     let said = dialect.read(&given, arm);
     let said = said.map_or_else(|_| expected.reading.clone(), at_share);
@@ -158,9 +186,11 @@ pub(crate) fn compare_in(
             .start_within_deg
             .is_some_and(|within_deg| within_deg <= most_deg * (1.0 + DIGITS)),
         settings: settings_changed,
-        tool: found
-            .tool
-            .and_then(|tool| tool.refusal(&certified.plan().job.workcell.tool)),
+        tool: tool_frame::refusal(
+            found.tool.as_ref(),
+            said.tool.as_ref(),
+            &certified.plan().job.workcell.tool,
+        ),
     })
 }
 
@@ -230,7 +260,7 @@ pub(crate) fn changes(found: ParsedProgram<'_>, expected: ParsedProgram<'_>) -> 
     let rounding_s = rounding_s(found.1, expected.1);
     let mut all = Vec::new();
     for file in found.0 {
-        let expected = same_file(file, found.0, expected.0);
+        let expected = same_file(file, expected.0);
         let in_order = expected.and_then(|expected| in_columns_of(&file.text, &expected.text));
         let in_order = in_order.map(|text| ProgramFile {
             name: file.name.clone(),
@@ -247,18 +277,20 @@ pub(crate) fn changes(found: ParsedProgram<'_>, expected: ParsedProgram<'_>) -> 
     all
 }
 
-/// The file of a program that another file is: the one of its name, or one of its kind whose name no file has, with the most equal lines. A
-/// new name is no change.
-fn same_file<'a>(file: &ProgramFile, found: &[ProgramFile], expected: &'a [ProgramFile]) -> Option<&'a ProgramFile> {
-    let kind = |name: &str| name.rsplit_once('.').map(|(_, kind)| kind.to_ascii_lowercase());
-    let is_free = |other: &&ProgramFile| found.iter().all(|file| file.name != other.name);
-    let lines: HashSet<&str> = file.text.lines().collect();
-    let alike = |other: &&ProgramFile| other.text.lines().filter(|line| lines.contains(line)).count();
-    let named = expected.iter().find(|other| other.name == file.name);
-    let of_kind = expected
-        .iter()
-        .filter(|other| kind(&other.name) == kind(&file.name) && is_free(other));
-    named.or_else(|| of_kind.max_by_key(alike))
+/// The file of a program that another file is: of those of its kind, or else of all, the one with the most equal lines, and of several the one of
+/// its name. A new name is no change.
+fn same_file<'a>(file: &ProgramFile, expected: &'a [ProgramFile]) -> Option<&'a ProgramFile> {
+    let kind = |name: &str| match name.rsplit_once('.').map(|(_, kind)| kind.to_ascii_lowercase()) {
+        Some(kind) if kind == "yml" => Some("yaml".to_owned()),
+        kind => kind,
+    };
+    let lines: HashSet<&str> = file.text.lines().map(str::trim_end).collect();
+    let alike = |other: &&ProgramFile| {
+        let count = other.text.lines().filter(|line| lines.contains(line)).count();
+        (count, other.name == file.name)
+    };
+    let of_kind = expected.iter().filter(|other| kind(&other.name) == kind(&file.name));
+    of_kind.max_by_key(alike).or_else(|| expected.iter().max_by_key(alike))
 }
 
 /// The text of a table with its columns in the order of another one; `None` where it is no table of the same columns, or has them so.

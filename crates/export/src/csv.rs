@@ -55,10 +55,7 @@ impl Dialect for Csv {
                 .any(|known| *known == name)
         };
         let names = || head.split(',').map(str::trim);
-        let is_in_any_order = names().all(is_known)
-            && [TIMES[0], POSITIONS[0]]
-                .into_iter()
-                .all(|name| names().any(|other| other == name));
+        let is_in_any_order = names().all(is_known) && names().any(|other| other == POSITIONS[0]);
         is_table(file) && (begins || is_in_any_order)
     }
 
@@ -240,6 +237,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         interpolation,
         tool: None,
         start_within_deg: None,
+        most_share: None,
         settings: Vec::new(),
     })
 }

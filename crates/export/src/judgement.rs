@@ -70,7 +70,7 @@ pub fn judge(
     let limits = ProgramLimits {
         deviation_m: tolerance_m,
         joint_speed_share: JOINT_SPEED_SHARE,
-        speed_share: reading.share(),
+        speed_share: reading.greatest_share(),
     };
     let case = |motion: ProgramMotion| {
         Ok(Case {

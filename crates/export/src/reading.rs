@@ -13,6 +13,8 @@ use platewash_workcell::words::shortened;
 pub struct Reading {
     /// Share of the plan's speed that the program itself states; `None` where it states none.
     pub speed_share: Option<f64>,
+    /// Greatest share at which it may be run without another text; `None` where that is the stated one.
+    pub most_share: Option<f64>,
     /// Points in the order in which they are reached; the first is where the arm must stand.
     pub points: Vec<ReadPoint>,
     /// Motion that the arm is assumed to make from one point to the next.
@@ -31,6 +33,12 @@ impl Reading {
     #[must_use]
     pub fn share(&self) -> f64 {
         self.speed_share.unwrap_or(1.0)
+    }
+
+    /// Returns the greatest share of the plan's speed at which the program may be run as it stands.
+    #[must_use]
+    pub fn greatest_share(&self) -> f64 {
+        self.most_share.unwrap_or(0.0).max(self.share())
     }
 }
 

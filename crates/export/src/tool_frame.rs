@@ -38,6 +38,23 @@ pub(crate) fn check(found: &Pose, expected: &Pose) -> Result<(), Refusal> {
 /// Largest difference of a part of the inertia from the plan's: as a share of its greatest part, and what digits round away \[kg·m²\].
 const INERTIA_WITHIN: (f64, f64) = (1e-2, 2e-9);
 
+/// Returns the refusal of the tool that a program states, beside what was handed over of a plan: a part that is no longer stated, or is
+/// another one.
+pub(crate) fn refusal(found: Option<&ReadTool>, handed_over: Option<&ReadTool>, plan: &Tool) -> Option<Refusal> {
+    let Some(found) = found else {
+        return handed_over.map(|_| Refusal::Load {
+            reason: "the program sets no tool, as it did when it was handed over: neither its tip nor its load"
+                .to_owned(),
+        });
+    };
+    if found.tip.is_none() && handed_over.is_some_and(|tool| tool.tip.is_some()) {
+        return Some(Refusal::Frame {
+            reason: "the program does not set the tool's tip, as it did when it was handed over".to_owned(),
+        });
+    }
+    found.refusal(plan)
+}
+
 impl ReadTool {
     /// Returns the refusal if it is not the tool of a plan.
     pub(crate) fn refusal(&self, plan: &Tool) -> Option<Refusal> {

@@ -31,6 +31,7 @@ fn reading(steps: &[(f64, [f64; 6], Option<f64>)], interpolation: SegmentShape) 
         interpolation,
         tool: None,
         start_within_deg: None,
+        most_share: None,
         settings: Vec::new(),
     }
 }

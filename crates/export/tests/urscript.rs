@@ -252,7 +252,7 @@ fn rejects_faults_with_their_line() {
             "set_digital_out(1, True)",
             "set_tcp(p[0,0,0,0,0,0])",
             28,
-            "set in the midst of the motion",
+            "set behind a motion",
         ),
         (
             28,
@@ -273,7 +273,7 @@ fn rejects_faults_with_their_line() {
             "set_digital_out(1, True)",
             "def textmsg():\n  end",
             28,
-            "an instruction of the controller",
+            "is the controller's own",
         ),
         (
             28,

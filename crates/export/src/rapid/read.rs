@@ -406,8 +406,9 @@ struct Run<'a> {
     points: Vec<ReadPoint>,
     tool: Option<ReadTool>,
     settings: SettingList,
-    /// The share of the run, once it was checked.
+    /// The share of the run, once it was checked, and the greatest that the check lets through.
     running: Option<f32>,
+    most_share: Option<f64>,
     /// Configuration in which the arm was found to stand, once it was checked \[rad\].
     start_rad: Option<JointVector>,
     is_over: bool,
@@ -424,6 +425,7 @@ impl<'a> Run<'a> {
             tool: None,
             settings: SettingList::default(),
             running: None,
+            most_share: None,
             start_rad: None,
             is_over: false,
             steps: 0,
@@ -502,6 +504,7 @@ impl<'a> Run<'a> {
                     ));
                 }
                 self.running = Some(share);
+                self.most_share = most.to_string().parse().ok();
                 if let Some(Data { place, .. }) = self.modules.data.get(&MOST.to_ascii_lowercase()) {
                     let accepted = Accepted::AtMost(f64::from(most));
                     self.settings.note_with(MOST, &most.to_string(), place, accepted);
@@ -546,6 +549,10 @@ impl<'a> Run<'a> {
                 .settings
                 .note("speed data of the motion to the start", &motion.speed, place),
             (false, _) => self.settings.note("speed data", &motion.speed, place),
+        }
+        if let (false, Some(time)) = (self.points.is_empty(), motion.time) {
+            let value = if time.is_divided { "yes" } else { "no" };
+            self.settings.note("\\T divided by pwRunning", value, place);
         }
         self.settings.note("zone", &motion.zone, place);
         let (t_s, place) = match (self.points.last(), motion.time) {
@@ -639,6 +646,7 @@ impl<'a> Run<'a> {
             interpolation: SegmentShape::RoundedLines,
             tool: self.tool,
             start_within_deg: self.start_rad.map(|_| within_deg),
+            most_share: self.most_share,
             settings: self.settings.into_vec(),
         })
     }

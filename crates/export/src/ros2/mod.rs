@@ -25,12 +25,15 @@ use platewash_workcell::job::JobTerms;
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
 pub const TRAJECTORY_JSON: &str = "joint_trajectory.json";
 
+/// The goal that the player sends.
+const SENT: &str = "follow_joint_trajectory.json";
+
 /// The files of a program: the messages, each of which can be sent, and the player, which sends one of them.
 pub const FILES: [&str; 5] = [
     "joint_trajectory.yaml",
     TRAJECTORY_JSON,
     "follow_joint_trajectory.yaml",
-    "follow_joint_trajectory.json",
+    SENT,
     write::NAME,
 ];
 
@@ -91,9 +94,10 @@ impl Dialect for Ros2 {
         let (players, messages): (Vec<_>, Vec<_>) = files.iter().partition(|file| write::is_script(file));
         // The player compares the start; a message alone cannot.
         let mut start_within_deg = None;
+        let is_sent = messages.iter().any(|file| file.name == SENT);
         for player in players {
             let within_deg = write::check(player).map_err(|fault| read::refused(player, fault))?;
-            start_within_deg = Some(within_deg);
+            start_within_deg = is_sent.then_some(within_deg);
         }
         read::reading(&messages, arm).map(|reading| Reading {
             start_within_deg,

@@ -13,7 +13,7 @@ use crate::ros2::node::{self, Entry, Fault, Kind, Node};
 use crate::ros2::number::{self, ParsedNumber};
 use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::words::quoted;
+use platewash_workcell::words::{quoted, without_mark};
 
 /// Greatest last speed that the controller takes for zero \[rad/s\].
 const AT_REST_RAD_S: f64 = f32::EPSILON as f64;
@@ -57,11 +57,13 @@ pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Readin
 
 /// Reads a text as a tree, by the end of its file's name. `other` is the reason to refuse another name.
 fn document<'a>(name: &str, text: &'a str, other: &str) -> Result<Node<'a>, Fault> {
+    let text = without_mark(text);
     node::read(text, language(name, text, other)?)
 }
 
 /// Reads a text of several documents as trees, by the end of its file's name. `other` is the reason to refuse another name.
 pub(crate) fn documents<'a>(name: &str, text: &'a str, other: &str) -> Result<Vec<Node<'a>>, Fault> {
+    let text = without_mark(text);
     node::documents(text, language(name, text, other)?)
 }
 
@@ -94,6 +96,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
         interpolation: SegmentShape::Cubics,
         tool: None,
         start_within_deg: None,
+        most_share: None,
         settings: settings.into_vec(),
     })
 }
@@ -267,7 +270,7 @@ fn tolerance_setting(found: f64) -> (String, Accepted) {
     match found {
         -1.0 => ("none".to_owned(), Accepted::AtLeast(f64::INFINITY)),
         0.0 => ("the controller's own".to_owned(), Accepted::Equal),
-        found => (found.to_string(), Accepted::AtLeast(found)),
+        found => (format!("{found:?}"), Accepted::AtLeast(found)),
     }
 }
 

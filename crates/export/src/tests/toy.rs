@@ -85,6 +85,7 @@ impl Dialect for Toy {
             interpolation: SegmentShape::RoundedLines,
             tool: None,
             start_within_deg: None,
+            most_share: None,
             settings: Vec::new(),
         })
     }

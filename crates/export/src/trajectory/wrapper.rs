@@ -72,7 +72,11 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
         ];
         let fields = Fields::of(root, "a result of MoveGroup", &known)?;
         let mut found = planned(&fields, "planned_trajectory", "trajectory_start")?;
-        let executed = fields.get("executed_trajectory").map(robot_trajectory).transpose()?;
+        let executed = fields.get("executed_trajectory");
+        let executed = executed
+            .filter(|node| has_key(node, "joint_trajectory"))
+            .map(robot_trajectory)
+            .transpose()?;
         let points = executed.and_then(|found| point_list(found.node));
         if points.is_some_and(|points| !points.is_empty()) {
             found.notes.push("its executed_trajectory is not judged".to_owned());
@@ -364,9 +368,9 @@ fn places_the_robot(node: &Node<'_>) -> Result<bool, Fault> {
             let Some(part) = parts.get(key) else { continue };
             Fields::of(part, "a Vector3 or a Quaternion", &["x", "y", "z", "w"])?;
             for axis in entries(part, "a vector")? {
-                // The last part of a quaternion of no turn is 1.
-                let at_rest = if axis.key == "w" { 1.0 } else { 0.0 };
-                if number(&axis.value)? != at_rest {
+                // The last part of a quaternion of no turn is 1 or -1.
+                let (found, at_rest) = (number(&axis.value)?, if axis.key == "w" { 1.0 } else { 0.0 });
+                if found.abs() != at_rest {
                     return Ok(true);
                 }
             }

@@ -138,12 +138,14 @@ impl Controller {
     pub(crate) fn instruction(&mut self, name: &str, values: &ParameterValues, place: Place) -> Result<(), String> {
         match name {
             "set_tcp" => {
-                self.check_standing("the tip")?;
-                self.tip = Some(pose(required(values, 0, "pose")?)?);
+                let tip = pose(required(values, 0, "pose")?)?;
+                self.check_first("the tip", self.tip.is_some_and(|before| before != tip))?;
+                self.tip = Some(tip);
             }
             "set_payload" => {
-                self.check_standing("the payload")?;
-                self.load = Some(load(values)?);
+                let load = load(values)?;
+                self.check_first("the payload", self.load.is_some_and(|before| before != load))?;
+                self.load = Some(load);
             }
             "movej" => return self.movej(values, place),
             "servoj" => return self.servoj(values, place),
@@ -167,11 +169,12 @@ impl Controller {
         Ok(())
     }
 
-    /// Checks that the arm does not move yet: the tool must not change in the midst of the motion.
-    fn check_standing(&self, what: &str) -> Result<(), String> {
-        match self.moves() {
-            true => Err(format!("{what} is set in the midst of the motion; expected before it")),
-            false => Ok(()),
+    /// Checks that a tool is set before any motion, and not to something else than before.
+    fn check_first(&self, what: &str, is_other: bool) -> Result<(), String> {
+        match (self.points.is_empty(), is_other) {
+            (true, false) => Ok(()),
+            (true, true) => Err(format!("{what} is set to something else than before; expected one")),
+            (false, _) => Err(format!("{what} is set behind a motion; expected before the first")),
         }
     }
 
@@ -210,7 +213,17 @@ impl Controller {
                 "movej to a place {away:.6} rad away in the midst of the motion: its path in time is the controller's; expected servoj"
             ));
         }
-        Ok(())
+        match (self.moves(), &self.stage) {
+            (true, Stage::Moving) => Err(
+                "movej while the arm moves: how it stops and goes on is the controller's; expected it behind stopj"
+                    .to_owned(),
+            ),
+            (true, _) => {
+                self.settings.note("end", "movej behind stopj", &place);
+                Ok(())
+            }
+            (false, _) => Ok(()),
+        }
     }
 
     fn servoj(&mut self, values: &ParameterValues, place: Place) -> Result<(), String> {
@@ -246,7 +259,7 @@ impl Controller {
     }
 
     /// Returns the motion of the program that was run.
-    pub(crate) fn reading(mut self, speed_share: f64) -> Result<Reading, String> {
+    pub(crate) fn reading(mut self, speed_share: Option<f64>) -> Result<Reading, String> {
         // Where it stays for a step, and at both ends, it rests.
         let stays: Vec<bool> = self
             .points
@@ -273,11 +286,12 @@ impl Controller {
             }
         };
         Ok(Reading {
-            speed_share: Some(speed_share),
+            speed_share,
             points: self.points,
             interpolation: SegmentShape::Lines,
             tool,
             start_within_deg: None,
+            most_share: None,
             settings: self.settings.into_vec(),
         })
     }

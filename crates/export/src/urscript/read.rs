@@ -53,8 +53,8 @@ pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
     let mut run = Run::new(&file.name);
     run.block(&rest[..end])?;
     let share = match run.globals.get(SHARE) {
-        None => 1.0,
-        Some(Value::Number(share)) if *share > 0.0 && *share <= 1.0 => *share,
+        None => None,
+        Some(Value::Number(share)) if *share > 0.0 && *share <= 1.0 => Some(*share),
         Some(_) => return Err(at(run.share_at, format!("expected {SHARE} above 0 and at most 1"))),
     };
     let within_rad = run
@@ -183,8 +183,8 @@ impl<'a> Run<'a> {
                         self.line = line.number;
                         return Err(self.refused("in functions, only instructions are read: write out what moves"));
                     }
-                    if Controller::parameters(name).is_some() {
-                        return Err(self.refused(format!("`{name}` is an instruction of the controller")));
+                    if is_taken(name) {
+                        return Err(self.refused(format!("`{name}` is the controller's own")));
                     }
                     if self.functions.insert(name, &rest[..end]).is_some() || self.globals.contains_key(name) {
                         return Err(self.refused(format!("`{name}` is given twice")));
@@ -286,6 +286,9 @@ impl<'a> Run<'a> {
     fn assign(&mut self, name: &'a str, tokens: &'a [Token]) -> Result<(), String> {
         if !self.calls.is_empty() || !self.controller.points().is_empty() {
             return Err("variables are read before the first motion alone, outside of functions".to_owned());
+        }
+        if is_taken(name) {
+            return Err(format!("`{name}` is the controller's own"));
         }
         if self.globals.contains_key(name) || self.functions.contains_key(name) || self.measured == Some(name) {
             return Err(format!("`{name}` is given twice"));
@@ -401,6 +404,11 @@ impl<'a> Run<'a> {
             _ => number(tokens).map(|(number, rest)| (Value::Number(number), rest)),
         }
     }
+}
+
+/// Checks that a name is an instruction or a function of the controller, which a program must not replace.
+fn is_taken(name: &str) -> bool {
+    Controller::parameters(name).is_some() || [MEASURED, "norm", "halt"].contains(&name)
 }
 
 fn end(rest: &[Token]) -> Result<(), String> {

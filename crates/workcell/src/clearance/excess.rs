@@ -80,9 +80,18 @@ impl Mesh {
                 points.len() as u32 - 1
             })
         };
+        // Triangles that are there twice count once.
+        let mut seen = BTreeSet::new();
+        let mut once = |face: &[u32; 3]| {
+            let mut turned = *face;
+            let least = (0..3).min_by_key(|k| turned[*k]).unwrap_or(0);
+            turned.rotate_left(least);
+            seen.insert(turned)
+        };
         let mut faces: Vec<[u32; 3]> = triangles
             .iter()
             .map(|corners| corners.each_ref().map(&mut number))
+            .filter(|face| once(face))
             .collect();
         let volume: f64 = faces
             .iter()

@@ -7,14 +7,14 @@
 use crate::clearance::convex::{bits, bounds};
 use parry3d_f64::math::Vector;
 use platewash_kinematics::trig::atan2;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::TAU;
 
 /// Greatest number of bodies; a mesh of more is cut as a whole.
 const MOST_BODIES: usize = 64;
 
 /// Greatest number of pairs of a triangle and a corner of a body: a smooth body of more is left to the other cuts.
-const MOST_PAIRS: usize = 1_000_000;
+const MOST_PAIRS: usize = 100_000_000;
 
 /// Distance in front of a triangle at which a corner counts as behind it, as a part of the mesh's size.
 const ROUNDING: f64 = 1e-9;
@@ -22,14 +22,29 @@ const ROUNDING: f64 = 1e-9;
 /// Angle between two triangles at an edge that lie on each other \[rad\].
 const SAME_ANGLE: f64 = 1e-9;
 
-/// Returns the triangles of each closed convex body of a mesh of several, and the other triangles.
+/// Returns the triangles of each closed convex body of a mesh, and the other triangles. Triangles that are there twice count once.
 pub(super) fn bodies(triangles: &[[Vector; 3]]) -> (Vec<Vec<[Vector; 3]>>, Vec<[Vector; 3]>) {
-    let whole = || (Vec::new(), triangles.to_vec());
-    let groups = connected(triangles);
-    if groups.len() < 2 || groups.len() > MOST_BODIES {
-        return whole();
+    let mut seen = HashSet::new();
+    let once = |corners: &[Vector; 3]| {
+        let mut keys = corners.map(|corner| bits(corner + Vector::ZERO));
+        let least = (0..3).min_by_key(|k| keys[*k]).unwrap_or(0);
+        keys.rotate_left(least);
+        seen.insert(keys)
+    };
+    let triangles: Vec<[Vector; 3]> = triangles.iter().copied().filter(once).collect();
+    let groups = connected(&triangles);
+    if groups.len() > MOST_BODIES {
+        return (Vec::new(), triangles);
     }
-    let size = triangles.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
+    // A body alone may be inside out.
+    if groups.len() == 1 && volume(&triangles) < 0.0 {
+        let turned = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect::<Vec<_>>();
+        return match is_convex(&turned, ROUNDING * size(&turned)) {
+            true => (vec![turned], Vec::new()),
+            false => (Vec::new(), triangles),
+        };
+    }
+    let size = size(&triangles);
     let groups: Vec<Vec<[Vector; 3]>> = groups
         .into_iter()
         .map(|group| group.into_iter().map(|k| triangles[k]).collect())
@@ -61,6 +76,15 @@ struct Side {
     ends: [Vector; 2],
     /// Third corner of the triangle.
     third: Vector,
+}
+
+fn size(triangles: &[[Vector; 3]]) -> f64 {
+    triangles.iter().flatten().map(|p| p.length()).fold(0.0, f64::max)
+}
+
+/// Six times the volume within closed triangles, below 0 where they face inwards.
+fn volume(triangles: &[[Vector; 3]]) -> f64 {
+    triangles.iter().map(|[a, b, c]| a.dot(b.cross(*c))).sum()
 }
 
 /// Groups triangles that share an edge with the same material behind them.
@@ -143,9 +167,8 @@ fn is_convex(body: &[[Vector; 3]], rounding: f64) -> bool {
     if body.len() < 4 || 3 * body.len() * body.len() > MOST_PAIRS {
         return false;
     }
-    let volume: f64 = body.iter().map(|[a, b, c]| a.dot(b.cross(*c))).sum();
     let [least, most] = bounds(&body.iter().flatten().copied().collect::<Vec<_>>());
-    let is_solid = volume > rounding * (most - least).length_squared();
+    let is_solid = volume(body) > rounding * (most - least).length_squared();
     is_solid && is_closed(body) && body.iter().flatten().all(|p| is_behind(body, p, rounding))
 }
 
