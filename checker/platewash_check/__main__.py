@@ -28,6 +28,7 @@ def main(arguments=None):
     parser.add_argument("--urdf", default="urdf/irb120.urdf", help="description of the arm [default: %(default)s]")
     parser.add_argument("--srdf", help="SRDF of the arm [default: the file beside the description with the ending .srdf]")
     parser.add_argument("--json", action="store_true", help="print the answers as JSON")
+    parser.add_argument("--exact", type=int, metavar="N", help="evaluate N random moments again in ball arithmetic")
     options = parser.parse_args(arguments)
     began = time.time()
 
@@ -39,7 +40,7 @@ def main(arguments=None):
         beside = Path(options.urdf).with_suffix(".srdf")
         srdf = options.srdf or (str(beside) if beside.exists() else None)
         arm = Arm(text(options.urdf), text(srdf) if srdf else None)
-        answers = list(check(arm, Plan(text(options.plan)), progress))
+        answers = list(check(arm, Plan(text(options.plan)), progress, options.exact or 0))
     except Refused as refused:
         print(f"error: {refused}", file=sys.stderr)
         return BAD_INPUT

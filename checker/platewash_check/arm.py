@@ -59,6 +59,7 @@ class Joint:
 
     def __init__(self, element, before):
         self.name = element.get("name")
+        self.links = [element.find(side).get("link") for side in ("parent", "child")]
         what = f"joint {self.name}"
         self.frame = compose(before, origin(element.find("origin"), what))
         axis = element.find("axis")
@@ -112,17 +113,27 @@ class Arm:
                 what = f"link {name}, collision {k}"
                 placed = compose(self.links[name][1], origin(element.find("origin"), what))
                 self.shapes.setdefault(name, []).append((placed, geometry(element, what)))
-        self.disabled, self.neighbours = set(), {
-            frozenset((joint.find("parent").get("link"), joint.find("child").get("link"))) for joint in root.findall("joint")
-        }
+        for key in ("lower", "upper", "speed"):
+            setattr(self, key, np.array([getattr(joint, key) for joint in self.joints]))
+        self.disabled = set() if srdf is not None else self.neighbours()
         if srdf is not None:
             for element in ET.fromstring(srdf):
                 if element.tag == "disable_collisions":
                     self.disabled.add(frozenset((element.get("link1"), element.get("link2"))))
                 elif "collision" in element.tag:
                     raise Refused(f"SRDF: {element.tag} is not checked by this version")
-        for key in ("lower", "upper", "speed"):
-            setattr(self, key, np.array([getattr(joint, key) for joint in self.joints]))
+
+    def neighbours(self):
+        """Pairs of links that share one of the six joints; what is fixed to a link without a shape stands for it."""
+        pairs = set()
+        for joint in self.joints:
+            sides = []
+            for link in joint.links:
+                body = self.links[link][0]
+                fixed = [name for name in self.shapes if self.links[name][0] == body]
+                sides.append([link] if link in self.shapes else fixed)
+            pairs |= {frozenset((a, b)) for a in sides[0] for b in sides[1]}
+        return pairs
 
     def _walk(self, link, placed, body, children):
         self.links[link] = (body, placed)

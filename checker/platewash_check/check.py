@@ -1,15 +1,17 @@
 """All answers on a plan, in the order of the certificate."""
 
-from . import shares, statements
+from . import exact, shares, statements
 from .clearance import Clearance
 from .motion import Motion
 from .verdict import judged, not_checked
 from .washing import Washing
 
 
-def check(arm, plan, progress=lambda words: None):
-    """Yields an answer for each requirement of the certificate."""
+def check(arm, plan, progress=lambda words: None, moments=0):
+    """Yields an answer for each requirement of the certificate, and on the rounding at some random moments."""
     motion = Motion(plan.t, plan.q, plan.qd)
+    if moments:
+        yield exact.answer(arm, plan, motion, moments)
     clearance = Clearance(arm, plan, motion)
     yield from statements.answers(arm, plan, motion, clearance)
     progress("speeds, tilt and path")
@@ -22,5 +24,5 @@ def check(arm, plan, progress=lambda words: None):
     words = f"{pair[0]} and {pair[1]}, at {when:.4f} s" if pair else ""
     yield judged("clearance", found, required, "m", words, at_least=True)
     yield from shares.answers(washing, progress)
-    if plan.requirements.get("holder"):
-        yield not_checked("plate_stays", "not checked by this version")
+    if plan.requirements.get("holder") and not plan.requirements.get("contact"):
+        yield not_checked("plate_stays", "without contact no load is known")

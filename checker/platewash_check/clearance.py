@@ -14,6 +14,8 @@ from .plan import Refused, compose, inverse
 ROUND = 1e-10
 # Steps at the beginning [s], how often they are halved, after how many halvings they are short, and rounds of the search for a direction.
 LONGEST, HALVINGS, SHORT, ROUNDS = 16e-3, 8, 3, 40
+# Configurations in which pairs of links are tried where there is no SRDF.
+CONFIGURATIONS = 64
 # Tolerances within which a body is round about joint 6 and a plane is level.
 ROUND_M, LEVEL = 1e-4, 1e-9
 
@@ -224,6 +226,13 @@ class Selection:
         self.at = [(r[:, which], p[:, which]) for r, p in frames.at]
 
 
+class Still:
+    """Frames of an arm that stands, in some configurations."""
+
+    def __init__(self, arm, q):
+        self.at = [arm.frames(q)] * 3
+
+
 class Plane:
     """The half-space behind a plane; it stands."""
 
@@ -256,6 +265,7 @@ class Clearance:
                 part.carrier = body.carrier
         self.links = set(arm.shapes)
         self.tool = {body.name for body in plan.tool.bodies} | {"sponge"}
+        self.touching = self.always_touching() if arm.srdf_sha256 is None else set()
 
     def reason(self, a, b):
         """The reason for which a pair is left out, recomputed; None for one that is judged."""
@@ -263,7 +273,9 @@ class Clearance:
         if a.carrier == b.carrier == 0:
             return "neither_moves"
         if names <= self.links and frozenset(names) in self.arm.disabled:
-            return "srdf"
+            return "srdf" if self.arm.srdf_sha256 else "neighbours"
+        if frozenset(names) in self.touching:
+            return "always_touching"
         for carried, link in ((a, b), (b, a)):
             if carried.name in self.tool and link.name in self.links:
                 if link.carrier == 6 or (link.carrier == 5 and is_round(self.arm, carried)):
@@ -273,6 +285,21 @@ class Clearance:
                 if np.linalg.norm(np.cross(plane.plane[0], self.axis_1())) <= LEVEL:
                     return "keeps_its_height"
         return None
+
+    def always_touching(self):
+        """Pairs of links that no direction separates in any of 64 configurations drawn evenly between the joints' limits."""
+        arm = self.arm
+        low, high = np.maximum(arm.lower, -np.pi), np.minimum(arm.upper, np.pi)
+        q = np.random.default_rng(0).uniform(low, high, (CONFIGURATIONS, 6))
+        frames = Still(arm, q)
+        links = [body for body in self.bodies if body.name in self.links]
+        found = set()
+        for k, a in enumerate(links):
+            for b in links[k + 1 :]:
+                gaps = [gap(x, y, frames, 1, direction(x, y, frames)) for x in a.parts for y in b.parts]
+                if a.carrier != b.carrier and (np.min(gaps, axis=0) <= 0).all():
+                    found.add(frozenset((a.name, b.name)))
+        return found
 
     def axis_1(self):
         joint = self.arm.joints[0]
@@ -366,11 +393,7 @@ class Clearance:
 
     def at_rest(self, a, b):
         """Lower bound on the distance of two bodies that stand; below 0 where they overlap, or are not shown to be apart."""
-        frames = Selection.__new__(Selection)
-        frames.h = np.zeros(1)
-        r, p = self.arm.frames(np.zeros((1, 6)))
-        frames.at = [(r, p)] * 3
-        least = np.inf
+        frames, least = Still(self.arm, np.zeros((1, 6))), np.inf
         for x, y in ((a, b), (b, a)):
             if x.plane is not None:
                 normal, height = x.plane

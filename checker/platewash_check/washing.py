@@ -7,8 +7,8 @@ the step is halved.
 import numpy as np
 
 from .motion import Ends, Steps
-from .plan import compose, inverse
-from .verdict import judged, stated
+from .plan import compose, inverse, only
+from .verdict import judged, not_checked, stated
 
 # Tolerances of the certificate: of the tip about its path and over the face, and about the lines to its ends [m].
 PATH_M, LINE_M = 2e-4, 1e-3
@@ -228,6 +228,26 @@ class Washing:
             low, high = contact["force_n"]
             worst = judged("contact_force", force[1], high, "N", f"and at least {force[0]:.4g} N of {low:g} N")
             yield worst if force[0] >= low else judged("contact_force", force[0], low, "N", at_least=True)
+            if need.get("holder"):
+                yield self.stays(need["holder"], m, k, tilt, hard / free, curves)
+
+    def stays(self, holder, m, k, tilt, stiffness, curves):
+        """33: a fixture takes the greatest force across the plate's axis and the greatest torque about it."""
+        only(holder, "job.requirements.holder", ("sponge_friction",), ("plate_mass_kg", "fixture", "ring"))
+        if "fixture" not in holder:
+            return not_checked("plate_stays", "plates on a ring are not checked by this version")
+        plan, friction, s = self.plan, holder["sponge_friction"], self.plan.tool.radius
+        # The volume pressed in, of a sponge pressed all over, or partly; the torque by Cauchy and Schwarz, or by the farthest point.
+        slant, away = s / np.cos(tilt), max(curve.radius for curve in curves.values()) + PATH_M
+        volume, partly = np.pi * s**2 * max(m, 0.0), np.pi * s**2 * k
+        lever = volume * away**2 + 0.5 * np.pi * s**2 * k * slant * away + 0.5 * volume * slant**2
+        torque = friction * stiffness * max(np.sqrt(volume * lever), partly * (away + slant))
+        force = friction * stiffness * max(volume, partly) / np.cos(tilt)
+        inclined = max(np.sqrt(max(1 - plate.normal[2] ** 2, 0.0)) for plate in plan.plates)
+        force += 9.81 * holder.get("plate_mass_kg", 0.0) * inclined
+        fixture = holder["fixture"]
+        words = f"of the fixture: {force:.4g} N across the axis, {torque:.4g} N m about it"
+        return judged("plate_stays", max(force / fixture["force_n"], torque / fixture["torque_nm"]), 1.0, "", words)
 
     def path_deviation(self, curves):
         """22: the tip follows the whole path in order. An angle theta(t) that never falls is chosen at each moment; the tip is compared with

@@ -8,9 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from jobs import ROOT, irb120, sealed
+from platewash_check import exact
+from platewash_check.arm import Arm
 from platewash_check.check import check
 from platewash_check.clearance import Clearance
+from platewash_check.motion import Motion
 from platewash_check.plan import Plan, Refused
+from platewash_check.washing import Washing
 
 CHECKER = Path(__file__).resolve().parents[1]
 
@@ -53,6 +57,67 @@ def test_bad_files_are_refused(tmp_path, plan_file):
         with pytest.raises(Refused, match=words):
             Plan(text)
     assert run("none.json").returncode == 2
+
+
+def changed(plan_file, change):
+    """The plan of a scenario with another workcell."""
+    table = json.loads(plan_file("sink").read_text())
+    change(table["job"]["workcell"])
+    plan = Plan(sealed(table))
+    return plan, Motion(plan.t, plan.q, plan.qd)
+
+
+@pytest.mark.parametrize("height", [0.2, 0.07])
+def test_a_floor_that_cuts_link_1_or_is_too_near_it_is_found(height, plan_file):
+    def raise_floor(cell):
+        floor = next(o for o in cell["obstacles"] if o["name"] == "floor")
+        floor["pose"]["position_m"][2] = height
+
+    clearance = Clearance(irb120(), *changed(plan_file, raise_floor))
+    assert any("link_1 keeps" in fault for fault in clearance.still())
+
+
+@pytest.mark.parametrize("parts", [1, 2])
+def test_a_sheet_in_the_way_is_found(parts, plan_file, monkeypatch):
+    corners = [[0.3, -0.3, 0.05], [0.3, 0.3, 0.05], [0.3, 0.3, 0.5], [0.3, -0.3, 0.5]]
+    thick = lambda points: [[x + d, y, z] for x, y, z in points for d in (-5e-5, 5e-5)]
+    hulls = [corners] if parts == 1 else [corners[:3], [corners[0], *corners[2:]]]
+    sheet = {
+        "name": "sheet",
+        "pose": {"position_m": [0, 0, 0], "quaternion_wxyz": [1, 0, 0, 0]},
+        "shape": {"parts": [thick(hull) for hull in hulls]},
+    }
+    clearance = Clearance(irb120(), *changed(plan_file, lambda cell: cell["obstacles"].append(sheet)))
+    pairs = [pair for pair in clearance.pairs() if "sheet" in (pair[0].name, pair[1].name)]
+    monkeypatch.setattr(clearance, "pairs", lambda: pairs)
+    assert clearance.run()[0] < 0
+
+
+def test_a_fixture_takes_the_loads_that_the_certificate_names(plan_file):
+    table = json.loads(plan_file("kitchen").read_text())
+    for force, status in ((25.0, "confirmed"), (20.0, "not_confirmed")):
+        table["job"]["requirements"]["holder"] = {
+            "sponge_friction": 1.0,
+            "fixture": {"force_n": force, "torque_nm": 3.0},
+        }
+        plan = Plan(sealed(table))
+        washing = Washing(irb120(), plan, Motion(plan.t, plan.q, plan.qd))
+        answer = next(answer for answer in washing.answers() if answer.requirement == "plate_stays")
+        # docs/contact.md: 20.66 N and 2.59 N m.
+        assert answer.status == status and "20.6" in answer.words and "2.5" in answer.words, answer
+
+
+def test_pairs_without_an_srdf_are_neighbours_and_those_that_always_touch():
+    arm = Arm((ROOT / "urdf/irb120.urdf").read_text())
+    chain = ["base_link"] + [f"link_{k}" for k in range(1, 7)]
+    assert arm.disabled == {frozenset(pair) for pair in zip(chain, chain[1:])}
+
+
+def test_numbers_are_those_of_ball_arithmetic(plan_file):
+    pytest.importorskip("flint")
+    plan = Plan(plan_file("sink").read_text())
+    answer = exact.answer(irb120(), plan, Motion(plan.t, plan.q, plan.qd), 300)
+    assert answer.status == "confirmed" and answer.bound < 0.1, answer
 
 
 # A requirement, and a change of the plan that breaks it.
