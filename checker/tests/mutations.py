@@ -1,0 +1,96 @@
+"""Changed plans, many of them: each requirement is refused by itself, and nothing is confirmed that a dense sample refutes.
+
+    PLATEWASH_BIN=target/release/platewash python checker/tests/mutations.py PLAN.json --count 200
+
+Knots, limits, plates, tool and obstacles are changed at random, and the plan is sealed again.
+"""
+
+import argparse
+import collections
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1])]
+
+from jobs import irb120, sealed
+from platewash_check.check import check
+from platewash_check.motion import Instant, Motion
+from platewash_check.plan import Plan
+from platewash_check.washing import Washing
+from test_command import MUTATIONS
+
+
+def knots(table, rng):
+    """A knot that is moved, or passed at another speed."""
+    k, joint = int(rng.integers(1, len(table["knots"]["t_s"]) - 1)), int(rng.integers(0, 6))
+    key = str(rng.choice(["q_rad", "qd_rad_s"]))
+    table["knots"][key][k][joint] += float(rng.choice([-1, 1]) * 10 ** rng.uniform(-5, -1))
+
+
+def sampled(arm, plan):
+    """Worst values at single moments, every 0.5 ms: what a requirement's bound cannot be better than."""
+    motion = Motion(plan.t, plan.q, plan.qd)
+    washing = Washing(arm, plan, motion)
+    found = collections.defaultdict(lambda: -np.inf)
+
+    def note(name, values):
+        found[name] = max(found[name], float(np.max(values)))
+
+    for segment in plan.segments:
+        first, last = plan.span(segment)
+        t = np.arange(plan.t[first], plan.t[last], 5e-4)
+        piece = np.clip(np.searchsorted(plan.t, t, side="right") - 1, first, last - 1)
+        state = motion.at(piece, t - plan.t[piece])
+        instant = Instant(arm, *state[:3], plan.tool.tip)
+        speed, acceleration = (np.linalg.norm(x, axis=1) for x in (instant.speed, instant.acceleration))
+        note("joint_speed", abs(state[1]) / arm.speed)
+        note("joint_acceleration", abs(state[2]) / np.array(plan.limits["joint_acceleration_rad_s2"]))
+        note("joint_position", np.maximum(arm.lower - state[0], state[0] - arm.upper))
+        if segment["kind"] != "wash":
+            note("tip_speed", speed)
+            note("tip_acceleration", acceleration)
+        if segment["kind"] in ("approach", "wash", "retreat"):
+            place, axis = washing.in_plate(segment, instant)
+            note("tilt", np.arctan2(np.linalg.norm(axis[:, :2], axis=1), -axis[:, 2]))
+        if segment["kind"] == "wash":
+            note("wash_speed", speed)
+            note("wash_acceleration", acceleration)
+            note("contact_height", abs(place[:, 2]))
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("plan")
+    parser.add_argument("--count", type=int, default=200)
+    options = parser.parse_args()
+    arm, text = irb120(), Path(options.plan).read_text()
+    refused, wrong = collections.Counter(), []
+    for n in range(options.count):
+        rng = np.random.default_rng(n)
+        table = json.loads(text)
+        name = [*MUTATIONS][n % len(MUTATIONS)] if n % 2 else "knots"
+        MUTATIONS.get(name, knots)(table, rng)
+        plan = Plan(sealed(table))
+        worst, limits = sampled(arm, plan), {}
+        for answer in check(arm, plan):
+            if answer.requirement == "clearance" and name != "clearance":
+                break
+            if answer.status == "not_confirmed":
+                refused[answer.requirement] += 1
+            limits[answer.requirement] = answer
+        for requirement, seen in worst.items():
+            answer = limits.get(requirement)
+            most = 1.0 if requirement in ("joint_speed", "joint_acceleration") else answer and answer.limit
+            if answer and answer.status == "confirmed" and seen > most * (1 + 2e-9) + 1e-9:
+                wrong.append((n, name, requirement, seen, most))
+    print(f"{options.count} plans, refused by requirement: {dict(refused)}")
+    print(f"confirmed, and refuted by a sample: {wrong}")
+    return bool(wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
