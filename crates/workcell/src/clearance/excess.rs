@@ -19,7 +19,7 @@ const CELLS: f64 = 24.0;
 
 /// Upper bound on the distance by which convex parts reach beyond the mesh that the parts enclose \[m\]. The inside of a closed mesh is not
 /// beyond it; for an open one the surface alone counts. A hollow that no face of a part crosses, as one that is closed all around within a
-/// hull, is found if it is as wide as two of [`CELLS`].
+/// hull, is found if it is as wide as a twelfth of the mesh.
 ///
 /// Over a triangle of a face, the distance from the mesh is at most that of the middle and the distance from there to the farthest corner,
 /// as it is 1-Lipschitz; and at most that of the farthest corner from any triangle of the mesh, as the distance from a convex set is a convex
