@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 import time
 from dataclasses import asdict
@@ -52,11 +53,15 @@ def main(arguments=None):
     first = "CONFIRMED" if not open_ones else "NOT CONFIRMED"
     count = f"{len(answers) - len(open_ones)} of {len(answers)} requirements confirmed in {time.time() - began:.1f} s"
     if options.json:
-        print(json.dumps({"confirmed": not open_ones, "headline": f"{first}: {count}", "answers": [asdict(a) for a in answers]}))
+        table = {"confirmed": not open_ones, "headline": f"{first}: {count}", "answers": [asdict(a) for a in answers]}
+        said = json.dumps(table)
     else:
-        print(f"{first}: {count}")
-        for answer in answers:
-            print(answer.line())
+        said = "\n".join([f"{first}: {count}"] + [answer.line() for answer in answers])
+    try:
+        print(said, flush=True)
+    except BrokenPipeError:
+        # Whoever reads has seen enough; nothing is left to be flushed at the end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return DONE if not open_ones else NOT_CONFIRMED
 
 
