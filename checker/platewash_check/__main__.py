@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import os
 import sys
 import time
@@ -45,7 +46,7 @@ def main(arguments=None):
     except Refused as refused:
         print(f"error: {refused}", file=sys.stderr)
         return BAD_INPUT
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError) as error:
         print(f"error: {options.plan}: not a plan of the known form: {error!r}", file=sys.stderr)
         return BAD_INPUT
     progress("")
@@ -53,7 +54,10 @@ def main(arguments=None):
     first = "CONFIRMED" if not open_ones else "NOT CONFIRMED"
     count = f"{len(answers) - len(open_ones)} of {len(answers)} requirements confirmed in {time.time() - began:.1f} s"
     if options.json:
-        table = {"confirmed": not open_ones, "headline": f"{first}: {count}", "answers": [asdict(a) for a in answers]}
+        # JSON has no infinity: a bound that is none is left out.
+        finite = lambda x: None if isinstance(x, float) and not math.isfinite(x) else x
+        rows = [{key: finite(value) for key, value in asdict(answer).items()} for answer in answers]
+        table = {"confirmed": not open_ones, "headline": f"{first}: {count}", "answers": rows}
         said = json.dumps(table)
     else:
         said = "\n".join([f"{first}: {count}"] + [answer.line() for answer in answers])
