@@ -8,7 +8,7 @@ whole step. The direction comes from the middle of the step (Gilbert's algorithm
 import numpy as np
 
 from .motion import COMB, Steps, bell
-from .plan import Refused, compose, inverse
+from .plan import Refused, compose, inverse, numbers, only, real
 
 # Allowance for rounding of a distance [m]: see the README.
 ROUND = 1e-10
@@ -25,10 +25,16 @@ class Part:
 
     def __init__(self, placed, shape):
         self.r, self.p = placed
+        if not isinstance(shape, dict) or len(shape) != 1:
+            raise Refused("a shape: expected one kind with its sizes")
         (kind, sizes), = shape.items()
         self.pad, self.kind = 0.0, kind
+        keys = {"box": ("half_m",), "sphere": ("radius_m",), "hull": ("points",)}.get(kind, ("radius_m", "half_length_m"))
+        only(sizes, f"a {kind}", keys)
+        if kind not in ("hull", "box"):
+            sizes = {key: real(value, f"a {kind}: {key}", most=1e4, above=0) for key, value in sizes.items()}
         if kind == "box":
-            self.sizes = np.array(sizes["half_m"], dtype=float)
+            self.sizes = np.array([real(x, "a box: half_m", most=1e4, above=0) for x in sizes["half_m"]])
             self.extent = float(np.linalg.norm(self.sizes))
         elif kind in ("sphere", "capsule"):
             self.pad, half = float(sizes["radius_m"]), float(sizes.get("half_length_m", 0.0))
@@ -38,7 +44,7 @@ class Part:
             self.sizes = np.array([sizes["radius_m"], sizes["half_length_m"]], dtype=float)
             self.extent = float(np.hypot(*self.sizes))
         elif kind == "hull":
-            self.points = np.array(sizes["points"], dtype=float)
+            self.points = numbers(sizes["points"], "a hull: points", (-1, 3))
             self.extent = float(np.linalg.norm(self.points, axis=1).max())
         else:
             raise Refused(f"a shape {kind!r} is not known")
@@ -186,7 +192,7 @@ def bound_over(arm, motion, a, b, spans, required):
             again &= (bound + slack >= required) | (round < SHORT)
             if (~again).any():
                 k = np.flatnonzero(~again)[np.argmin(bound[~again])]
-                if not bound[k] >= least:
+                if bound[k] < least or bound[k] != bound[k]:
                     least, when = bound[k], motion.t[steps.piece[k]] + steps.start[k]
             if not again.any():
                 break
@@ -260,6 +266,11 @@ class Clearance:
     def __init__(self, arm, plan, motion):
         self.arm, self.plan, self.motion = arm, plan, motion
         self.bodies = bodies(arm, plan)
+        names = [body.name for body in self.bodies]
+        for name in names:
+            if names.count(name) > 1:
+                raise Refused(f"two bodies have the name {name!r}")
+        self.plate_of = {f"plate {k + 1}": k for k in range(len(plan.plates))}
         for body in self.bodies:
             for part in body.parts:
                 part.carrier = body.carrier
@@ -318,12 +329,14 @@ class Clearance:
         found = {}
         for a, b in self.pairs():
             reason = self.reason(a, b)
-            # Plates and obstacles stand; they are no pairs of the arm.
-            if reason and ({a.name, b.name} & (self.links | self.tool)):
+            # Plates are no bodies of the cell, and obstacles alone no pairs of the arm.
+            names = {a.name, b.name}
+            if reason and names & (self.links | self.tool) and not names & set(self.plate_of):
                 found[frozenset((a.name, b.name))] = reason
         stated = {frozenset(e["pair"]): e["reason"] for e in self.plan.cell["exclusions"]}
-        faults = [f"{' and '.join(sorted(p))} are left out" for p in stated if p not in found]
-        return faults
+        words = lambda p: " and ".join(sorted(p))
+        faults = [f"{words(p)} are left out" for p in stated if stated[p] != found.get(p)]
+        return faults + [f"{words(p)} are not named among the pairs that are left out" for p in found if p not in stated]
 
     def free_spans(self, plate):
         """Spans of pieces in which the sponge keeps clear of a plate: all but those in which it may touch it."""
@@ -357,7 +370,7 @@ class Clearance:
         least = (np.inf, None, 0.0)
         for n, (a, b) in enumerate(judged_pairs):
             progress(n / len(judged_pairs))
-            plate = next((int(x.name[6:]) - 1 for x in (a, b) if x.name.startswith("plate ")), None)
+            plate = next((self.plate_of[x.name] for x in (a, b) if x.name in self.plate_of), None)
             spans = whole
             if plate is not None and "sponge" in (a.name, b.name):
                 spans = self.free_spans(plate)
@@ -366,7 +379,10 @@ class Clearance:
             for x in sides:
                 for y in b.parts:
                     bound, when = bound_over(self.arm, self.motion, x, y, spans, required + margin)
-                    if not bound - margin >= least[0]:
+                    if not bound > -np.inf:
+                        # What is no number is no bound, whatever else is found.
+                        return (-np.inf, (a.name, b.name), when)
+                    if bound - margin < least[0]:
                         least = (bound - margin, (a.name, b.name), when)
         return least
 
@@ -374,6 +390,14 @@ class Clearance:
         """Pairs whose distance no joint changes: link 1 over a level plane keeps the clearance; the ground under the arm is only not to be
         reached into."""
         faults, rest = [], self.arm.frames(np.zeros((1, 6)))
+        mount_r, mount_p = self.arm.mounting
+        out = mount_r[:, 2]
+        for body in self.bodies:
+            # A round tool stands against the flange; beside the link before it only what reaches behind the flange could come too near.
+            if body.name in self.tool and is_round(self.arm, body):
+                along = lambda part: part.support((part.r.T @ -out)[None])[0] @ (part.r.T @ out) + out @ part.p - part.pad
+                if min(along(part) for part in body.parts) < out @ mount_p - ROUND_M:
+                    faults.append(f"{body.name} reaches behind the flange, beside the link that carries it: not checked by this version")
         for a, b in self.pairs():
             if self.reason(a, b) != "keeps_its_height":
                 continue

@@ -84,9 +84,6 @@ def of_paths(plan):
     if sorted(plan.paths) != sorted(plan.order) or [p["plate"] for p in plan.root["wash_paths"]] != plan.order:
         yield "expected a wash path for each plate, in the order of washing"
     for plate, path in plan.paths.items():
-        curve = path["curve"]
-        if not (1e-4 <= curve["radius_m"] <= 10 and 0.25 <= curve["turns"] <= 200 and 0 < path["lift_m"] <= 10):
-            yield f"the path of plate {plate + 1} is out of range"
         if not path["cone_rad"] <= plan.requirements["tilt_rad"] + 1e-12:
             yield f"the cone of plate {plate + 1} is wider than the tilt limit"
 
@@ -157,21 +154,21 @@ def apart(plan, clearance):
     for k, a in enumerate(still):
         for b in still[k + 1 :]:
             names = (a.name, b.name)
-            plates = [name for name in names if name.startswith("plate ")]
+            plates = [name for name in names if name in clearance.plate_of]
             if not plates and not set(names) & clearance.links or set(names) <= clearance.links:
                 continue
             obstacle = a if a in still and a.name not in plates and a.name not in clearance.links else b
-            if holds(plan, obstacle.name, plates) or (set(names) & clearance.links and is_ground(obstacle)):
+            if holds(plan, clearance, obstacle.name, plates) or (set(names) & clearance.links and is_ground(obstacle)):
                 continue
             gap = clearance.at_rest(a, b)
             if not gap >= -OVERLAP_M:
                 yield f"{a.name} and {b.name} overlap, or are not shown to be apart ({1e3 * gap:.3f} mm)"
 
 
-def holds(plan, name, plates):
+def holds(plan, clearance, name, plates):
     """True for an obstacle that holds a plate, as the job states."""
     for body in plan.obstacles:
         if body.name == name and body.holds is not None and plates:
             held = range(len(plan.plates)) if body.holds == "all" else body.holds
-            return int(plates[0][6:]) - 1 in list(held)
+            return clearance.plate_of[plates[0]] in list(held)
     return False

@@ -7,7 +7,7 @@ the step is halved.
 import numpy as np
 
 from .motion import Ends, Steps
-from .plan import compose, inverse, only
+from .plan import compose, inverse
 from .verdict import judged, not_checked, stated
 
 # Tolerances of the certificate: of the tip about its path and over the face, and about the lines to its ends [m].
@@ -98,7 +98,7 @@ class Washing:
             again = (bound > limit) & (ends <= limit) & (round < HALVINGS)
             if (~again).any():
                 k = np.flatnonzero(~again)[np.argmax(bound[~again])]
-                if not bound[k] <= worst:
+                if bound[k] > worst or bound[k] != bound[k]:
                     worst, when = bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
             if not again.any() or not np.isfinite(bound).all():
                 break
@@ -111,7 +111,7 @@ class Washing:
         for segment in self.plan.segments:
             if segment["kind"] in kinds:
                 found = self.most(self.steps(segment, longest), lambda s, e: evaluate(segment, e), limit)
-                if not found[0] <= worst:
+                if worst == worst and not found[0] <= worst:
                     worst, when = found
         return worst, when
 
@@ -183,7 +183,7 @@ class Washing:
             for segment in plan.segments:
                 if segment["kind"] in near and segment["plate"] == plate:
                     found, when = self.most(self.steps(segment, 4e-3), lambda s, e: far(segment, e), most)
-                    if not found - most <= reach:
+                    if reach == reach and not found - most <= reach:
                         reach, at = found - most, when
         yield judged("reach", reach, 0.0, "m", f"beyond what the paths imply, at {at:.4f} s")
 
@@ -229,16 +229,17 @@ class Washing:
             worst = judged("contact_force", force[1], high, "N", f"and at least {force[0]:.4g} N of {low:g} N")
             yield worst if force[0] >= low else judged("contact_force", force[0], low, "N", at_least=True)
             if need.get("holder"):
-                yield self.stays(need["holder"], m, k, tilt, hard / free, curves)
+                # The axis meets the face up to that far from below the tip.
+                aside = (delta + tool.compression + max(below, off, 0.0)) * tan
+                yield self.stays(need["holder"], m, k, tilt, hard / free, curves, aside)
 
-    def stays(self, holder, m, k, tilt, stiffness, curves):
+    def stays(self, holder, m, k, tilt, stiffness, curves, aside):
         """33: a fixture takes the greatest force across the plate's axis and the greatest torque about it."""
-        only(holder, "job.requirements.holder", ("sponge_friction",), ("plate_mass_kg", "fixture", "ring"))
         if "fixture" not in holder:
             return not_checked("plate_stays", "plates on a ring are not checked by this version")
         plan, friction, s = self.plan, holder["sponge_friction"], self.plan.tool.radius
         # The volume pressed in, of a sponge pressed all over, or partly; the torque by Cauchy and Schwarz, or by the farthest point.
-        slant, away = s / np.cos(tilt), max(curve.radius for curve in curves.values()) + PATH_M
+        slant, away = s / np.cos(tilt), max(curve.radius for curve in curves.values()) + PATH_M + aside
         volume, partly = np.pi * s**2 * max(m, 0.0), np.pi * s**2 * k
         lever = volume * away**2 + 0.5 * np.pi * s**2 * k * slant * away + 0.5 * volume * slant**2
         torque = friction * stiffness * max(np.sqrt(volume * lever), partly * (away + slant))
@@ -267,7 +268,7 @@ class Washing:
             step = np.diff(theta)
             bound = np.maximum(off[:-1], off[1:]) + ends.h**2 / 8 * ends.tip[2] + step**2 / 8 * curve.bend() + ROUND
             k = np.argmax(bound)
-            if not bound[k] <= worst:
+            if worst == worst and not bound[k] <= worst:
                 worst, when = bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
             if theta[0] != 0 or theta[-1] != curve.end or (step < 0).any():
                 faults.append(f"the path of plate {segment['plate'] + 1} is not followed from end to end")
@@ -287,7 +288,8 @@ class Washing:
             limit = stated_limit if stated_limit is not None else need["wash_speed_m_s"]
             b = tool.compression if is_free else 0.0
             raised = delta if is_free else 0.0
-            arm_m = np.hypot(tool.radius, max(b, tool.radius * np.tan(tilt) + 1e-3))
+            # Without a bound on the tilt every touching point may be anywhere: nothing is confirmed.
+            arm_m = np.hypot(tool.radius, max(b, tool.radius * np.tan(tilt) + 1e-3)) if tilt < 1.5 else np.inf
 
             def evaluate(steps, ends):
                 values, heights = [], []
@@ -314,12 +316,12 @@ class Washing:
                 again = (bound > limit) & ~broken & (round < HALVINGS)
                 if (~again).any():
                     k = np.flatnonzero(~again)[np.argmax(bound[~again])]
-                    if not bound[k] <= found:
+                    if found == found and not bound[k] <= found:
                         found, at = bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
                 if not again.any():
                     break
                 steps = steps.halves(again)
-            if not found / limit <= ratio:
+            if ratio == ratio and not found / limit <= ratio:
                 ratio, when, worst = found / limit, at, (found, limit)
         return judged("contact_speed", *worst, "m/s", f"at {when:.4f} s")
 
@@ -348,6 +350,8 @@ def outside(radius, away, rim):
         return 0.0
     if away >= rim + radius:
         return np.pi * radius**2
+    if radius - away >= rim:
+        return np.pi * (radius**2 - rim**2)
     a = np.arccos((away**2 + radius**2 - rim**2) / (2 * away * radius))
     b = np.arccos((away**2 + rim**2 - radius**2) / (2 * away * rim))
     lens = radius**2 * (a - np.sin(2 * a) / 2) + rim**2 * (b - np.sin(2 * b) / 2)

@@ -15,7 +15,8 @@ from platewash_check.check import check
 from platewash_check.clearance import Clearance
 from platewash_check.motion import Motion
 from platewash_check.plan import Plan, Refused
-from platewash_check.washing import Washing
+from platewash_check.statements import apart
+from platewash_check.washing import Washing, outside
 
 CHECKER = Path(__file__).resolve().parents[1]
 
@@ -103,6 +104,71 @@ def test_a_sheet_in_the_way_is_found(parts, plan_file, monkeypatch):
     pairs = [pair for pair in clearance.pairs() if "sheet" in (pair[0].name, pair[1].name)]
     monkeypatch.setattr(clearance, "pairs", lambda: pairs)
     assert clearance.run()[0] < 0
+
+
+def box(name, half, place):
+    shape = {"convex": {"box": {"half_m": half}}}
+    return {"name": name, "pose": {"position_m": place, "quaternion_wxyz": [1, 0, 0, 0]}, "shape": shape}
+
+
+# Changes that make a plan false, or say what nobody can mean; each was confirmed once.
+FALSE = {
+    "an obstacle with the name of a plate": lambda p: p["job"]["workcell"]["obstacles"].append(box("plate 3", [0.02] * 3, [0.4, 0, 0.1])),
+    "an obstacle with the name of a link": lambda p: p["job"]["workcell"]["obstacles"].append(box("link_6", [0.02] * 3, [0.4, 0, 0.1])),
+    "a margin that is a text": lambda p: p["job"]["workcell"]["tool"]["bodies"][0].update(margin_m="nan"),
+    "a margin below 0": lambda p: p["job"]["workcell"]["tool"]["bodies"][0].update(margin_m=-1),
+    "a box inside out": lambda p: p["job"]["workcell"]["obstacles"].append(box("b", [-0.3] * 3, [0.4, 0, 0.1])),
+    "a stiffness that descends": lambda p: p["job"]["workcell"]["tool"]["sponge"].update(stiffness_pa=[44000, 11000]),
+    "an acceleration below 0": lambda p: scale(p["job"]["limits"]["joint_acceleration_rad_s2"], 0, -1),
+    "a height error below 0": lambda p: scale(p["job"]["requirements"]["contact"], "height_error_m", -1),
+    "a tool without bodies": lambda p: p["job"]["workcell"]["tool"].update(bodies=[]),
+    "a segment that takes no time": lambda p: p["segments"][1].update(t_end_s=p["segments"][1]["t_start_s"]),
+    "a trim that is too long": lambda p: p["wash_paths"][0]["curve"].update(trim_rad=2.0),
+    "rings from outside": lambda p: p["wash_paths"][0]["curve"]["rings"].update(inner_m=0.3),
+    "one ring": lambda p: p["wash_paths"][0]["curve"]["rings"].update(count=1),
+    "an order of parts": lambda p: p.update(order=[x + 0.5 for x in p["order"]]),
+    "an empty recovery": lambda p: p["job"].update(recovery={}),
+    "a number that is infinite": lambda p: p["job"]["limits"].update(tip_speed_m_s=float("inf")),
+}
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_plans_that_mean_something_else_are_refused(name, plan_file):
+    table = json.loads(plan_file("sink").read_text())
+    FALSE[name](table)
+    with pytest.raises(Refused):
+        plan = Plan(sealed(table))
+        Clearance(irb120(), plan, Motion(plan.t, plan.q, plan.qd))
+
+
+def test_pairs_that_are_left_out_are_those_of_the_rules(plan_file):
+    for change, words in (
+        (lambda cell: cell["exclusions"].pop(), "not named among the pairs"),
+        (lambda cell: cell["exclusions"].append({"pair": ["link_3", "floor"], "reason": "srdf"}), "floor and link_3 are left out"),
+        (lambda cell: cell["exclusions"][0].update(reason="neither_moves"), "are left out"),
+    ):
+        faults = Clearance(irb120(), *changed(plan_file, change)).exclusions()
+        assert len(faults) == 1 and words in faults[0], faults
+    # A collar behind the flange, beside link 5.
+    collar = {
+        "name": "collar",
+        "pose": {"position_m": [0, 0, -0.004], "quaternion_wxyz": [1, 0, 0, 0]},
+        "shape": {"cylinder": {"radius_m": 0.03, "half_length_m": 0.004}},
+    }
+    faults = Clearance(irb120(), *changed(plan_file, lambda cell: cell["tool"]["bodies"].append(collar))).still()
+    assert any("collar reaches behind the flange" in fault for fault in faults), faults
+    # A free-standing box whose name begins like a plate's.
+    rack = changed(plan_file, lambda cell: cell["obstacles"].append(box("plate rack", [0.02] * 3, [-0.5, -0.5, 0.5])))
+    assert list(apart(rack[0], Clearance(irb120(), *rack))) == []
+
+
+def test_the_area_beyond_a_rim_is_that_of_a_dense_sample():
+    rng = np.random.default_rng(5)
+    points = rng.uniform(-1, 1, (200_000, 2))
+    for radius, away, rim in [(0.1, 0.01, 0.05), *rng.uniform(0.01, 0.4, (12, 3))]:
+        inside = points[(points**2).sum(axis=1) <= 1] * radius + [away, 0]
+        share = (np.linalg.norm(inside, axis=1) > rim).mean()
+        assert abs(outside(radius, away, rim) - share * np.pi * radius**2) <= 0.01 * np.pi * radius**2
 
 
 def test_a_fixture_takes_the_loads_that_the_certificate_names(plan_file):
