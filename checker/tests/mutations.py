@@ -2,7 +2,7 @@
 
     PLATEWASH_BIN=target/release/platewash python checker/tests/mutations.py PLAN.json --each 20
 
-Knots, limits, plates, tool and obstacles are changed at random, and the plan is sealed again.
+Knots, limits, plates, tool and obstacles are changed at random, and the plan is sealed again; or the arm has narrower limits.
 """
 
 import argparse
@@ -29,6 +29,15 @@ def knots(table, rng):
     k, joint = int(rng.integers(1, len(table["knots"]["t_s"]) - 1)), int(rng.integers(0, 6))
     key = str(rng.choice(["q_rad", "qd_rad_s"]))
     table["knots"][key][k][joint] += float(rng.choice([-1, 1]) * 10 ** rng.uniform(-5, -1))
+
+
+def lower_limit(arm, name, rng):
+    """An arm that turns less far, or less fast, at joint 1, 2 or 3."""
+    joint = int(rng.integers(0, 3))
+    if name == "joint_speed":
+        arm.speed[joint] *= rng.uniform(0.02, 0.1)
+    else:
+        arm.upper[joint], arm.lower[joint] = rng.uniform(-0.2, 0), -3.0
 
 
 def sampled(arm, plan):
@@ -83,15 +92,19 @@ def main():
     parser.add_argument("plan")
     parser.add_argument("--each", type=int, default=20, help="changes of each requirement, and of knots ten times as many")
     options = parser.parse_args()
-    arm, text = irb120(), Path(options.plan).read_text()
+    text = Path(options.plan).read_text()
     refused, alone, wrong, count = collections.Counter(), collections.Counter(), [], 0
-    for name in [*MUTATIONS, *["knots"] * 10]:
+    for name in [*MUTATIONS, "joint_position", "joint_speed", *["knots"] * 10]:
         if name == "arm":
             continue
         for _ in range(options.each):
             count += 1
             rng, table = np.random.default_rng(count), json.loads(text)
-            MUTATIONS.get(name, knots)(table, rng)
+            arm = irb120()
+            if name in ("joint_position", "joint_speed"):
+                lower_limit(arm, name, rng)
+            else:
+                MUTATIONS.get(name, knots)(table, rng)
             plan = Plan(sealed(table))
             if name != "clearance":
                 # It takes longest, and is none of what is changed.
