@@ -20,7 +20,7 @@ use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::words::shortened;
+use platewash_workcell::words::{shortened, without_mark};
 use serde::Serialize;
 use similar::{Algorithm, DiffTag, capture_diff_slices};
 use std::collections::{HashMap, HashSet};
@@ -301,8 +301,7 @@ fn in_columns_of(found: &str, expected: &str) -> Option<String> {
             .map(|cell| cell.trim().to_owned())
             .collect::<Vec<_>>()
     };
-    let [found_names, names] =
-        [found, expected].map(|text| text.trim_start_matches('\u{feff}').lines().next().map(cells));
+    let [found_names, names] = [found, expected].map(|text| without_mark(text).lines().next().map(cells));
     let (found_names, names) = (found_names?, names?);
     let places: Option<Vec<usize>> = names
         .iter()

@@ -94,10 +94,8 @@ pub(crate) fn changed_settings(found: &Reading, expected: &Reading) -> Vec<Chang
         let name = &*setting.name;
         let of_name = |setting: &&ReadSetting| setting.name == name;
         let handed_over: Vec<_> = expected.settings.iter().filter(of_name).collect();
-        let mut changed = found.settings.iter().filter(of_name);
-        let mut changed = changed
-            .by_ref()
-            .filter(|setting| !handed_over.iter().any(|other| setting.is_accepted_for(other)));
+        let is_changed = |setting: &&ReadSetting| !handed_over.iter().any(|other| setting.is_accepted_for(other));
+        let mut changed = found.settings.iter().filter(of_name).filter(is_changed);
         let Some(first) = changed.next() else { continue };
         let found = match changed.count() {
             0 => first.value.clone(),

@@ -9,7 +9,7 @@ use crate::ros2::node::{Fault, Kind, Node, with_indented_brackets};
 use crate::ros2::number::ParsedNumber;
 use crate::ros2::read::{Fields, documents, list, parse_number, refused, text};
 use crate::ros2::write::NS_PER_S;
-use crate::trajectory::wrapper::{self, FoundTrajectory, RobotState, number};
+use crate::trajectory::wrapper::{self, FoundTrajectory, RobotState, has_key, number};
 use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::words::rounded;
@@ -73,7 +73,7 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
     let (mut points, mut lines) = (JointPoints::default(), Vec::new());
     let (mut times, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
     let mut rates = Vec::new();
-    let has_times = nodes.iter().any(|node| states_time(node));
+    let has_times = nodes.iter().any(|node| has_key(node, "time_from_start"));
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
         let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
@@ -118,10 +118,6 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
     points.qdd_rad_s2 = (most > 1).then_some(accelerations);
     points.rates = rates.iter().any(|rate| *rate < most).then_some(rates);
     Ok((points, lines))
-}
-
-fn states_time(point: &Node<'_>) -> bool {
-    matches!(&point.kind, Kind::Table(entries) if entries.iter().any(|entry| entry.key == "time_from_start"))
 }
 
 /// Reads the stamp of a header.

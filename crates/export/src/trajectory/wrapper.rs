@@ -132,7 +132,8 @@ fn point_list<'n, 'a>(trajectory: &'n Node<'a>) -> Option<&'n [Node<'a>]> {
     list(&points.value).ok()
 }
 
-fn has_key(node: &Node<'_>, key: &str) -> bool {
+/// Returns true for a table that has a key.
+pub(super) fn has_key(node: &Node<'_>, key: &str) -> bool {
     matches!(&node.kind, Kind::Table(entries) if entries.iter().any(|entry| entry.key == key))
 }
 
