@@ -3,7 +3,7 @@
 import argparse
 import json
 import math
-import os
+import signal
 import sys
 import time
 from dataclasses import asdict
@@ -11,7 +11,8 @@ from pathlib import Path
 
 from .arm import Arm
 from .check import check
-from .plan import Plan, Refused
+from .plan import Plan
+from .schema import Refused
 from .verdict import CONFIRMED
 
 DONE, BAD_INPUT, NOT_CONFIRMED = 0, 2, 4
@@ -33,6 +34,9 @@ def main(arguments=None):
     parser.add_argument("--exact", type=int, metavar="N", help="evaluate N random moments again in ball arithmetic")
     options = parser.parse_args(arguments)
     began = time.time()
+    if hasattr(signal, "SIGPIPE"):
+        # Whoever reads the answers may stop early.
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
 
     def progress(words):
         if sys.stderr.isatty():
@@ -41,13 +45,10 @@ def main(arguments=None):
     try:
         beside = Path(options.urdf).with_suffix(".srdf")
         srdf = options.srdf or (str(beside) if beside.exists() else None)
-        arm = Arm(text(options.urdf), text(srdf) if srdf else None)
+        arm = Arm(text(options.urdf), text(srdf) if srdf else None, Path(options.urdf).parent)
         answers = list(check(arm, Plan(text(options.plan)), progress, options.exact or 0))
     except Refused as refused:
         print(f"error: {refused}", file=sys.stderr)
-        return BAD_INPUT
-    except (KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError) as error:
-        print(f"error: {options.plan}: not a plan of the known form: {error!r}", file=sys.stderr)
         return BAD_INPUT
     progress("")
     open_ones = [answer for answer in answers if answer.status != CONFIRMED]
@@ -61,11 +62,7 @@ def main(arguments=None):
         said = json.dumps(table)
     else:
         said = "\n".join([f"{first}: {count}"] + [answer.line() for answer in answers])
-    try:
-        print(said, flush=True)
-    except BrokenPipeError:
-        # Whoever reads has seen enough; nothing is left to be flushed at the end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    print(said, flush=True)
     return DONE if not open_ones else NOT_CONFIRMED
 
 

@@ -2,13 +2,31 @@
 
 import hashlib
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from .plan import Refused, compose
+from .mesh import corners, vertices
+from .plan import compose
+from .schema import Refused, expect
 
 JOINTS = 6
 IDENTITY = (np.eye(3), np.zeros(3))
+
+
+def parsed(text, what):
+    try:
+        return ET.fromstring(text)
+    except ET.ParseError as error:
+        raise Refused(f"{what}: not XML: {error}") from None
+
+
+def linked(joint, side):
+    """Name of the link at a side of a joint."""
+    element = joint.find(side)
+    expect(element is not None and element.get("link"), f"URDF: joint {joint.get('name')}", f"a {side} link", None)
+    return element.get("link")
 
 
 def floats(text, count, what):
@@ -16,8 +34,7 @@ def floats(text, count, what):
         values = np.array([float(word) for word in (text or "").split()])
     except ValueError:
         values = np.array([])
-    if len(values) != count or not np.isfinite(values).all():
-        raise Refused(f"{what}: expected {count} finite numbers, found {text!r}")
+    expect(len(values) == count and np.isfinite(values).all(), what, f"{count} finite numbers", text)
     return values
 
 
@@ -33,16 +50,14 @@ def origin(element, what):
     """Pose of an element `origin`: rotations about the fixed axes x, y, z, and a translation."""
     if element is None:
         return IDENTITY
-    r, p, y = floats(element.get("rpy", "0 0 0"), 3, f"{what}: origin rpy")
-    turned = turn((0, 0, 1), y) @ turn((0, 1, 0), p) @ turn((1, 0, 0), r)
-    return turned, floats(element.get("xyz", "0 0 0"), 3, f"{what}: origin xyz")
+    turned = Rotation.from_euler("xyz", floats(element.get("rpy", "0 0 0"), 3, f"{what}: origin rpy"))
+    return turned.as_matrix(), floats(element.get("xyz", "0 0 0"), 3, f"{what}: origin xyz")
 
 
-def geometry(element, what):
+def geometry(element, what, folder):
     """A shape of a link in the words of the plan file."""
     shapes = list(element.find("geometry") if element.find("geometry") is not None else [])
-    if len(shapes) != 1:
-        raise Refused(f"{what}: expected one geometry")
+    expect(len(shapes) == 1, what, "one geometry", shapes)
     shape = shapes[0]
     size = lambda key: float(floats(shape.get(key), 1, f"{what}: {key}")[0])
     if shape.tag == "box":
@@ -51,6 +66,9 @@ def geometry(element, what):
         return {"sphere": {"radius_m": size("radius")}}
     if shape.tag == "cylinder":
         return {"cylinder": {"radius_m": size("radius"), "half_length_m": 0.5 * size("length")}}
+    if shape.tag == "mesh":
+        points = vertices(shape.get("filename"), folder, floats(shape.get("scale", "1 1 1"), 3, f"{what}: scale"))
+        return {"hull": {"points": points}}
     raise Refused(f"{what}: a {shape.tag} is not checked by this version")
 
 
@@ -59,69 +77,73 @@ class Joint:
 
     def __init__(self, element, before):
         self.name = element.get("name")
-        self.links = [element.find(side).get("link") for side in ("parent", "child")]
+        self.links = [linked(element, side) for side in ("parent", "child")]
         what = f"joint {self.name}"
         self.frame = compose(before, origin(element.find("origin"), what))
         axis = element.find("axis")
         axis = floats(axis.get("xyz") if axis is not None else "1 0 0", 3, f"{what}: axis")
         self.axis = axis / np.linalg.norm(axis)
         limit = element.find("limit")
-        if limit is None:
-            raise Refused(f"{what}: expected limits")
+        expect(limit is not None, what, "limits", None)
+        expect(element.find("mimic") is None, what, "no mimic: it is not checked by this version", "one")
         self.speed = float(floats(limit.get("velocity"), 1, f"{what}: velocity")[0])
         self.lower, self.upper = -np.inf, np.inf
         if element.get("type") == "revolute":
             self.lower = float(floats(limit.get("lower", "0"), 1, f"{what}: lower")[0])
             self.upper = float(floats(limit.get("upper", "0"), 1, f"{what}: upper")[0])
         soft = element.find("safety_controller")
-        if soft is not None:
-            for key, pick in (("soft_lower_limit", max), ("soft_upper_limit", min)):
-                if soft.get(key) is not None:
-                    side = "lower" if pick is max else "upper"
-                    value = float(floats(soft.get(key), 1, f"{what}: {key}")[0])
-                    setattr(self, side, pick(getattr(self, side), value))
-        if element.find("mimic") is not None:
-            raise Refused(f"{what}: a joint that mimics another one is not checked by this version")
+        for side, pick in (("lower", max), ("upper", min)):
+            value = soft.get(f"soft_{side}_limit") if soft is not None else None
+            if value is not None:
+                setattr(self, side, pick(getattr(self, side), float(floats(value, 1, f"{what}: soft limit")[0])))
 
 
 class Arm:
     """An arm; every link is fixed to the frame of one of 0 (the base) to 6 joints."""
 
-    def __init__(self, urdf, srdf=None):
-        self.urdf_sha256 = hashlib.sha256(urdf.encode()).hexdigest()
+    def __init__(self, urdf, srdf=None, folder="."):
+        """Reads the texts of a description and an SRDF; `folder` is that of the description, to which the files of meshes are relative."""
         self.srdf_sha256 = hashlib.sha256(srdf.encode()).hexdigest() if srdf is not None else None
-        root = ET.fromstring(urdf)
+        root = parsed(urdf, "URDF")
         self.name = root.get("name")
         links = {link.get("name"): link for link in root.findall("link")}
         children = {}
         for joint in root.findall("joint"):
-            children.setdefault(joint.find("parent").get("link"), []).append(joint)
-        below = {joint.find("child").get("link") for joint in root.findall("joint")}
-        bases = [name for name in links if name not in below]
-        if len(bases) != 1:
-            raise Refused(f"URDF: expected one root link, found {bases}")
+            children.setdefault(linked(joint, "parent"), []).append(joint)
+        parents = {linked(joint, "child"): linked(joint, "parent") for joint in root.findall("joint")}
+        bases = [name for name in links if name not in parents]
+        expect(len(bases) == 1, "URDF", "one root link", bases)
+        expect(len(links) == len(root.findall("link")), "URDF", "each link once", sorted(link.get("name") for link in root.findall("link")))
         self.joints, self.links = [], {}
         self._walk(bases[0], IDENTITY, 0, children)
-        if len(self.joints) != JOINTS:
-            raise Refused(f"URDF: expected a chain of {JOINTS} revolute joints, found {len(self.joints)}")
-        if "tool0" not in self.links or self.links["tool0"][0] != JOINTS:
-            raise Refused("URDF: expected a link tool0 behind the last joint, on which the tool is mounted")
+        expect(len(self.joints) == JOINTS, "URDF", f"a chain of {JOINTS} revolute joints", len(self.joints))
+        mounted = self.links.get("tool0", (0,))[0] == JOINTS
+        expect(mounted, "URDF", "a link tool0 behind the last joint, on which the tool is mounted", sorted(self.links))
         self.mounting = self.links["tool0"][1]
-        self.shapes = {}
-        for name, link in links.items():
-            for k, element in enumerate(link.findall("collision")):
+        self.shapes, sealed = {}, hashlib.sha256(urdf.encode())
+        order = list(bases)
+        for name in order:
+            # The links of a parent are in the order of the file.
+            order += [below for below in links if parents.get(below) == name]
+            for k, element in enumerate(links[name].findall("collision")):
                 what = f"link {name}, collision {k}"
                 placed = compose(self.links[name][1], origin(element.find("origin"), what))
-                self.shapes.setdefault(name, []).append((placed, geometry(element, what)))
+                shape = geometry(element, what, Path(folder))
+                if "hull" in shape:
+                    sealed.update(shape["hull"]["points"].astype("<f8").tobytes())
+                    shape["hull"]["points"] = corners(shape["hull"]["points"]).tolist()
+                self.shapes.setdefault(name, []).append((placed, shape))
+        expect(len(order) == len(links), "URDF", "links that all hang together", sorted(set(links) - set(order)))
+        self.urdf_sha256 = sealed.hexdigest()
         for key in ("lower", "upper", "speed"):
             setattr(self, key, np.array([getattr(joint, key) for joint in self.joints]))
         self.disabled = set() if srdf is not None else self.neighbours()
         if srdf is not None:
-            for element in ET.fromstring(srdf):
+            for element in parsed(srdf, "SRDF"):
                 if element.tag == "disable_collisions":
                     self.disabled.add(frozenset((element.get("link1"), element.get("link2"))))
-                elif "collision" in element.tag:
-                    raise Refused(f"SRDF: {element.tag} is not checked by this version")
+                else:
+                    expect("collision" not in element.tag, "SRDF", "no element that this version does not check", element.tag)
 
     def neighbours(self):
         """Pairs of links that share one of the six joints; what is fixed to a link without a shape stands for it."""
@@ -138,16 +160,14 @@ class Arm:
     def _walk(self, link, placed, body, children):
         self.links[link] = (body, placed)
         moving = [j for j in children.get(link, []) if j.get("type") != "fixed"]
-        if len(moving) > 1:
-            raise Refused(f"URDF: link {link} carries two joints that move")
+        expect(len(moving) <= 1, f"URDF: link {link}", "one joint that moves", len(moving))
         for joint in children.get(link, []):
-            child, kind = joint.find("child").get("link"), joint.get("type")
+            child, kind = linked(joint, "child"), joint.get("type")
             if kind == "fixed":
                 below = compose(placed, origin(joint.find("origin"), f"joint {joint.get('name')}"))
                 self._walk(child, below, body, children)
             elif kind in ("revolute", "continuous"):
-                if body != len(self.joints):
-                    raise Refused(f"URDF: joint {joint.get('name')} is off the chain")
+                expect(body == len(self.joints), f"URDF: joint {joint.get('name')}", "a joint of the chain", "one off it")
                 self.joints.append(Joint(joint, placed))
                 self._walk(child, IDENTITY, len(self.joints), children)
             else:

@@ -8,7 +8,9 @@ whole step. The direction comes from the middle of the step (Gilbert's algorithm
 import numpy as np
 
 from .motion import COMB, Steps, bell
-from .plan import Refused, compose, inverse, numbers, only, real
+from .plan import compose, inverse
+from .schema import check, expect
+from .schema import shape as of_shape
 
 # Allowance for rounding of a distance [m]: see the README.
 ROUND = 1e-10
@@ -25,31 +27,22 @@ class Part:
 
     def __init__(self, placed, shape):
         self.r, self.p = placed
-        if not isinstance(shape, dict) or len(shape) != 1:
-            raise Refused("a shape: expected one kind with its sizes")
-        (kind, sizes), = shape.items()
-        self.pad, self.kind = 0.0, kind
-        keys = {"box": ("half_m",), "sphere": ("radius_m",), "hull": ("points",)}.get(kind, ("radius_m", "half_length_m"))
-        only(sizes, f"a {kind}", keys)
-        if kind not in ("hull", "box"):
-            sizes = {key: real(value, f"a {kind}: {key}", most=1e4, above=0) for key, value in sizes.items()}
-        if kind == "box":
-            self.sizes = np.array([real(x, "a box: half_m", most=1e4, above=0) for x in sizes["half_m"]])
+        check(of_shape, shape, "a shape")
+        (self.kind, sizes), = shape.items()
+        self.pad = 0.0
+        if self.kind == "box":
+            self.sizes = np.array(sizes["half_m"], dtype=float)
             self.extent = float(np.linalg.norm(self.sizes))
-        elif kind in ("sphere", "capsule"):
+        elif self.kind == "cylinder":
+            self.sizes = np.array([sizes["radius_m"], sizes["half_length_m"]], dtype=float)
+            self.extent = float(np.hypot(*self.sizes))
+        elif self.kind == "hull":
+            self.points = np.array(sizes["points"], dtype=float)
+            self.extent = float(np.linalg.norm(self.points, axis=1).max())
+        else:
             self.pad, half = float(sizes["radius_m"]), float(sizes.get("half_length_m", 0.0))
             self.points = np.array([[0, 0, -half], [0, 0, half]]) if half else np.zeros((1, 3))
             self.extent = self.pad + half
-        elif kind == "cylinder":
-            self.sizes = np.array([sizes["radius_m"], sizes["half_length_m"]], dtype=float)
-            self.extent = float(np.hypot(*self.sizes))
-        elif kind == "hull":
-            self.points = numbers(sizes["points"], "a hull: points", (-1, 3))
-            self.extent = float(np.linalg.norm(self.points, axis=1).max())
-        else:
-            raise Refused(f"a shape {kind!r} is not known")
-        if not np.isfinite(self.extent) or self.extent <= 0:
-            raise Refused(f"a {kind}: expected sizes above 0")
 
     def support(self, d):
         """Points of the core that are farthest along directions, in the frame of the part."""
@@ -77,7 +70,7 @@ def bodies(arm, plan):
     tool = plan.tool
     for body in tool.bodies:
         placed = compose(arm.mounting, body.pose)
-        all_bodies.append(Mover(body.name, 6, parts_of(placed, body.shape), body.margin))
+        all_bodies.append(Mover(body.name, 6, [Part(placed, body.shape)], body.margin))
     # Where it touches nothing, the sponge is as high as it is free.
     high = tool.height + tool.compression
     lower = (np.eye(3), np.array([0, 0, 0.5 * tool.compression]))
@@ -93,15 +86,11 @@ def bodies(arm, plan):
         if body.shape == "half_space":
             all_bodies.append(Mover(body.name, 0, [], body.margin, (placed[0][:, 2], placed[0][:, 2] @ placed[1])))
         elif "convex" in body.shape:
-            all_bodies.append(Mover(body.name, 0, parts_of(placed, body.shape["convex"]), body.margin))
+            all_bodies.append(Mover(body.name, 0, [Part(placed, body.shape["convex"])], body.margin))
         else:
             hulls = [{"hull": {"points": points}} for points in body.shape["parts"]]
             all_bodies.append(Mover(body.name, 0, [Part(placed, hull) for hull in hulls], body.margin))
     return all_bodies
-
-
-def parts_of(placed, shape):
-    return [Part(placed, shape)]
 
 
 class Frames:
@@ -268,8 +257,7 @@ class Clearance:
         self.bodies = bodies(arm, plan)
         names = [body.name for body in self.bodies]
         for name in names:
-            if names.count(name) > 1:
-                raise Refused(f"two bodies have the name {name!r}")
+            expect(names.count(name) == 1, "the names of bodies", "each name once", name)
         self.plate_of = {f"plate {k + 1}": k for k in range(len(plan.plates))}
         for body in self.bodies:
             for part in body.parts:
@@ -280,7 +268,7 @@ class Clearance:
 
     def reason(self, a, b):
         """The reason for which a pair is left out, recomputed; None for one that is judged."""
-        names = {a.name, b.name}
+        names, first = {a.name, b.name}, self.arm.joints[0]
         if a.carrier == b.carrier == 0:
             return "neither_moves"
         if names <= self.links and frozenset(names) in self.arm.disabled:
@@ -293,7 +281,7 @@ class Clearance:
                     return "carries_tool"
         for plane, link in ((a, b), (b, a)):
             if plane.plane is not None and link.carrier == 1 and link.name in self.links:
-                if np.linalg.norm(np.cross(plane.plane[0], self.axis_1())) <= LEVEL:
+                if np.linalg.norm(np.cross(plane.plane[0], first.frame[0] @ first.axis)) <= LEVEL:
                     return "keeps_its_height"
         return None
 
@@ -311,10 +299,6 @@ class Clearance:
                 if a.carrier != b.carrier and (np.min(gaps, axis=0) <= 0).all():
                     found.add(frozenset((a.name, b.name)))
         return found
-
-    def axis_1(self):
-        joint = self.arm.joints[0]
-        return joint.frame[0] @ joint.axis
 
     def pairs(self):
         for k, a in enumerate(self.bodies):
@@ -340,12 +324,8 @@ class Clearance:
 
     def free_spans(self, plate):
         """Spans of pieces in which the sponge keeps clear of a plate: all but those in which it may touch it."""
-        plan, spans = self.plan, []
-        for segment in plan.segments:
-            near = segment["kind"] in ("approach", "wash", "retreat")
-            if not (near and self.may_touch(segment["plate"], plate)):
-                spans.append(tuple(plan.span(segment)))
-        return spans
+        touched = lambda s: s["kind"] in ("approach", "wash", "retreat") and self.may_touch(s["plate"], plate)
+        return [tuple(self.plan.span(s)) for s in self.plan.segments if not touched(s)]
 
     def may_touch(self, washed, other):
         """True for the plate that is washed, and for a parallel neighbour that is no higher and whose rim is near the wash path."""
@@ -389,7 +369,7 @@ class Clearance:
     def still(self):
         """Pairs whose distance no joint changes: link 1 over a level plane keeps the clearance; the ground under the arm is only not to be
         reached into."""
-        faults, rest = [], self.arm.frames(np.zeros((1, 6)))
+        faults = []
         mount_r, mount_p = self.arm.mounting
         out = mount_r[:, 2]
         for body in self.bodies:
@@ -402,21 +382,15 @@ class Clearance:
             if self.reason(a, b) != "keeps_its_height":
                 continue
             plane, link = (a, b) if a.plane is not None else (b, a)
-            normal, height = plane.plane
-            r, p = rest[0][link.carrier][0], rest[1][link.carrier][0]
-            low = np.inf
-            for part in link.parts:
-                in_part = (r @ part.r).T @ normal
-                core = part.support(-in_part[None])[0]
-                low = min(low, core @ in_part + normal @ (p + r @ part.p) - part.pad - height)
-            is_ground = abs(height) <= 1e-9 and normal @ np.array([0, 0, 1]) >= 1 - 1e-9
-            need = 0.0 if is_ground else self.plan.requirements["clearance_m"] + plane.margin
+            low = self.at_rest(plane, link)
+            (_, _, up), height = plane.plane
+            need = 0.0 if abs(height) <= 1e-9 and up >= 1 - 1e-9 else self.plan.requirements["clearance_m"] + plane.margin
             if not low >= need:
                 faults.append(f"{link.name} keeps {1e3 * low:.2f} mm from {plane.name}, {1e3 * need:.2f} mm needed")
         return faults
 
     def at_rest(self, a, b):
-        """Lower bound on the distance of two bodies that stand; below 0 where they overlap, or are not shown to be apart."""
+        """Lower bound on the distance of two bodies with all joints at 0; below 0 where they overlap, or are not shown to be apart."""
         frames, least = Still(self.arm, np.zeros((1, 6))), np.inf
         for x, y in ((a, b), (b, a)):
             if x.plane is not None:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .motion import Instant
-from .plan import Refused
+from .schema import Refused
 from .verdict import judged
 from .washing import ROUND
 
@@ -49,42 +49,24 @@ def cubic(h, u, q0, q1, v0, v1):
     return q0 + u * (v0 + u * (c2 + u * c3)), v0 + u * (2 * c2 + 3 * u * c3), 2 * c2 + 6 * u * c3
 
 
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def add(*vectors):
-    return [sum(parts[1:], parts[0]) for parts in zip(*vectors)]
-
-
-def times(matrix, vector):
-    return [sum((a * b for a, b in zip(row[1:], vector[1:])), row[0] * vector[0]) for row in matrix]
-
-
 def tip(arm, frame, joints, ball):
     """Tip, axis, speed and acceleration, by turning and shifting from the last joint to the first: f = exp(q Z) g, and its derivatives."""
-    exact = lambda array: [[ball(x) for x in row] for row in np.atleast_2d(array)]
-    mount_r, mount_p = arm.mounting
-    place = add(exact(mount_p)[0], times(exact(mount_r), exact(frame[1])[0]))
-    axis = times(exact(mount_r), exact(frame[0][:, 2])[0])
-    zero = [ball(0)] * 3
-    point, way = [place, zero, zero], [axis, zero, zero]
+    exact = np.frompyfunc(ball, 1, 1)
+    mount_r, mount_p = (exact(part) for part in arm.mounting)
+    zero = exact(np.zeros(3))
+    point, way = [mount_p + mount_r @ exact(frame[1]), zero, zero], [mount_r @ exact(frame[0][:, 2]), zero, zero]
     for joint, (q, qd, qdd) in reversed(list(zip(arm.joints, joints))):
-        z = exact(joint.axis)[0]
-        r, d = exact(joint.frame[0]), exact(joint.frame[1])[0]
-        point, way = (turned(z, q, qd, qdd, g) for g in (point, way))
-        point = [add(times(r, point[0]), d), times(r, point[1]), times(r, point[2])]
-        way = [times(r, part) for part in way]
+        r, d = (exact(part) for part in joint.frame)
+        point, way = ([r @ part for part in turned(exact(joint.axis), q, qd, qdd, g)] for g in (point, way))
+        point[0] = point[0] + d
     return point[0], way[0], point[1], point[2]
 
 
 def turned(z, q, qd, qdd, g):
     """exp(q Z) g and its first two derivatives."""
-    about = lambda v: cross(z, v)
-    scaled = lambda s, v: [s * x for x in v]
-    s, c = q.sin(), q.cos()
+    about = lambda v: np.cross(z, v)
     # Rodrigues: v + sin q Z v + (1 - cos q) Z Z v.
-    turn = lambda v: add(v, scaled(s, about(v)), scaled(1 - c, about(about(v))))
-    first = add(g[1], scaled(qd, about(g[0])))
-    second = add(g[2], scaled(2 * qd, about(g[1])), scaled(qdd, about(g[0])), scaled(qd * qd, about(about(g[0]))))
+    turn = lambda v: v + q.sin() * about(v) + (1 - q.cos()) * about(about(v))
+    first = g[1] + qd * about(g[0])
+    second = g[2] + 2 * qd * about(g[1]) + qdd * about(g[0]) + qd * qd * about(about(g[0]))
     return [turn(g[0]), turn(first), turn(second)]

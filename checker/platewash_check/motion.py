@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .plan import compose
+
 EPS = np.finfo(float).eps
 COMB = [[1], [1, 1], [1, 2, 1], [1, 3, 3, 1], [1, 4, 6, 4, 1]]
 
@@ -42,22 +44,17 @@ class Motion:
 
     def extremes(self):
         """Least and greatest position, greatest speed and greatest acceleration of each joint in each piece, with rounding."""
-        h = self.h[:, None]
+        h = self.h[:, None] + 0 * self.c2
         with np.errstate(divide="ignore", invalid="ignore"):
-            # Zeros of the speed v0 + 2 c2 u + 3 c3 u^2, and that of the acceleration.
+            # Both ends, the zeros of the speed v0 + 2 c2 u + 3 c3 u^2, and that of the acceleration.
             root = np.sqrt(np.maximum(self.c2**2 - 3 * self.c3 * self.v0, 0))
             s = -(self.c2 + np.where(self.c2 >= 0, root, -root))
-            moments = [s / (3 * self.c3), self.v0 / s, -self.c2 / (3 * self.c3)]
-        piece = np.arange(len(self.h))
-        ends = [self.at(piece, np.zeros(len(self.h))), self.at(piece, self.h)]
-        low, high = (pick(ends[0][0], ends[1][0]) for pick in (np.minimum, np.maximum))
-        speed = np.maximum(abs(ends[0][1]), abs(ends[1][1]))
-        for u in moments:
-            u = np.clip(np.where(np.isfinite(u), u, 0), 0, h)
-            q = self.q0 + u * (self.v0 + u * (self.c2 + u * self.c3))
-            low, high = np.minimum(low, q), np.maximum(high, q)
-            speed = np.maximum(speed, abs(self.v0 + u * (2 * self.c2 + 3 * u * self.c3)))
-        acceleration = np.maximum(abs(ends[0][2]), abs(ends[1][2]))
+            u = np.array([0 * h, h, s / (3 * self.c3), self.v0 / s, -self.c2 / (3 * self.c3)])
+        u = np.clip(np.where(np.isfinite(u), u, 0), 0, h)
+        q = self.q0 + u * (self.v0 + u * (self.c2 + u * self.c3))
+        low, high = q.min(axis=0), q.max(axis=0)
+        speed = abs(self.v0 + u * (2 * self.c2 + 3 * u * self.c3)).max(axis=0)
+        acceleration = abs(2 * self.c2 + 6 * u[:2] * self.c3).max(axis=0)
         at_q = self.rounding[0] + EPS * np.maximum(abs(low), abs(high))
         return low - at_q, high + at_q, speed + self.rounding[1], acceleration + self.rounding[2]
 
@@ -117,7 +114,7 @@ class Ends:
         self.q1 = np.maximum(abs(states[0][1]), abs(states[1][1])) + h**2 / 8 * third + self.rounding[1]
         b = bell(self.q1, self.q2, third)
         self.at = [Instant(arm, *state[:3], tip) for state in states]
-        reach = arm.reaches(compose_point(arm, tip))
+        reach = arm.reaches(compose(arm.mounting, tip)[1])
         # Derivatives of the tip and of the axis, seen from each joint; the last joint sees them at rest.
         g = [None] + [np.zeros(len(steps))] * 4
         a = [None] + [np.zeros(len(steps))] * 4
@@ -135,12 +132,6 @@ class Ends:
     def most(self, values, second):
         """Bound over each step on a quantity with values at both ends, by a bound on its second derivative."""
         return np.maximum(values[0], values[1]) + self.h**2 / 8 * second
-
-
-def compose_point(arm, tip):
-    """The tip, fixed to the tool's mounting frame, in the frame of the last joint."""
-    r, p = arm.mounting
-    return p + r @ tip[1]
 
 
 class Instant:

@@ -99,17 +99,9 @@ def linear(place, axis, speed, omega, along, tool):
 
 def product(w, l):
     """Coefficients of 1, x, y, x^2, x y, y^2 of a product of two linear functions."""
-    return np.stack(
-        [
-            w[:, 0] * l[:, 0],
-            w[:, 0] * l[:, 1] + w[:, 1] * l[:, 0],
-            w[:, 0] * l[:, 2] + w[:, 2] * l[:, 0],
-            w[:, 1] * l[:, 1],
-            w[:, 1] * l[:, 2] + w[:, 2] * l[:, 1],
-            w[:, 2] * l[:, 2],
-        ],
-        axis=1,
-    )
+    both = w[:, :, None] * l[:, None, :]
+    first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
+    return both[:, first, second] + np.where(np.equal(first, second), 0, both[:, second, first])
 
 
 def of_plate(washing, segment):

@@ -22,6 +22,11 @@ def norm(values):
     return np.linalg.norm(values, axis=-1)
 
 
+def worse(a, b):
+    """The greater of two bounds with their moments; what is no number is worst."""
+    return a if b[0] <= a[0] or a[0] != a[0] else b
+
+
 class Curve:
     """The curve of a wash path on a flat face: the radius as a function of the angle theta from its start."""
 
@@ -88,32 +93,33 @@ class Washing:
         return Ends(self.arm, self.motion, steps, self.plan.tool.tip)
 
     def most(self, steps, evaluate, limit):
-        """Greatest value over steps: `evaluate` gives the values at both ends and a bound on the second derivative. Halves what is not
-        within the limit. Returns the bound and the moment of the worst step."""
-        worst, when = -np.inf, 0.0
+        """Greatest value over steps: `evaluate` gives the values at both ends, a bound on the second derivative and, if it is not where an end
+        is beyond the limit, where shorter steps do not help. Halves what is not within the limit. Returns the bound and the moment of the
+        worst step."""
+        worst = (-np.inf, 0.0)
         for round in range(HALVINGS + 1):
-            values, second = evaluate(steps, self.ends(steps))
+            values, second, *hopeless = evaluate(steps, self.ends(steps))
             ends = np.maximum(values[0], values[1])
             bound = ends + (steps.end - steps.start) ** 2 / 8 * second + ROUND
-            again = (bound > limit) & (ends <= limit) & (round < HALVINGS)
-            if (~again).any():
-                k = np.flatnonzero(~again)[np.argmax(bound[~again])]
-                if bound[k] > worst or bound[k] != bound[k]:
-                    worst, when = bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
+            again = (bound > limit) & ~(hopeless[0] if hopeless else ends > limit) & (round < HALVINGS)
+            worst = worse(worst, self.greatest(steps, np.where(again, -np.inf, bound)))
             if not again.any() or not np.isfinite(bound).all():
                 break
             steps = steps.halves(again)
-        return worst, when
+        return worst
+
+    def greatest(self, steps, bound):
+        """The greatest of some bounds and its moment."""
+        k = np.argmax(bound)
+        return bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
 
     def over(self, kinds, longest, evaluate, limit):
         """The greatest value over all segments of some kinds; `evaluate` also gets the segment."""
-        worst, when = -np.inf, 0.0
+        worst = (-np.inf, 0.0)
         for segment in self.plan.segments:
             if segment["kind"] in kinds:
-                found = self.most(self.steps(segment, longest), lambda s, e: evaluate(segment, e), limit)
-                if worst == worst and not found[0] <= worst:
-                    worst, when = found
-        return worst, when
+                worst = worse(worst, self.most(self.steps(segment, longest), lambda s, e: evaluate(segment, e), limit))
+        return worst
 
     def in_plate(self, segment, instant):
         """Tip and axis of the tool in the frame of the segment's plate."""
@@ -127,28 +133,20 @@ class Washing:
     def speeds(self):
         """15 to 18: speed and acceleration of the tip."""
         need, limits = self.plan.requirements, self.plan.limits
-        wash, all_kinds = ("wash",), ("depart", "approach", "retreat", "transit", "return")
-        for name, kinds, quantity, order, limit, unit, longest in (
-            ("tip_speed", all_kinds, "speed", 3, limits["tip_speed_m_s"], "m/s", 4e-3),
-            ("tip_acceleration", all_kinds, "acceleration", 4, limits["tip_acceleration_m_s2"], "m/s^2", 4e-3),
-            ("wash_speed", wash, "speed", 3, min(need["wash_speed_m_s"], limits["tip_speed_m_s"]), "m/s", 2e-3),
-            (
-                "wash_acceleration",
-                wash,
-                "acceleration",
-                4,
-                min(need["wash_acceleration_m_s2"], limits["tip_acceleration_m_s2"]),
-                "m/s^2",
-                2e-3,
-            ),
+        free = ("depart", "approach", "retreat", "transit", "return")
+        orders = (("speed", "speed_m_s", "m/s", 3), ("acceleration", "acceleration_m_s2", "m/s^2", 4))
+        for of, kinds, longest, (quantity, key, unit, order) in (
+            (*where, which) for where in (("tip", free, 4e-3), ("wash", ("wash",), 2e-3)) for which in orders
         ):
+            limit = min(limits[f"tip_{key}"], need[f"wash_{key}"] if of == "wash" else np.inf)
+
             def evaluate(_, ends):
                 # What rounding of the joints' speeds and accelerations moves at the tip's levers.
                 slack = (ends.levers * ends.rounding[order - 2]).sum(axis=1)
                 return [norm(getattr(instant, quantity)) + slack for instant in ends.at], ends.tip[order]
 
             bound, when = self.over(kinds, longest, evaluate, limit)
-            yield judged(name, bound, limit, unit, f"at {when:.4f} s")
+            yield judged(f"{of}_{quantity}", bound, limit, unit, f"at {when:.4f} s")
 
     def beside_plates(self):
         plan, tool = self.plan, self.plan.tool
@@ -183,8 +181,7 @@ class Washing:
             for segment in plan.segments:
                 if segment["kind"] in near and segment["plate"] == plate:
                     found, when = self.most(self.steps(segment, 4e-3), lambda s, e: far(segment, e), most)
-                    if reach == reach and not found - most <= reach:
-                        reach, at = found - most, when
+                    reach, at = worse((reach, at), (found - most, when))
         yield judged("reach", reach, 0.0, "m", f"beyond what the paths imply, at {at:.4f} s")
 
         yield self.path_deviation(curves)
@@ -253,7 +250,7 @@ class Washing:
     def path_deviation(self, curves):
         """22: the tip follows the whole path in order. An angle theta(t) that never falls is chosen at each moment; the tip is compared with
         the curve there."""
-        worst, when, faults = -np.inf, 0.0, []
+        worst, faults = (-np.inf, 0.0), []
         for segment in self.plan.segments:
             if segment["kind"] != "wash":
                 continue
@@ -267,19 +264,17 @@ class Washing:
             off = norm(places - on_curve)
             step = np.diff(theta)
             bound = np.maximum(off[:-1], off[1:]) + ends.h**2 / 8 * ends.tip[2] + step**2 / 8 * curve.bend() + ROUND
-            k = np.argmax(bound)
-            if worst == worst and not bound[k] <= worst:
-                worst, when = bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
+            worst = worse(worst, self.greatest(steps, bound))
             if theta[0] != 0 or theta[-1] != curve.end or (step < 0).any():
                 faults.append(f"the path of plate {segment['plate'] + 1} is not followed from end to end")
         if faults:
             return stated("path_deviation", faults)
-        return judged("path_deviation", worst, PATH_M, "m", f"at {when:.4f} s")
+        return judged("path_deviation", worst[0], PATH_M, "m", f"at {worst[1]:.4f} s")
 
     def contact_speed(self, tilt, delta):
         """21: no touching point of the sponge is faster than the limit while it comes down and leaves."""
         tool, need = self.plan.tool, self.plan.requirements
-        ratio, when = -np.inf, 0.0
+        ratio, when, worst = -np.inf, 0.0, (-np.inf, 0.0)
         for segment in self.plan.segments:
             if segment["kind"] not in ("approach", "retreat"):
                 continue
@@ -303,26 +298,13 @@ class Washing:
                 lowest = np.minimum(*heights) - ends.h**2 / 8 * (ends.tip[2] + (b + tool.radius) * ends.axis[2]) - ROUND
                 second = ends.tip[3] + arm_m * ends.axis[3]
                 touches = lowest <= 0
-                # At an end that touches and is too fast, shorter steps do not help.
-                broken = np.any([(height <= 0) & (value > limit) for height, value in zip(heights, values)], axis=0)
-                return [np.where(touches, value, 0.0) for value in values], np.where(touches, second, 0.0), broken
+                # Shorter steps help, unless an end touches and is too fast.
+                hopeless = np.any([(height <= 0) & (value > limit) for height, value in zip(heights, values)], axis=0)
+                return [np.where(touches, value, 0.0) for value in values], np.where(touches, second, 0.0), hopeless
 
-            # A step that may touch is halved also where its ends are too fast.
-            steps, found, at = self.steps(segment, 4e-3), -np.inf, 0.0
-            for round in range(HALVINGS + 1):
-                ends = self.ends(steps)
-                values, second, broken = evaluate(steps, ends)
-                bound = np.maximum(*values) + ends.h**2 / 8 * second + ROUND
-                again = (bound > limit) & ~broken & (round < HALVINGS)
-                if (~again).any():
-                    k = np.flatnonzero(~again)[np.argmax(bound[~again])]
-                    if found == found and not bound[k] <= found:
-                        found, at = bound[k], self.motion.t[steps.piece[k]] + steps.start[k]
-                if not again.any():
-                    break
-                steps = steps.halves(again)
-            if ratio == ratio and not found / limit <= ratio:
-                ratio, when, worst = found / limit, at, (found, limit)
+            bound, at = self.most(self.steps(segment, 4e-3), evaluate, limit)
+            if worse((ratio, 0), (bound / limit, 1))[1]:
+                ratio, when, worst = bound / limit, at, (bound, limit)
         return judged("contact_speed", *worst, "m/s", f"at {when:.4f} s")
 
 

@@ -4,6 +4,8 @@ import json
 import os
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +15,10 @@ from platewash_check import exact
 from platewash_check.arm import Arm
 from platewash_check.check import check
 from platewash_check.clearance import Clearance
+from platewash_check.mesh import vertices
 from platewash_check.motion import Motion
-from platewash_check.plan import Plan, Refused
+from platewash_check.plan import Plan
+from platewash_check.schema import Refused
 from platewash_check.statements import apart
 from platewash_check.washing import Washing, outside
 
@@ -58,7 +62,7 @@ def test_bad_files_are_refused(tmp_path, plan_file):
         (lambda p: p["knots"]["t_s"].pop(), "expected as many times"),
         (lambda p: p["knots"]["q_rad"][3].pop(), "knots.q_rad"),
         (lambda p: p["job"]["plates"][0]["pose"].update(quaternion_wxyz=[1, 1, 0, 0]), "expected a length of 1"),
-        (lambda p: p.update(format="platewash-plan/1"), "expected platewash-plan/2"),
+        (lambda p: p.update(format="platewash-plan/1"), "platewash-plan/2"),
     ):
         bad = json.loads(json.dumps(good))
         change(bad)
@@ -246,3 +250,54 @@ def test_changed_plans_are_not_confirmed(requirement, plan_file, monkeypatch):
         if answer.requirement == requirement:
             break
     assert found[requirement] == "not_confirmed", found
+
+
+def stl(points, triangles):
+    """A binary STL file."""
+    body = b"".join(np.float32([[0, 0, 0], *points[t]]).tobytes() + b"\0\0" for t in triangles)
+    return bytes(80) + np.uint32(len(triangles)).tobytes() + body
+
+
+def test_links_of_meshes_are_those_that_the_plan_was_made_with(tmp_path):
+    corners = np.array([[x, y, z] for x in (-30, 30) for y in (-30, 30) for z in (0, 80)], dtype=float)
+    triangles = [list(t) for t in combinations(range(8), 3)]
+    lines = lambda word: [f"{word} {x:g} {y:g} {z:g}" for t in triangles for x, y, z in corners[t]]
+    faces = [f"f {3 * k + 1} {3 * k + 2} {3 * k + 3}" for k in range(len(triangles))]
+    (tmp_path / "link.obj").write_text("\n".join(lines("v") + faces) + "\n")
+    (tmp_path / "ascii.stl").write_text("\n".join(["solid link", *lines("vertex"), "endsolid link"]))
+    (tmp_path / "binary.stl").write_bytes(stl(corners, triangles))
+    points = [vertices(name, tmp_path, 1e-3) for name in ("link.obj", "ascii.stl", "binary.stl")]
+    assert all(np.array_equal(found, points[0]) for found in points) and len(points[0]) == 8
+
+    tree = ET.fromstring((ROOT / "urdf/irb120.urdf").read_text())
+    shape = next(link for link in tree.findall("link") if link.get("name") == "link_4").find("collision/geometry")
+    for old in list(shape):
+        shape.remove(old)
+    ET.SubElement(shape, "mesh", filename="link.obj", scale="0.001 0.001 0.001")
+    (tmp_path / "arm.urdf").write_text(ET.tostring(tree, encoding="unicode"))
+    (tmp_path / "arm.srdf").write_text((ROOT / "urdf/irb120.srdf").read_text())
+    command = os.environ.get("PLATEWASH_BIN", str(ROOT / "target/release/platewash"))
+    of_arm = ["--urdf", str(tmp_path / "arm.urdf"), "--srdf", str(tmp_path / "arm.srdf")]
+    subprocess.run([command, "-q", "plan", "--scenario", "sink", *of_arm, "--out", str(tmp_path)], check=True)
+    found = run(tmp_path / "plan.json", *of_arm)
+    assert found.returncode == 0, found.stdout + found.stderr
+    # A vertex more is another arm.
+    with open(tmp_path / "link.obj", "a") as file:
+        file.write("v 0 0 -80\n")
+    found = run(tmp_path / "plan.json", *of_arm)
+    assert found.returncode == 4 and "the description is not the plan's" in found.stdout, found.stdout
+
+
+def test_broken_descriptions_are_refused(tmp_path, plan_file):
+    urdf = (ROOT / "urdf/irb120.urdf").read_text()
+    for text, words in (
+        (urdf[:-20], "not XML"),
+        (urdf.replace('<parent link="link_1"/>', ""), "a parent link"),
+        (urdf.replace("</robot>", '<link name="link_1"/></robot>'), "each link once"),
+        (urdf.replace("</robot>", '<link name="a"/><link name="b"/>' + "".join(
+            f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>' for a, b in ("ab", "ba")
+        ) + "</robot>"), "hang together"),
+    ):
+        (tmp_path / "arm.urdf").write_text(text)
+        found = run(plan_file("sink"), "--urdf", tmp_path / "arm.urdf")
+        assert found.returncode == 2 and words in found.stderr, found.stdout + found.stderr
