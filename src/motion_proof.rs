@@ -142,7 +142,8 @@ pub struct MotionReport {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `acceleration_rad_s2` are the greatest joint accelerations, if they are to be judged. Without times only positions and clearance are.
+/// `acceleration_rad_s2` are the greatest joint accelerations, if they are to be judged; those that the description states are judged wherever
+/// speeds do not jump. Without times only positions and clearance are judged.
 ///
 /// # Errors
 /// [`ProveError`] for what cannot be judged, and when it is given up. A motion that breaks a rule is no error.
@@ -160,20 +161,50 @@ pub fn prove_motion(
         rests_outside: motion.rests_outside(),
         timing: motion.start.map_or(Timing::Free, |_| Timing::Stated),
     };
-    let judged = judged_motion(motion, acceleration_rad_s2.as_ref());
+    let judged = judged_motion(motion, arm, acceleration_rad_s2.as_ref());
     let proof = prove_arm_motion(&judged, workcell, arm, &rules, cancel)?;
     Ok(MotionReport::new((motion, &judged), workcell, arm, &rules, proof))
 }
 
-/// Returns the motion that is judged: through the points, and to rest behind the last one where the points state speeds and there are
-/// acceleration limits \[rad/s²\], at which the arm brakes.
+/// Returns the motion that is judged: through the points, and to rest behind the last one where the points state speeds and every joint has
+/// an acceleration limit \[rad/s²\], given or of the description, at which it brakes.
 #[must_use]
-pub fn judged_motion(motion: &PointMotion, acceleration_rad_s2: Option<&JointVector>) -> PiecewiseMotion {
+pub fn judged_motion(
+    motion: &PointMotion,
+    arm: &RobotModel,
+    acceleration_rad_s2: Option<&JointVector>,
+) -> PiecewiseMotion {
     let states_speeds = motion.start.is_some() && !motion.rests_outside();
-    match acceleration_rad_s2.filter(|limits| states_speeds && limits.iter().all(|limit| *limit > 0.0)) {
-        Some(limits) => with_stop(&motion.motion, limits),
-        None => motion.motion.clone(),
+    let limits = accelerations(arm, acceleration_rad_s2);
+    match states_speeds && limits.iter().all(|limit| *limit > 0.0 && limit.is_finite()) {
+        true => with_stop(&motion.motion, &limits),
+        false => motion.motion.clone(),
     }
+}
+
+/// Greatest accelerations of the joints \[rad/s²\]: the lesser of those given and those of the description; infinite where neither is.
+fn accelerations(arm: &RobotModel, given: Option<&JointVector>) -> JointVector {
+    let given = given.copied().unwrap_or_else(|| JointVector::repeat(f64::INFINITY));
+    arm.limits().within_acceleration(&given)
+}
+
+/// Returns what the description states and this proof does not use: limits of accelerations where speeds jump, and whatever
+/// [`RobotModel::unused_statements`] names.
+fn notes_on_description(motion: &PointMotion, arm: &RobotModel, proof: &ArmMotionProof) -> Vec<String> {
+    let is_limited = arm.limits().acceleration.iter().any(Option::is_some);
+    let is_judged = motion.start.is_none() || proof.check(Requirement::JointAcceleration).is_some();
+    let jumps = (is_limited && !is_judged).then(|| {
+        "acceleration limits of the description are not judged, as speeds jump at points that state none".to_owned()
+    });
+    let unused = arm.unused_statements();
+    let named = unused.first().map(|first| match unused.len() {
+        1 => format!("not used of the description: {first}"),
+        many => format!(
+            "not used of the description: {first} and {} more (platewash robot)",
+            many - 1
+        ),
+    });
+    jumps.into_iter().chain(named).collect()
 }
 
 impl MotionReport {
@@ -197,6 +228,7 @@ impl MotionReport {
             format!("{a} and {b} meet{at}, which the SRDF leaves out of the proof")
         };
         let meeting: Vec<_> = proof.disabled_meeting.iter().map(met).collect();
+        let of_description = notes_on_description(motion, arm, &proof);
         let mut clearance = proof.clearance;
         for pair in &mut clearance {
             pair.time_s = shift(pair.time_s);
@@ -229,7 +261,7 @@ impl MotionReport {
             clearance,
             assumptions: assumptions(motion, workcell, arm, (rules, stop_s), &proof.excluded),
             excluded: proof.excluded,
-            notes: [motion.notes.clone(), meeting].concat(),
+            notes: [motion.notes.clone(), meeting, of_description].concat(),
             obstacles: workcell
                 .obstacles
                 .iter()
@@ -357,8 +389,13 @@ impl MotionReport {
                 let q = moment.q_rad[index];
                 let [lower, upper] = [limits.lower[index], limits.upper[index]];
                 let limit = if q - upper > lower - q { upper } else { lower };
+                let soft = if limits.is_soft[index][usize::from(q - upper > lower - q)] {
+                    "soft "
+                } else {
+                    ""
+                };
                 let [q, limit] = distinct_decimals(q, limit, 4);
-                format!("{joint} is at {q} rad, its limit is {limit} rad{proved},{at}")
+                format!("{joint} is at {q} rad, its {soft}limit is {limit} rad{proved},{at}")
             }
             (Requirement::JointAcceleration, _, None) => {
                 format!(
@@ -533,7 +570,17 @@ fn assumptions(
             }
             Some(_) => "Speed limits are those of the description; acceleration limits are as they were stated.",
         };
-        all.push(words.to_owned());
+        let described = arm.limits().acceleration.iter().flatten().next();
+        all.push(match (described, rules.acceleration_rad_s2) {
+            (None, _) => words.to_owned(),
+            (Some(_), None) => {
+                "Speed and acceleration limits are those of the description; accelerations of other joints are not judged.".to_owned()
+            }
+            (Some(_), Some(_)) => {
+                "Speed limits are those of the description; acceleration limits are the lesser of those stated and the description's."
+                    .to_owned()
+            }
+        });
     }
     all.extend(excluded_words(excluded));
     all

@@ -87,10 +87,11 @@ class Joint:
         expect(limit is not None, what, "limits", None)
         expect(element.find("mimic") is None, what, "no mimic: it is not checked by this version", "one")
         self.speed = float(floats(limit.get("velocity"), 1, f"{what}: velocity")[0])
-        self.lower, self.upper = -np.inf, np.inf
-        if element.get("type") == "revolute":
-            self.lower = float(floats(limit.get("lower", "0"), 1, f"{what}: lower")[0])
-            self.upper = float(floats(limit.get("upper", "0"), 1, f"{what}: upper")[0])
+        # An acceleration of 0 is unknown; so is one that is not stated.
+        rates = [floats(limit.get(key, "0"), 1, f"{what}: {key}")[0] for key in ("acceleration", "deceleration")]
+        self.acceleration = min([rate for rate in rates if rate > 0], default=np.inf)
+        ends = [float(floats(limit.get(key, "0"), 1, f"{what}: {key}")[0]) for key in ("lower", "upper")]
+        self.lower, self.upper = ends if element.get("type") == "revolute" else (-np.inf, np.inf)
         soft = element.find("safety_controller")
         for side, pick in (("lower", max), ("upper", min)):
             value = soft.get(f"soft_{side}_limit") if soft is not None else None
@@ -135,7 +136,7 @@ class Arm:
                 self.shapes.setdefault(name, []).append((placed, shape))
         expect(len(order) == len(links), "URDF", "links that all hang together", sorted(set(links) - set(order)))
         self.urdf_sha256 = sealed.hexdigest()
-        for key in ("lower", "upper", "speed"):
+        for key in ("lower", "upper", "speed", "acceleration"):
             setattr(self, key, np.array([getattr(joint, key) for joint in self.joints]))
         self.disabled = set() if srdf is not None else self.neighbours()
         if srdf is not None:

@@ -24,7 +24,7 @@ def answers(arm, plan, motion, clearance):
     margin = np.minimum(low - arm.lower, arm.upper - high).min(axis=0)
     joint = lambda values: arm.joints[int(np.argmin(values))].name
     yield judged("joint_position", margin.min(), 0.0, "rad", joint(margin), at_least=True)
-    limits = np.array(plan.limits["joint_acceleration_rad_s2"], dtype=float)
+    limits = np.minimum(plan.limits["joint_acceleration_rad_s2"], arm.acceleration)
     # A limit may be used in full: a part in 10^9 is rounding of the planner's own sums.
     for name, found, most, unit in (
         ("joint_speed", speed, arm.speed, "rad/s"),

@@ -52,7 +52,7 @@ pub struct ProveMotionArguments {
     /// linear]
     #[arg(long, value_enum)]
     interpolation: Option<Interpolation>,
-    /// Greatest joint accelerations [rad/s²]: one number, or six between commas [default: not judged]
+    /// Greatest joint accelerations [rad/s²]: one number, or six between commas [default: those that the description states]
     #[arg(long, value_name = "A,…", value_parser = accelerations, allow_negative_numbers = true)]
     acceleration_limits: Option<[f64; AXES]>,
     /// Write a page that shows the motion and its worst places, a file of HTML
@@ -299,7 +299,7 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
     if let Some(file) = &arguments.page {
         let shown = ArmMotion {
             name: &name,
-            motion: &judged_motion(&motion, limits.as_ref()),
+            motion: &judged_motion(&motion, &arm, limits.as_ref()),
             workcell: &cell,
             robot: &arm,
             clearance_m: arguments.clearance,

@@ -7,6 +7,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use platewash::kinematics::ik::analytic::AnalyticArm;
 use platewash::kinematics::tool_mount::ToolMount;
+use platewash::kinematics::urdf::UnusedStatement;
 use platewash::kinematics::words::{decimals_down, decimals_up};
 use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
@@ -36,8 +37,11 @@ struct Answer {
     name: String,
     urdf_sha256: String,
     joints: Vec<JointRow>,
-    /// Joint accelerations of the scenario, assumed: a URDF states none \[rad/s²\].
+    /// Joint accelerations that a plan keeps \[rad/s²\]: the lesser of the scenario's, which are assumed, and the description's.
     assumed_acceleration_rad_s2: [f64; AXES],
+    /// Statements of the description that are not used.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unused_statements: Vec<UnusedStatement>,
     links: Vec<LinkRow>,
     tool_mount: Option<ToolMountRow>,
     /// Reason that no link is known to carry the tool.
@@ -104,6 +108,22 @@ struct JointRow {
     velocity_rad_s: f64,
     velocity_deg_s: f64,
     effort_n_m: Option<f64>,
+    /// Greatest acceleration of the description \[rad/s²\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    acceleration_rad_s2: Option<f64>,
+    /// Greatest jerk of the description \[rad/s³\], which no plan keeps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    jerk_rad_s3: Option<f64>,
+    /// True for a lower and an upper limit of a safety controller.
+    #[serde(skip_serializing_if = "is_hard")]
+    is_soft: [bool; 2],
+    /// Friction of the description: torque per speed \[N·m·s/rad\], and torque against any motion \[N·m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    friction: Option<[f64; 2]>,
+}
+
+fn is_hard(is_soft: &[bool; 2]) -> bool {
+    *is_soft == [false; 2]
 }
 
 /// Shows joints, limits, frames, what is known of the arm, and the pairs that are checked for clearance (the bare arm over the floor), or
@@ -128,7 +148,11 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
         name: robot.name().to_owned(),
         urdf_sha256: robot.sha256().to_owned(),
         joints: (0..AXES).map(|i| JointRow::new(&robot, i)).collect(),
-        assumed_acceleration_rad_s2: scenario.limits.joint_acceleration_rad_s2,
+        assumed_acceleration_rad_s2: robot
+            .limits()
+            .within_acceleration(&scenario.limits.joint_acceleration_rad_s2.into())
+            .into(),
+        unused_statements: robot.unused_statements().to_vec(),
         links: robot.links().iter().map(|link| LinkRow::new(&robot, link)).collect(),
         no_tool_mount: tool_mount.as_ref().err().cloned(),
         tool_mount: tool_mount
@@ -234,6 +258,10 @@ impl JointRow {
             velocity_rad_s: limits.velocity[i],
             velocity_deg_s: limits.velocity[i].to_degrees(),
             effort_n_m: limits.effort[i],
+            acceleration_rad_s2: limits.acceleration[i],
+            jerk_rad_s3: limits.jerk[i],
+            is_soft: limits.is_soft[i],
+            friction: Some([robot.friction().viscous[i], robot.friction().coulomb[i]]).filter(|both| *both != [0.0; 2]),
         }
     }
 }
@@ -268,7 +296,8 @@ impl Answer {
         };
         let _ = writeln!(
             text,
-            "\naccelerations {:?} rad/s², assumed: a URDF states none (limits.joint_acceleration_rad_s2)\n\
+            "\naccelerations {:?} rad/s², {}\n\
+             {}\
              reach of the last link, at most {:.3} m\n\
              {}\n\
              {}\n\
@@ -276,6 +305,8 @@ impl Answer {
              simulation: {}\n\n{}\n\
              pairs checked for clearance ({}):",
             self.assumed_acceleration_rad_s2,
+            self.acceleration_source(),
+            self.stated_text(),
             self.reach_bound_m,
             tool_mount.unwrap_or_else(nowhere),
             match self.start_deg {
@@ -292,6 +323,65 @@ impl Answer {
         );
         let pairs = self.clearance_pairs.iter().map(|[a, b]| format!("  {a} – {b}\n"));
         text + &pairs.collect::<String>()
+    }
+
+    /// Source of the accelerations.
+    fn acceleration_source(&self) -> String {
+        let is_described = |(joint, kept): &(&JointRow, &f64)| joint.acceleration_rad_s2 == Some(**kept);
+        let pairs = self.joints.iter().zip(&self.assumed_acceleration_rad_s2);
+        let described: Vec<_> = pairs
+            .filter(is_described)
+            .map(|(joint, _)| joint.name.as_str())
+            .collect();
+        match (
+            described.len(),
+            self.joints.iter().any(|joint| joint.acceleration_rad_s2.is_some()),
+        ) {
+            (AXES, _) => "as the URDF states".to_owned(),
+            (0, false) => "assumed: the URDF states none (limits.joint_acceleration_rad_s2)".to_owned(),
+            (0, true) => "of the scenario, less than the URDF states (limits.joint_acceleration_rad_s2)".to_owned(),
+            _ => format!(
+                "as the URDF states for {}, the others assumed (limits.joint_acceleration_rad_s2)",
+                described.join(", ")
+            ),
+        }
+    }
+
+    /// Lines on soft limits, jerk and friction that the description states, and on what of it is not used.
+    fn stated_text(&self) -> String {
+        let of = |what: &dyn Fn(&JointRow) -> Option<String>| {
+            let told = self
+                .joints
+                .iter()
+                .filter_map(|joint| Some(format!("{} {}", joint.name, what(joint)?)));
+            told.collect::<Vec<_>>().join(", ")
+        };
+        let soft = of(&|joint| match joint.is_soft {
+            [false, false] => None,
+            [true, true] => Some("(both)".to_owned()),
+            [lower, _] => Some(if lower { "(lower)" } else { "(upper)" }.to_owned()),
+        });
+        let jerk = of(&|joint| Some(format!("{} rad/s³", joint.jerk_rad_s3?)));
+        let friction = of(&|joint| {
+            let [viscous, coulomb] = joint.friction?;
+            Some(format!("{viscous} N·m·s/rad and {coulomb} N·m"))
+        });
+        let lines = [
+            ("position limits of the safety controller: ", soft),
+            ("jerk limits, which nothing keeps: ", jerk),
+            ("friction, used by simulations (plant.*): ", friction),
+        ];
+        let lines = lines.into_iter().filter(|(_, told)| !told.is_empty());
+        let lines: String = lines.map(|(name, told)| format!("{name}{told}\n")).collect();
+        let unused: String = self
+            .unused_statements
+            .iter()
+            .map(|unused| format!("  {unused}\n"))
+            .collect();
+        match unused.is_empty() {
+            true => lines,
+            false => format!("{lines}stated, and not used:\n{unused}"),
+        }
     }
 
     /// Table of the links.

@@ -10,6 +10,7 @@ mod answers;
 mod arms;
 mod cells;
 mod compare;
+mod descriptions;
 mod dry_run;
 mod edit;
 mod exit_codes;

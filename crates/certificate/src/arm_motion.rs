@@ -25,7 +25,8 @@ use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell, is_pair
 pub struct MotionRules {
     /// Required clearance of every pair of bodies \[m\], 0 to 1. With 0 the bodies must not touch.
     pub clearance_m: f64,
-    /// Greatest joint accelerations \[rad/s²\]; `None` to judge none.
+    /// Greatest joint accelerations \[rad/s²\]; `None` to judge only those that the arm's description limits, and these only in a motion
+    /// whose speeds do not jump.
     pub acceleration_rad_s2: Option<JointVector>,
     /// True if the arm rests before the motion and after it: a speed at either end is a jump, and no acceleration limit holds.
     pub rests_outside: bool,
@@ -49,8 +50,8 @@ const TIME_ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Proof about a motion of an arm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArmMotionProof {
-    /// Checks of joint positions, of joint speeds unless the timing is free, of joint accelerations where limits are stated, and of the
-    /// clearance.
+    /// Checks of joint positions, of joint speeds unless the timing is free, of joint accelerations where they are limited and can be judged
+    /// ([`MotionRules::acceleration_rad_s2`]), and of the clearance.
     pub checks: Vec<Check>,
     /// Clearance of each pair.
     pub clearance: Vec<PairBound>,
@@ -233,19 +234,24 @@ fn check_rules(rules: &MotionRules) -> Result<(), ProveError> {
 fn joint_checks(arm: &RobotModel, pieces: &[Piece], rules: &MotionRules) -> Vec<Check> {
     let stated = rules.acceleration_rad_s2.filter(|_| rules.timing == Timing::Stated);
     let limits = JointLimits::new(arm, stated.unwrap_or_else(|| JointVector::repeat(f64::INFINITY)));
+    let accelerations = limits.acceleration_rad_s2;
+    let is_limited = rules.timing == Timing::Stated && accelerations.iter().any(|limit| limit.is_finite());
     let [position, speed, acceleration] = joints::checks(pieces, &limits, None);
     let mut checks = vec![position];
     if rules.timing == Timing::Stated {
         checks.push(speed);
     }
-    if let Some(limits) = stated {
-        checks.push(jump(pieces, &limits, rules.rests_outside).unwrap_or(acceleration));
+    if is_limited {
+        match jump(pieces, &accelerations, rules.rests_outside) {
+            Some(jump) => checks.extend(stated.map(|_| jump)),
+            None => checks.push(acceleration),
+        }
     }
     checks
 }
 
-/// Returns the violated check of accelerations at the first knot where a speed jumps by more than its rounding, if there is one. Where the
-/// arm rests outside of the motion, the ends count, too.
+/// Returns the violated check of accelerations at the first knot where the speed of a joint with an acceleration limit jumps by more than its
+/// rounding, if there is one. Where the arm rests outside of the motion, the ends count, too.
 fn jump(pieces: &[Piece], limits: &JointVector, rests_outside: bool) -> Option<Check> {
     let inside = pieces.windows(2).map(|pair| {
         let rounding = pair[0].rounding().speed + pair[1].rounding().speed;
@@ -261,7 +267,7 @@ fn jump(pieces: &[Piece], limits: &JointVector, rests_outside: bool) -> Option<C
         .chain(inside)
         .chain(outside(pieces.last(), 1));
     let mut jumps = jumps.map(|(time_s, by, rounding)| {
-        let joint = (0..AXES).find(|&joint| by[joint] > rounding[joint])?;
+        let joint = (0..AXES).find(|&joint| limits[joint].is_finite() && by[joint] > rounding[joint])?;
         let worst = WorstCase {
             time_s: Some(time_s),
             joint: Some(joint),

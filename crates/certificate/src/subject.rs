@@ -86,18 +86,18 @@ pub(crate) struct JointLimits {
     pub position_rad: [JointVector; 2],
     /// Greatest joint speeds \[rad/s\].
     pub speed_rad_s: JointVector,
-    /// Greatest joint accelerations \[rad/s²\]: an assumption.
+    /// Greatest joint accelerations \[rad/s²\]: an assumption, but for those of the arm's description.
     pub acceleration_rad_s2: JointVector,
 }
 
 impl JointLimits {
-    /// Returns the limits of an arm with the given greatest accelerations \[rad/s²\].
+    /// Returns the limits of an arm with the given greatest accelerations \[rad/s²\], or those of its description where they are less.
     pub fn new(robot: &RobotModel, acceleration_rad_s2: JointVector) -> Self {
         let limits = robot.limits();
         Self {
             position_rad: [limits.lower, limits.upper],
             speed_rad_s: limits.velocity,
-            acceleration_rad_s2,
+            acceleration_rad_s2: limits.within_acceleration(&acceleration_rad_s2),
         }
     }
 }

@@ -18,6 +18,7 @@ fn told(name: &str, change: impl Fn(&mut VerdictBasis)) -> String {
         plates: job.plates,
         requirements: job.requirements,
         limits: job.limits,
+        described_accelerations: Vec::new(),
         home_rad: job.home_rad,
         waived_pairs: Vec::new(),
         soils: Vec::new(),

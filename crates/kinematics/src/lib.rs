@@ -65,7 +65,7 @@ pub mod urdf;
 pub mod words;
 
 pub use crate::fingerprint::sha256_hex;
-pub use crate::limits::{JointLimits, LimitViolation};
+pub use crate::limits::{JointFriction, JointLimits, LimitViolation};
 pub use crate::model::{Axes, BodyPoses, Frame, Jacobian, Joint, Link, RobotModel};
 pub use crate::srdf::{DisabledPairs, SrdfError};
 pub use crate::tool_frame::{ToolFrame, ToolFrameError};

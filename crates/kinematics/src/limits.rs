@@ -16,6 +16,28 @@ pub struct JointLimits {
     pub velocity: JointVector,
     /// Highest torque \[N·m\], if the description states one: an effort of 0 means "unknown".
     pub effort: [Option<f64>; AXES],
+    /// Highest acceleration and deceleration \[rad/s²\], the lesser one, if the description states one.
+    #[serde(skip_serializing_if = "is_unstated")]
+    pub acceleration: [Option<f64>; AXES],
+    /// Highest jerk \[rad/s³\], if the description states one. Nothing keeps it: at knots the acceleration jumps.
+    #[serde(skip_serializing_if = "is_unstated")]
+    pub jerk: [Option<f64>; AXES],
+    /// True for a lower and an upper position limit that a safety controller states: a soft one.
+    #[serde(skip)]
+    pub is_soft: [[bool; 2]; AXES],
+}
+
+fn is_unstated(limits: &[Option<f64>; AXES]) -> bool {
+    limits.iter().all(Option::is_none)
+}
+
+/// Friction of the six joints as the description states it, in joint order; 0 where it states none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointFriction {
+    /// Torque per speed \[N·m·s/rad\].
+    pub viscous: [f64; AXES],
+    /// Torque against any motion \[N·m\].
+    pub coulomb: [f64; AXES],
 }
 
 /// Joint that is outside its position limits.
@@ -78,6 +100,12 @@ impl JointLimits {
             position_rad,
             limit_rad,
         })
+    }
+
+    /// Returns accelerations \[rad/s²\], each no greater than the description's limit.
+    #[must_use]
+    pub fn within_acceleration(&self, accelerations: &JointVector) -> JointVector {
+        JointVector::from_fn(|i, _| self.acceleration[i].map_or(accelerations[i], |limit| accelerations[i].min(limit)))
     }
 
     /// Returns the nearest configuration inside the limits, joint by joint.

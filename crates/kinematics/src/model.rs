@@ -16,11 +16,11 @@
 
 use crate::geometry::{Inertial, Primitive, Shape, Visual, VisualFinding};
 use crate::lanes::{Kernel, Vector, run_exact};
-use crate::limits::JointLimits;
+use crate::limits::{JointFriction, JointLimits};
 use crate::rotation::{Columns, RigidTransform};
 use crate::srdf::DisabledPairs;
 use crate::trig::{atan2, sin_cos_vector};
-use crate::urdf::FixedJoints;
+use crate::urdf::{FixedJoints, UnusedStatement};
 use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
@@ -57,6 +57,8 @@ pub struct RobotModel {
     pub(crate) sha256: String,
     pub(crate) joints: [Joint; AXES],
     pub(crate) limits: JointLimits,
+    pub(crate) friction: JointFriction,
+    pub(crate) unused: Vec<UnusedStatement>,
     pub(crate) folded: [RigidTransform; AXES],
     pub(crate) links: Vec<Link>,
     pub(crate) last_link: Frame,
@@ -109,6 +111,18 @@ impl RobotModel {
     #[must_use]
     pub fn limits(&self) -> &JointLimits {
         &self.limits
+    }
+
+    /// Friction of the six joints.
+    #[must_use]
+    pub fn friction(&self) -> &JointFriction {
+        &self.friction
+    }
+
+    /// Statements of the description that are not used, other than those that cannot matter (`docs/urdf.md`), in the order of the file.
+    #[must_use]
+    pub fn unused_statements(&self) -> &[UnusedStatement] {
+        &self.unused
     }
 
     /// Every link of the description, ordered from the root outwards.

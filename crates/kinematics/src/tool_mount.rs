@@ -157,15 +157,15 @@ impl RobotModel {
     }
 
     /// Returns the link that carries a tool, by the names and shapes of the description: `tool0` (z), a link named `tool0` behind a prefix,
-    /// `flange` (x), a link with another usual name, or the last link. See the [module](self) text.
+    /// `flange` (x), a link with another usual name, or the last link. The z axis of a `tool0` must lie along axis 6. See the
+    /// [module](self) text.
     ///
     /// # Errors
     /// [`ToolFrameError::NoMount`] where there is no such link, or more than one answer.
     pub fn find_tool_mount(&self) -> Result<ToolMount<'_>, ToolFrameError> {
         let tool0 = ToolFrame::Tool0.name();
-        if self.behind_joint_6(tool0).is_some() {
-            let axis = LinkAxis::Z;
-            return Ok(ToolMount { link: tool0, axis });
+        if let Some(link) = self.behind_joint_6(tool0) {
+            return self.one_of(&[link], Some(LinkAxis::Z));
         }
         let groups: [(&[&str], Option<LinkAxis>); 3] = [
             (&[tool0], Some(LinkAxis::Z)),
@@ -191,6 +191,13 @@ impl RobotModel {
             let found = self.outward_axis(link);
             let along_6 = |axis: &LinkAxis| along(link, *axis).z.abs() >= cos(ALIGNED_RAD);
             let axis = match (by_name.filter(along_6), found) {
+                (None, _) if by_name == Some(LinkAxis::Z) => {
+                    let off = link.frame.tilt_rad().to_degrees();
+                    return Err(self.no_mount(format!(
+                        "has a link '{}' whose z axis is {off:.1}° from axis 6, so that it is not the tool0 of a controller",
+                        link.name
+                    )));
+                }
                 (Some(by_name), Some(found)) if by_name != found => {
                     let reason = format!(
                         "has a link '{}' whose {by_name} axis should leave the arm by its name, but {found} leads away from axis 5",
@@ -255,6 +262,17 @@ impl RobotModel {
     pub fn outward_axis(&self, link: &Link) -> Option<LinkAxis> {
         let out = self.outward_sense()?;
         LinkAxis::find(|axis| out * along(link, axis).z >= cos(ALIGNED_RAD))
+    }
+
+    /// True if the z axis of a frame behind joint 6 lies along axis 6 and leads away from axis 5, false if not; `None` where the description does
+    /// not tell which way is away.
+    #[must_use]
+    pub fn leads_out(&self, frame: &Frame) -> Option<bool> {
+        let z = frame.on_body().rotation.column(2).z;
+        if z.abs() < cos(ALIGNED_RAD) {
+            return Some(false);
+        }
+        self.outward_sense().map(|out| out * z > 0.0)
     }
 
     /// Returns +1 where axis 6 leads out of the arm, −1 where it leads in: by the origins of the links behind joint 6 and by their shapes,

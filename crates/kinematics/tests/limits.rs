@@ -8,6 +8,9 @@ fn limits() -> JointLimits {
         upper: JointVector::new(1.0, 3.0, f64::INFINITY, 0.75, 1.0, 1.0),
         velocity: JointVector::repeat(1.0),
         effort: [None; AXES],
+        acceleration: [None; AXES],
+        jerk: [None; AXES],
+        is_soft: [[false; 2]; AXES],
     }
 }
 

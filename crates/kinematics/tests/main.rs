@@ -25,6 +25,7 @@ mod urdf_fixed;
 mod urdf_loads;
 mod urdf_meshes;
 mod urdf_refused;
+mod urdf_statements;
 mod urdf_visuals;
 mod words;
 

@@ -175,13 +175,10 @@ impl From<StraightTool> for Tool {
 }
 
 impl Tool {
-    /// Returns the tool on the link that carries it. The default `tool0` is not stored.
+    /// Returns the tool on the link that is stated to carry it, for [`Self::on`].
     #[must_use]
     pub fn mounted(self, on: Option<String>) -> Self {
-        Self {
-            mounted_on: on.filter(|link| link != ToolFrame::Tool0.name()),
-            ..self
-        }
+        Self { mounted_on: on, ..self }
     }
 
     /// Returns the tool of an arm that carries none. Any arm has one: it is on the link that joint 6 moves.
@@ -191,15 +188,18 @@ impl Tool {
         Self::from(StraightTool::default()).mounted(Some(last))
     }
 
-    /// Returns the tool as an arm carries it: on the stated link, or on the one that the description tells.
+    /// Returns the tool as an arm carries it: on the stated link, or on the one that the description tells. The default `tool0` is not stored.
     ///
     /// # Errors
     /// [`ToolFrameError::NoMount`].
     pub fn on(self, robot: &RobotModel) -> Result<Self, ToolFrameError> {
-        let tool = match self.mounted_on {
-            Some(_) => self,
-            None => self.mounted(Some(robot.find_tool_mount()?.to_string())),
+        let link = match &self.mounted_on {
+            Some(stated) => stated.clone(),
+            None => robot.find_tool_mount()?.to_string(),
         };
+        // A tool0 that is not along axis 6 is no default.
+        let is_default = link == ToolFrame::Tool0.name() && robot.find_tool_mount().is_ok();
+        let tool = self.mounted(Some(link).filter(|_| !is_default));
         tool.check_mount(robot)?;
         Ok(tool)
     }

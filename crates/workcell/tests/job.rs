@@ -97,3 +97,21 @@ fn a_home_beyond_the_limits_is_refused_by_its_joint() {
     let said = WashJob::new(good.shared_arm(), terms).unwrap_err().to_string();
     assert!(said.contains("end of the motion") && said.contains("joint 3"), "{said}");
 }
+
+#[test]
+fn accelerations_beyond_the_descriptions_are_refused() {
+    let text = platewash_kinematics::irb120::IRB120_URDF.replace("effort=\"0\"", "effort=\"0\" deceleration=\"3.5\"");
+    let arm = RobotModel::from_urdf(&text, &platewash_kinematics::urdf::MeshSource::none()).unwrap();
+    let mut terms = kitchen_terms(&arm, kitchen().terms().plates.clone());
+    let arm = std::sync::Arc::new(arm);
+    let error = WashJob::new(arm.clone(), terms.clone()).unwrap_err().to_string();
+    for words in [
+        "limits.joint_acceleration_rad_s2",
+        "at most 3.5 rad/s² for joint_1",
+        "found 4",
+    ] {
+        assert!(error.contains(words), "{error}");
+    }
+    terms.limits.joint_acceleration_rad_s2 = [3.5; 6];
+    WashJob::new(arm, terms).unwrap();
+}

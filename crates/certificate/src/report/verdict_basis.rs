@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::trig::atan2;
-use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, PlanKind, Recovery, Requirements, Soil};
 use platewash_workcell::plate::Plate;
@@ -77,6 +77,9 @@ pub struct VerdictBasis {
     pub requirements: Requirements,
     /// Limits of joints and tip, in addition to those of the arm's description.
     pub limits: Limits,
+    /// Numbers of the joints whose acceleration limit is that of the arm's description, from 1; the others are assumed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub described_accelerations: Vec<usize>,
     /// Joint positions at the start and at the end \[rad\].
     pub home_rad: [JointVector; 2],
     /// Pairs that only the job excludes. They were judged, and are waived where they do not keep clear.
@@ -107,6 +110,7 @@ impl VerdictBasis {
             soils: job.soils.clone(),
             requirements: job.requirements,
             limits: job.limits,
+            described_accelerations: described_accelerations(job, arm),
             home_rad: job.home_rad,
             waived_pairs: exclusions.waived,
             assumptions: assumptions(job)
@@ -114,6 +118,7 @@ impl VerdictBasis {
                 .map(str::to_owned)
                 .chain(unchecked(arm))
                 .chain(hulls(arm))
+                .chain(unused(arm))
                 .collect(),
             dry_run: job.dry_run.clone(),
             recovery: job.recovery.clone(),
@@ -207,6 +212,41 @@ fn unchecked(arm: &RobotModel) -> Option<String> {
     })
 }
 
+/// Returns the numbers of the joints whose acceleration limit in a job is that of the arm's description, from 1.
+fn described_accelerations(job: &JobTerms, arm: &RobotModel) -> Vec<usize> {
+    let pairs = arm
+        .limits()
+        .acceleration
+        .into_iter()
+        .zip(job.limits.joint_acceleration_rad_s2);
+    let is_described = |(described, of_job): (Option<f64>, f64)| described.is_some_and(|limit| limit <= of_job);
+    let numbered = pairs.enumerate().filter(|(_, pair)| is_described(*pair));
+    numbered.map(|(joint, _)| joint + 1).collect()
+}
+
+fn listed(numbers: &[usize]) -> String {
+    numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// Statements of a description that a note lists.
+const LISTED: usize = 3;
+
+/// Returns a note about what the arm's description states and nothing uses, if there is anything.
+fn unused(arm: &RobotModel) -> Option<String> {
+    let all = arm.unused_statements();
+    let listed: Vec<_> = all.iter().take(LISTED).map(ToString::to_string).collect();
+    let more = match all.len().saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!("; and {more} more, which `platewash robot` lists"),
+    };
+    (!all.is_empty()).then(|| {
+        format!(
+            "the arm's description states what is not used: {}{more}",
+            listed.join("; ")
+        )
+    })
+}
+
 /// Greatest sine of the angle between the vertical and the normal of a half-space that counts as a floor.
 const LEVEL: f64 = 0.5;
 
@@ -235,7 +275,7 @@ impl VerdictBasis {
             ("plates", plates(&self.plates, &self.soils)),
             ("obstacles", obstacles(&self.workcell.obstacles)),
             ("home", homes(&self.home_rad)),
-            ("limits", limits(&self.limits)),
+            ("limits", limits(&self.limits, &self.described_accelerations)),
             ("requirements", requirements(&self.requirements)),
         ]);
         let reduced = self.workcell.reduced_clearances.iter().map(|reduced| {
@@ -533,9 +573,14 @@ fn homes([start, end]: &[JointVector; 2]) -> String {
     format!("{} ° at the start, {} ° at the end", degrees(start), degrees(end))
 }
 
-fn limits(limits: &Limits) -> String {
+fn limits(limits: &Limits, described: &[usize]) -> String {
+    let source = match described.len() {
+        0 => "assumed".to_owned(),
+        AXES => "from the description".to_owned(),
+        _ => format!("of joints {} from the description, others assumed", listed(described)),
+    };
     format!(
-        "joint positions and speeds from the description; joint accelerations {} rad/s² (assumed); tip {} m/s, {} m/s² (assumed)",
+        "joint positions and speeds from the description; joint accelerations {} rad/s² ({source}); tip {} m/s, {} m/s² (assumed)",
         list(limits.joint_acceleration_rad_s2),
         number(limits.tip_speed_m_s),
         number(limits.tip_acceleration_m_s2)

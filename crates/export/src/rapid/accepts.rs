@@ -2,6 +2,7 @@
 
 use crate::rapid::parse::LEAST_KG;
 use crate::refusal::Refusal;
+use crate::tool_frame;
 use nalgebra::Matrix2;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::words::distinct_decimals;
@@ -30,6 +31,7 @@ pub fn accepts(job: &JobTerms, arm: &RobotModel) -> Result<(), Refusal> {
             found: arm.name().to_owned(),
         });
     }
+    tool_frame::check_mount(&job.workcell.tool, arm)?;
     let Some(mass) = &job.workcell.tool.mass else {
         return load(
             "the tool has no mass, and a controller takes none without: state its mass in the scenario, and plan again",

@@ -17,6 +17,7 @@ mod write;
 use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
+use crate::tool_frame;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::job::JobTerms;
 
@@ -66,6 +67,7 @@ impl Dialect for UrScript {
                 found: arm.name().to_owned(),
             });
         }
+        tool_frame::check_mount(&job.workcell.tool, arm)?;
         match &job.workcell.tool.mass {
             Some(mass) if mass.mass_kg > 0.0 && mass.mass_kg.is_finite() => Ok(()),
             Some(mass) => Err(Refusal::Load {

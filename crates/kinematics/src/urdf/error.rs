@@ -117,6 +117,21 @@ pub enum UrdfError {
     /// A torque limit is negative.
     #[error("joint '{joint}': effort must not be negative [N·m]; found {found} (0 means unknown)")]
     Effort { joint: String, found: f64 },
+    /// A limit of a joint's acceleration, deceleration or jerk is no number, or negative.
+    #[error("joint '{joint}' (line {line}): {rate} must be a number from 0 on; found '{}' (0 means unknown)", .found.escape_debug())]
+    Rate {
+        joint: String,
+        rate: String,
+        found: String,
+        line: usize,
+    },
+    /// Damping or friction of a joint is negative or not finite.
+    #[error("joint '{joint}': {what} must be finite and not negative; found {found}")]
+    Friction {
+        joint: String,
+        what: &'static str,
+        found: f64,
+    },
     /// A number is NaN or infinite.
     #[error("{at}: {what} must be finite; found {found}")]
     NotFinite { at: String, what: String, found: String },

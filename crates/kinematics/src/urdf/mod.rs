@@ -1,7 +1,7 @@
 //! URDF text to [`RobotModel`]: everything a lenient parser lets through is caught here, by name.
 //!
 //! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
-//! `urdf-rs` reads the elements (where it refuses one, `error` finds which); `tree` checks the structure, orders the six
+//! `statements` goes through all elements and names those that are not used; `urdf-rs` reads the elements (where it refuses one, `error` finds which); `tree` checks the structure, orders the six
 //! joints and checks their limits; `fixed` holds other joints still; `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
 //! their vertices) and visual geometry (reading the `triangles` of meshes), which is left out by name where it cannot be read. Every file is read through `file`.
 //!
@@ -15,6 +15,7 @@ mod fixed;
 mod mesh;
 mod scan;
 pub(crate) mod shapes;
+mod statements;
 mod tree;
 mod triangles;
 
@@ -24,6 +25,7 @@ pub use crate::urdf::fixed::FixedJoints;
 pub use crate::urdf::mesh::{MeshError, MeshSource, MeshSplitter};
 pub use crate::urdf::scan::MAX_BYTES;
 pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
+pub use crate::urdf::statements::UnusedStatement;
 
 use crate::AXES;
 use crate::fingerprint::sha256_hex;
@@ -67,16 +69,18 @@ impl RobotModel {
 /// [`UrdfError`], naming the joint or link at fault.
 fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
+    let stated = statements::read(text)?;
     let mut robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
     sizes(&robot)?;
     let fixed = fixed::fix(&mut robot, fixed)?;
     let tree = Tree::build(&robot)?;
-    let limits = tree::limits(&tree)?;
+    let limits = tree::limits(&tree, &stated.rates)?;
     let joints = tree.axes.map(|joint| Joint {
         name: joint.name.clone(),
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),
     });
+    let friction = tree::friction(&tree)?;
     let (folded, frames) = fold(&tree, &fixed)?;
     let last_link = frames[tree.position(&tree.axes[AXES - 1].child.link)];
     let mut looks = VisualReader::new(&robot, meshes);
@@ -96,6 +100,8 @@ fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotMod
         sha256: fingerprint(text, &links, [&of_visuals, &split], &fixed.positions),
         joints,
         limits,
+        friction,
+        unused: stated.unused,
         folded,
         links,
         last_link,

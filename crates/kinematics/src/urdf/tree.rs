@@ -4,9 +4,10 @@
 //!
 //! Numbers of a description: finite, and no longer than an arm can be.
 
-use crate::limits::JointLimits;
+use crate::limits::{JointFriction, JointLimits};
 use crate::rotation::{RigidTransform, from_rpy};
 use crate::urdf::error::UrdfError;
+use crate::urdf::statements::Rates;
 use crate::words::is_hidden;
 use crate::{AXES, JointVector, Pose};
 use std::collections::{BTreeMap, BTreeSet};
@@ -184,24 +185,33 @@ fn nearest_axis_above<'a>(mut link: &'a str, above: &BTreeMap<&str, &'a urdf_rs:
 /// Greatest position limit that is accepted \[rad\]; a larger one is probably in degrees.
 const LARGEST_POSITION_LIMIT_RAD: f64 = 100.0;
 
-/// Returns the limits of the axes in series; the position of a continuous joint has none, even if the file states some.
-pub(crate) fn limits(tree: &Tree<'_>) -> Result<JointLimits, UrdfError> {
+/// Returns the limits of the axes in series. The position of a continuous joint has none but soft ones, even if the file states some.
+pub(crate) fn limits(tree: &Tree<'_>, rates: &BTreeMap<String, Rates>) -> Result<JointLimits, UrdfError> {
     let mut limits = JointLimits {
         lower: JointVector::repeat(f64::NEG_INFINITY),
         upper: JointVector::repeat(f64::INFINITY),
         velocity: JointVector::zeros(),
         effort: [None; AXES],
+        acceleration: [None; AXES],
+        jerk: [None; AXES],
+        is_soft: [[false; 2]; AXES],
     };
     for (i, joint) in tree.axes.iter().enumerate() {
         let limit = &joint.limit;
         if [limit.lower, limit.upper, limit.velocity, limit.effort] == [0.0; 4] {
             return Err(missing(joint));
         }
-        if joint.joint_type == JointType::Revolute {
-            [limits.lower[i], limits.upper[i]] = positions(joint)?;
-        }
+        let ends = match joint.joint_type {
+            JointType::Revolute => [limit.lower, limit.upper],
+            _ => [f64::NEG_INFINITY, f64::INFINITY],
+        };
+        let [lower, upper] = positions(joint, ends)?;
+        limits.is_soft[i] = [lower != ends[0], upper != ends[1]];
+        (limits.lower[i], limits.upper[i]) = (lower, upper);
         limits.velocity[i] = velocity(joint)?;
         limits.effort[i] = effort(joint)?;
+        let rates = rates.get(&joint.name).copied().unwrap_or_default();
+        (limits.acceleration[i], limits.jerk[i]) = (rates.acceleration, rates.jerk);
     }
     Ok(limits)
 }
@@ -214,22 +224,19 @@ fn missing(joint: &urdf_rs::Joint) -> UrdfError {
     }
 }
 
-/// Returns the position limits of a joint: those of `limit`, within the soft ones of `safety_controller`. Soft limits of 0 are none, as they
-/// are where the file leaves them out.
-fn positions(joint: &urdf_rs::Joint) -> Result<[f64; 2], UrdfError> {
-    let (mut lower, mut upper) = (joint.limit.lower, joint.limit.upper);
+/// Returns the position limits of a joint: its ends, within the soft limits of `safety_controller`. Soft limits of 0 are none, as they are
+/// where the file leaves them out.
+fn positions(joint: &urdf_rs::Joint, [mut lower, mut upper]: [f64; 2]) -> Result<[f64; 2], UrdfError> {
+    let at = format!("joint '{}'", joint.name);
+    if joint.joint_type == JointType::Revolute {
+        finite(&at, "limit (lower, upper)", &[lower, upper])?;
+    }
     if let Some(soft) = &joint.safety_controller
         && [soft.soft_lower_limit, soft.soft_upper_limit] != [0.0; 2]
     {
-        finite(
-            &format!("joint '{}'", joint.name),
-            "soft limits",
-            &[soft.soft_lower_limit, soft.soft_upper_limit],
-        )?;
+        finite(&at, "soft limits", &[soft.soft_lower_limit, soft.soft_upper_limit])?;
         (lower, upper) = (lower.max(soft.soft_lower_limit), upper.min(soft.soft_upper_limit));
     }
-    let at = format!("joint '{}'", joint.name);
-    finite(&at, "limit (lower, upper)", &[lower, upper])?;
     if lower >= upper {
         return Err(UrdfError::LimitOrder {
             joint: joint.name.clone(),
@@ -237,7 +244,10 @@ fn positions(joint: &urdf_rs::Joint) -> Result<[f64; 2], UrdfError> {
             upper,
         });
     }
-    if lower.abs().max(upper.abs()) > LARGEST_POSITION_LIMIT_RAD {
+    if [lower, upper]
+        .iter()
+        .any(|end| end.is_finite() && end.abs() > LARGEST_POSITION_LIMIT_RAD)
+    {
         return Err(UrdfError::LimitSize {
             joint: joint.name.clone(),
             lower,
@@ -265,6 +275,25 @@ fn effort(joint: &urdf_rs::Joint) -> Result<Option<f64>, UrdfError> {
     }
     let joint = joint.name.clone();
     Err(UrdfError::Effort { joint, found })
+}
+
+/// Returns the friction of the axes in series.
+pub(crate) fn friction(tree: &Tree<'_>) -> Result<JointFriction, UrdfError> {
+    let mut friction = JointFriction::default();
+    for (i, joint) in tree.axes.iter().enumerate() {
+        let Some(stated) = &joint.dynamics else { continue };
+        for (what, found, kept) in [
+            ("damping [N·m·s/rad]", stated.damping, &mut friction.viscous[i]),
+            ("friction [N·m]", stated.friction, &mut friction.coulomb[i]),
+        ] {
+            if !(found >= 0.0 && found.is_finite()) {
+                let joint = joint.name.clone();
+                return Err(UrdfError::Friction { joint, what, found });
+            }
+            *kept = found;
+        }
+    }
+    Ok(friction)
 }
 
 /// Greatest length that is accepted \[m\]; a larger one is probably in millimetres.

@@ -212,6 +212,7 @@ impl<'a> Task<'a> {
         match surroundings.too_near(q, stretch, required_m) {
             Some(pair) => {
                 let required_m = pair.required_m(required_m);
+                let pair = Box::new(pair);
                 Err(Hindrance::Clearance { pair, required_m })
             }
             None => Ok(()),

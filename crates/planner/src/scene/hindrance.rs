@@ -37,7 +37,7 @@ pub enum Hindrance {
     )]
     Clearance {
         /// The bodies.
-        pair: PairClearance,
+        pair: Box<PairClearance>,
         /// Clearance required of the pair \[m\].
         required_m: f64,
     },
@@ -216,14 +216,15 @@ mod tests {
         impl fmt::Display for WorstText {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 let [a, b] = ["handle", "post"].map(str::to_owned);
-                let pair = PairClearance {
+                let pair = Box::new(PairClearance {
                     a,
                     b,
                     distance_m: self.0,
                     place_m: [0.0; 3],
                     has_hull: false,
+                    mounted_on: None,
                     reduced_by_m: 0.0,
-                };
+                });
                 let required_m = 0.0105;
                 Hindrance::Clearance { pair, required_m }.fmt_worst(f)
             }

@@ -149,11 +149,11 @@ const KEPT: &str = "the clearance asked for and";
 impl fmt::Display for ClearanceShortfall {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PairClearance { a, b, distance_m, .. } = &self.pair;
-        let hulls = self.pair.hull_note();
+        let notes = self.pair.notes();
         let mm = |m: f64| 1e3 * m;
         let [distance, required] = distinct_decimals(mm(*distance_m), mm(self.asked_m + self.reserve_m), 2);
         if *distance_m > 0.0 && self.asked_m + self.reserve_m - distance_m < ALIKE_M {
-            write!(f, "{a} is a little nearer to {b} than allowed{hulls}")?;
+            write!(f, "{a} is a little nearer to {b} than allowed{notes}")?;
             return write!(
                 f,
                 "; {:.2} mm must be kept: {KEPT} {:.2} mm in reserve",
@@ -162,9 +162,9 @@ impl fmt::Display for ClearanceShortfall {
             );
         }
         if *distance_m > 0.0 {
-            write!(f, "{a} is {distance} mm from {b}{hulls}")?;
+            write!(f, "{a} is {distance} mm from {b}{notes}")?;
         } else {
-            write!(f, "{a} touches {b}{hulls}")?;
+            write!(f, "{a} touches {b}{notes}")?;
         }
         write!(
             f,

@@ -75,7 +75,9 @@ impl SettingsObject {
         let inner = SimulationSettings {
             law,
             control: scenario.control.settings(),
-            plant: scenario.plant.settings(None),
+            plant: scenario
+                .plant
+                .settings(None, &platewash::kinematics::JointFriction::default()),
             payload_kg,
         };
         Ok(Self { inner })

@@ -118,9 +118,9 @@ impl Scenario {
             seed: self.seed,
             start_rad: start.unwrap_or_else(JointVector::zeros),
             requirements: self.requirements(),
-            limits: self.limits(),
+            limits: self.limits(arm),
             settings: self.paper_settings(),
-            simulation: self.simulation(),
+            simulation: self.simulation(arm),
         })
     }
 
@@ -193,7 +193,7 @@ impl Scenario {
             workcell,
             plates: layout.plates.clone(),
             requirements: self.requirements(),
-            limits: self.limits(),
+            limits: self.limits(arm),
             home_rad: [start.unwrap_or_else(zeros), end.unwrap_or_else(zeros)],
             planner: Planner::Wash(PlannerSettings {
                 path_radius_m: wash.path_radius_m,
@@ -209,7 +209,7 @@ impl Scenario {
                 relocate: self.lists_plates(),
             }),
             seed: self.seed,
-            simulation: self.simulation(),
+            simulation: self.simulation(arm),
             dry_run: None,
             recovery: None,
             soils: self.soils().to_vec(),
@@ -304,10 +304,12 @@ impl Scenario {
         }
     }
 
-    fn limits(&self) -> Limits {
+    /// Limits of the motion: of joint accelerations the lesser of the scenario's and the description's.
+    fn limits(&self, arm: &RobotModel) -> Limits {
         let limits = &self.limits;
+        let accelerations = limits.joint_acceleration_rad_s2.into();
         Limits {
-            joint_acceleration_rad_s2: limits.joint_acceleration_rad_s2,
+            joint_acceleration_rad_s2: arm.limits().within_acceleration(&accelerations).into(),
             tip_speed_m_s: limits.tip_speed_m_s,
             tip_acceleration_m_s2: limits.tip_acceleration_m_s2,
         }
@@ -319,11 +321,11 @@ impl Scenario {
         tool.is_present().then_some(tool.sponge)
     }
 
-    fn simulation(&self) -> SimulationSettings {
+    fn simulation(&self, arm: &RobotModel) -> SimulationSettings {
         SimulationSettings {
             law: self.law(),
             control: self.control.settings(),
-            plant: self.plant.settings(self.sponge().as_ref()),
+            plant: self.plant.settings(self.sponge().as_ref(), arm.friction()),
             payload_kg: self.robot.payload_kg,
         }
     }

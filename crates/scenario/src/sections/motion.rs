@@ -59,7 +59,8 @@ pub struct TransitionSection {
 #[section("limits")]
 #[serde(default, deny_unknown_fields)]
 pub struct LimitsSection {
-    /// Joint acceleration limits, at least 0.001 in a certified job: an assumption, as the manufacturer publishes none.
+    /// Joint acceleration limits, at least 0.001 in a certified job: an assumption, as the manufacturer publishes none. Where the arm's
+    /// description states less, that counts.
     #[key(unit = "rad/s²", domain = JointsAbove(0.0, 1e6), default = [4.0, 4.0, 4.0, 5.0, 5.0, 6.0])]
     pub joint_acceleration_rad_s2: [f64; 6],
     /// Largest speed of the tip anywhere (certified), at least 0.000001: an assumption.

@@ -3,6 +3,7 @@
 //! The `[plant]` section.
 
 use platewash_keys::Section;
+use platewash_kinematics::JointFriction;
 use platewash_workcell::simulation::{
     ControlLawName, ControlSettings, FeedForward, FoamContact, Integrator, PlantSettings,
 };
@@ -72,8 +73,8 @@ impl ControlSection {
     }
 }
 
-/// `[plant]`: the arm as a physical system, where a law gives torques. Friction and torque limits are off unless given: there are no published
-/// figures. Plates push back by the sponge's foam where its stiffness is stated.
+/// `[plant]`: the arm as a physical system, where a law gives torques. Friction and torque limits are those of the arm's description unless
+/// given: for the IRB 120 there are no published figures. Plates push back by the sponge's foam where its stiffness is stated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
 #[section("plant")]
 #[serde(default, deny_unknown_fields)]
@@ -84,12 +85,14 @@ pub struct PlantSection {
     /// Steps of integration to a sample of the law.
     #[key(domain = Integer(1, 1000), default = PlantSettings::default().substeps)]
     pub substeps: usize,
-    /// Friction torque per joint speed: off by default, as none is published.
-    #[key(unit = "N·m·s/rad", domain = Joints(0.0, 1e6), default = PlantSettings::default().viscous_friction_n_m_s)]
-    pub viscous_friction_n_m_s: [f64; 6],
-    /// Friction torque against any motion: off by default, as none is published.
-    #[key(unit = "N·m", domain = Joints(0.0, 1e6), default = PlantSettings::default().coulomb_friction_n_m)]
-    pub coulomb_friction_n_m: [f64; 6],
+    /// Friction torque per joint speed; without it, the damping of the arm's description, where none is 0.
+    #[key(unit = "N·m·s/rad", domain = Joints(0.0, 1e6))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscous_friction_n_m_s: Option<[f64; 6]>,
+    /// Friction torque against any motion; without it, the friction of the arm's description, where none is 0.
+    #[key(unit = "N·m", domain = Joints(0.0, 1e6))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coulomb_friction_n_m: Option<[f64; 6]>,
     /// Largest joint torques; without it, those of the arm's description, where an effort of 0 means unknown, not a limit.
     #[key(unit = "N·m", domain = JointsAbove(0.0, 1e6))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,14 +114,14 @@ pub struct PlantSection {
 }
 
 impl PlantSection {
-    /// The plant of an arm that holds a sponge, if it does.
+    /// The plant of an arm that holds a sponge, if it does. The friction of its description counts where the section states none.
     #[must_use]
-    pub fn settings(&self, sponge: Option<&Sponge>) -> PlantSettings {
+    pub fn settings(&self, sponge: Option<&Sponge>, described: &JointFriction) -> PlantSettings {
         PlantSettings {
             integrator: self.integrator,
             substeps: self.substeps,
-            viscous_friction_n_m_s: self.viscous_friction_n_m_s,
-            coulomb_friction_n_m: self.coulomb_friction_n_m,
+            viscous_friction_n_m_s: self.viscous_friction_n_m_s.unwrap_or(described.viscous),
+            coulomb_friction_n_m: self.coulomb_friction_n_m.unwrap_or(described.coulomb),
             torque_limit_n_m: self.torque_limit_n_m,
             contact_force_n: self.contact_force_n.unwrap_or(0.0),
             contact: self.contact(sponge),
@@ -146,8 +149,8 @@ impl From<&PlantSettings> for PlantSection {
         Self {
             integrator: plant.integrator,
             substeps: plant.substeps,
-            viscous_friction_n_m_s: plant.viscous_friction_n_m_s,
-            coulomb_friction_n_m: plant.coulomb_friction_n_m,
+            viscous_friction_n_m_s: Some(plant.viscous_friction_n_m_s),
+            coulomb_friction_n_m: Some(plant.coulomb_friction_n_m),
             torque_limit_n_m: plant.torque_limit_n_m,
             contact_stiffness_pa: plant.contact.map(|foam| foam.stiffness_pa),
             contact_damping_pa_s: plant

@@ -7,7 +7,7 @@ use crate::simulate::measures::{self, Effort, PayloadCheck, PayloadVerdict, Segm
 use crate::simulate::run::Contact;
 use crate::simulate::text::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
-use platewash_kinematics::RobotModel;
+use platewash_kinematics::{JointFriction, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
@@ -192,12 +192,12 @@ impl SimulationReport {
             segments: measures::by_segment(execution, &plan.segments, &tip_errors),
             effort: Effort::of(execution),
             payload,
-            assumptions: assumptions(plan, settings),
+            assumptions: assumptions(plan, settings, robot.friction()),
         })
     }
 }
 
-fn assumptions(plan: &Plan, settings: &SimulationSettings) -> Vec<String> {
+fn assumptions(plan: &Plan, settings: &SimulationSettings, described: &JointFriction) -> Vec<String> {
     let tool = &plan.job.workcell.tool;
     if settings.law.is_kinematic() {
         return vec!["there is no plant: the law moves positions".to_owned()];
@@ -211,18 +211,29 @@ fn assumptions(plan: &Plan, settings: &SimulationSettings) -> Vec<String> {
             rounded_for_display(1e3 * tool.sponge.compression_m)
         ));
     }
-    all.extend(plant_assumptions(&settings.plant));
+    all.extend(plant_assumptions(&settings.plant, described));
     all
 }
 
-fn plant_assumptions(plant: &PlantSettings) -> Vec<String> {
-    let mut all = Vec::new();
-    let none = |values: &[f64]| values.iter().all(|v| *v == 0.0);
-    if none(&plant.viscous_friction_n_m_s) && none(&plant.coulomb_friction_n_m) {
-        all.push("there is no friction in the joints".to_owned());
-    } else {
-        all.push("the joints have the friction that is stated".to_owned());
+/// The friction of the joints in words, and its source.
+fn friction_words(plant: &PlantSettings, described: &JointFriction) -> &'static str {
+    let none = JointFriction::default();
+    let stated = JointFriction {
+        viscous: plant.viscous_friction_n_m_s,
+        coulomb: plant.coulomb_friction_n_m,
+    };
+    match (stated == none, *described == none) {
+        (true, true) => "there is no friction in the joints",
+        (true, false) => "there is no friction in the joints, as the settings state; the arm's description states some",
+        (false, false) if stated == *described => "the joints have the friction of the arm's description",
+        (false, false) => "the joints have the friction that is stated, in place of that of the arm's description",
+        (false, true) => "the joints have the friction that is stated",
     }
+}
+
+fn plant_assumptions(plant: &PlantSettings, described: &JointFriction) -> Vec<String> {
+    let mut all = Vec::new();
+    all.push(friction_words(plant, described).to_owned());
     if let Some(foam) = &plant.contact {
         all.push(format!(
             "plates push back by the sponge's foam: an elastic foundation of {} kPa{}, {} times as stiff beyond a strain of {}, without friction",

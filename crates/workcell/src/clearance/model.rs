@@ -30,6 +30,9 @@ pub struct PairClearance {
     /// True if the shape of one of the bodies is a convex hull of a mesh or of a part of it, which can reach beyond the mesh.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub has_hull: bool,
+    /// Link and axis on which the tool is mounted, where one of the bodies is of it and its mount is stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mounted_on: Option<String>,
     /// Part of the required clearance that the pair need not keep \[m\].
     #[serde(skip_serializing_if = "is_zero")]
     pub reduced_by_m: f64,
@@ -53,13 +56,18 @@ impl PairClearance {
         is_clear(self.distance_m, self.required_m(required_m))
     }
 
-    /// Words for a message on the pair: empty, or that a convex hull was compared.
+    /// Words for a message on the pair: that a convex hull was compared, and where the tool is mounted; empty where neither is so.
     #[must_use]
-    pub fn hull_note(&self) -> &'static str {
-        if self.has_hull {
-            " (by convex shapes of meshes)"
-        } else {
-            ""
+    pub fn notes(&self) -> String {
+        let hull = self.has_hull.then(|| "by convex shapes of meshes".to_owned());
+        let mount = self
+            .mounted_on
+            .as_ref()
+            .map(|mount| format!("the tool is mounted on {mount}"));
+        let notes: Vec<_> = hull.into_iter().chain(mount).collect();
+        match notes.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", notes.join("; ")),
         }
     }
 }
@@ -94,6 +102,8 @@ pub struct ClearanceModel {
     pub(crate) to_base: Option<Pose>,
     /// Plates, world frame.
     pub(crate) plates: Vec<Plate>,
+    /// Link and axis on which the tool is mounted, if stated.
+    pub(crate) mounted_on: Option<String>,
 }
 
 impl ClearanceModel {
@@ -127,6 +137,7 @@ impl ClearanceModel {
             bodies,
             to_base,
             plates: plates.to_vec(),
+            mounted_on: workcell.tool.mounted_on.clone(),
         })
     }
 
@@ -330,6 +341,11 @@ impl ClearanceModel {
             distance_m: found.distance,
             place_m: found.place,
             has_hull: [a, b].iter().any(|&body| self.bodies[body].has_hull()),
+            mounted_on: self.mounted_on.clone().filter(|_| {
+                [a, b]
+                    .iter()
+                    .any(|&body| matches!(self.bodies[body].kind, BodyKind::Tool | BodyKind::Sponge))
+            }),
             reduced_by_m: self.reduced_by_m(a, b),
         }
     }

@@ -156,6 +156,7 @@ impl Still {
                 distance_m: found.distance,
                 place_m: found.place,
                 has_hull: first.has_hull() || second.has_hull(),
+                mounted_on: None,
                 reduced_by_m: reduced_by_m(a, b),
             },
             at_least_m: least_m - self.change_m + margin_m,

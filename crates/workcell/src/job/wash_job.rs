@@ -37,6 +37,15 @@ impl WashJob {
                 return Err(JobError::Home { end, violation });
             }
         }
+        let described = arm.limits().acceleration;
+        for (joint, (limit, found)) in described.iter().zip(terms.limits.joint_acceleration_rad_s2).enumerate() {
+            if let Some(limit) = limit.filter(|limit| found > *limit) {
+                let name = "limits.joint_acceleration_rad_s2";
+                let joint = &arm.joints()[joint].name;
+                let expected = format!("at most {limit} rad/s² for {joint}, as the arm's description states");
+                return Err(JobError::Number { name, expected, found });
+            }
+        }
         terms.check_standing(&arm)?;
         let from_base = match terms.seen_from_base() {
             Cow::Borrowed(_) => None,

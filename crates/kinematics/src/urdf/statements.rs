@@ -1,0 +1,316 @@
+//! All elements and attributes of a description, one after the other: rates that `urdf-rs` reads of some versions only, and what is not used.
+//!
+//! What cannot matter is listed in `docs/urdf.md`. Everything else that is not used is an [`UnusedStatement`].
+
+use crate::urdf::error::UrdfError;
+use crate::urdf::scan::line_at;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Element, attribute or text of a description that is not used.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct UnusedStatement {
+    /// Place: the joint or link by name and the elements in it, such as `joint 'elbow', limit`; empty for a child of `<robot>`.
+    pub place: String,
+    /// The statement: `jerk="5"`, or `<transmission>`.
+    pub statement: String,
+    /// Line, counted from 1.
+    pub line: usize,
+}
+
+impl fmt::Display for UnusedStatement {
+    /// Writes place, statement and line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { place, statement, line } = self;
+        let separator = if place.is_empty() { "" } else { ": " };
+        write!(f, "{place}{separator}{statement} (line {line})")
+    }
+}
+
+/// Limits of a joint's rates that a description states, in any version.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Rates {
+    /// Lesser of acceleration and deceleration \[rad/s²\].
+    pub acceleration: Option<f64>,
+    /// Jerk \[rad/s³\].
+    pub jerk: Option<f64>,
+}
+
+/// The statements of a description.
+#[derive(Debug, Default)]
+pub(crate) struct Statements {
+    /// Limits of rates, by joint.
+    pub rates: BTreeMap<String, Rates>,
+    /// Statements that are not used, in the order of the file.
+    pub unused: Vec<UnusedStatement>,
+}
+
+/// Elements that are used, by their path below `<robot>`, with the attributes that are used.
+const USED: [(&str, &[&str]); 35] = [
+    ("", &["name", "version"]),
+    ("link", &["name"]),
+    ("link/inertial", &[]),
+    ("link/inertial/origin", &["xyz", "rpy"]),
+    ("link/inertial/mass", &["value"]),
+    ("link/inertial/inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
+    ("link/visual", &[]),
+    ("link/visual/origin", &["xyz", "rpy"]),
+    ("link/visual/geometry", &[]),
+    ("link/visual/geometry/box", &["size"]),
+    ("link/visual/geometry/cylinder", &["radius", "length"]),
+    ("link/visual/geometry/capsule", &["radius", "length"]),
+    ("link/visual/geometry/sphere", &["radius"]),
+    ("link/visual/geometry/mesh", &["filename", "scale"]),
+    ("link/collision", &[]),
+    ("link/collision/origin", &["xyz", "rpy"]),
+    ("link/collision/geometry", &[]),
+    ("link/collision/geometry/box", &["size"]),
+    ("link/collision/geometry/cylinder", &["radius", "length"]),
+    ("link/collision/geometry/capsule", &["radius", "length"]),
+    ("link/collision/geometry/sphere", &["radius"]),
+    ("link/collision/geometry/mesh", &["filename", "scale"]),
+    ("joint", &["name", "type"]),
+    ("joint/origin", &["xyz", "rpy"]),
+    ("joint/parent", &["link"]),
+    ("joint/child", &["link"]),
+    ("joint/axis", &["xyz"]),
+    (
+        LIMIT,
+        &["lower", "upper", "effort", "velocity", "acceleration", "deceleration"],
+    ),
+    ("joint/dynamics", &["damping", "friction"]),
+    ("joint/mimic", &["joint", "multiplier", "offset"]),
+    ("joint/safety_controller", &["soft_lower_limit", "soft_upper_limit"]),
+    // Looks.
+    ("link/visual/material", &["name"]),
+    ("link/visual/material/color", &["rgba"]),
+    ("material", &["name"]),
+    ("material/color", &["rgba"]),
+];
+
+const LIMIT: &str = "joint/limit";
+
+/// Elements, with all in them, and attributes that cannot matter: names of shapes, textures, where an encoder finds its zero, gains
+/// of a safety controller, the words of
+/// simulators about looks and sensors, and motors behind joints. `docs/urdf.md` gives the reasons.
+const CANNOT_MATTER: [&str; 11] = [
+    "link/visual/name",
+    "link/collision/name",
+    "link/visual/material/texture",
+    "material/texture",
+    "joint/calibration",
+    "joint/safety_controller/k_position",
+    "joint/safety_controller/k_velocity",
+    "sensor",
+    "gazebo",
+    "mujoco",
+    "transmission",
+];
+
+/// Element for drivers of joints. It cannot matter, but for the limits that it may state of their commands.
+const DRIVERS: &str = "ros2_control";
+
+/// What a fixed joint may state and never uses.
+const OF_MOVING_JOINTS: [&str; 5] = ["axis", "limit", "dynamics", "safety_controller", "calibration"];
+
+/// Returns all statements of a text that is known to be well-formed.
+///
+/// # Errors
+/// [`UrdfError::Rate`] for an acceleration, deceleration or jerk that is no number, or below 0.
+pub(crate) fn read(text: &str) -> Result<Statements, UrdfError> {
+    let mut walk = Walk {
+        text,
+        open: Vec::new(),
+        skipped: 0,
+        version: (1, 0),
+        found: Statements::default(),
+    };
+    let mut reader = Reader::from_str(text);
+    loop {
+        let event = reader.read_event();
+        let position = reader.buffer_position();
+        match event {
+            Ok(Event::Start(tag)) => walk.enter(&tag, position)?,
+            Ok(Event::Empty(tag)) => {
+                walk.enter(&tag, position)?;
+                walk.leave();
+            }
+            Ok(Event::End(_)) => walk.leave(),
+            Ok(Event::Text(text)) => walk.text(&String::from_utf8_lossy(&text), position),
+            Ok(Event::CData(text)) => walk.text(&String::from_utf8_lossy(&text), position),
+            Ok(Event::Eof) | Err(_) => return Ok(walk.found),
+            Ok(_) => {}
+        }
+    }
+}
+
+/// An element that is not closed yet.
+struct Element {
+    tag: String,
+    /// The attribute `name`.
+    name: String,
+    /// The attribute `type`.
+    kind: String,
+}
+
+struct Walk<'a> {
+    text: &'a str,
+    open: Vec<Element>,
+    /// Number of open elements whose statements need no look: of one that is named as a whole, or that cannot matter.
+    skipped: usize,
+    /// Major and minor number of the format, 1.0 where none is stated.
+    version: (u32, u32),
+    found: Statements,
+}
+
+impl Walk<'_> {
+    fn enter(&mut self, tag: &BytesStart<'_>, position: u64) -> Result<(), UrdfError> {
+        let attributes: Vec<_> = tag
+            .attributes()
+            .flatten()
+            .map(|a| {
+                let value = a
+                    .unescape_value()
+                    .map_or_else(|_| String::from_utf8_lossy(&a.value).into_owned(), Into::into);
+                (String::from_utf8_lossy(a.key.as_ref()).into_owned(), value)
+            })
+            .collect();
+        let get = |key: &str| {
+            attributes
+                .iter()
+                .find(|(name, _)| name == key)
+                .map(|(_, value)| value.clone())
+        };
+        let tag = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
+        self.open.push(Element {
+            name: get("name").unwrap_or_default(),
+            kind: get("type").unwrap_or_default(),
+            tag,
+        });
+        if self.skipped > 0 {
+            self.skipped += 1;
+            return Ok(());
+        }
+        if self.open.get(1).is_some_and(|element| element.tag == DRIVERS) {
+            let limit = self
+                .open
+                .last()
+                .filter(|element| element.tag == "param" && ["min", "max"].contains(&element.name.as_str()));
+            if let Some(param) = limit {
+                let statement = format!("<param name=\"{}\">", param.name);
+                self.note(self.open.len() - 1, statement, position);
+            }
+            return Ok(());
+        }
+        let path = self.path();
+        if let Some((major, minor)) = get("version").as_deref().and_then(|text| text.trim().split_once('.'))
+            && path.is_empty()
+            && let (Ok(major), Ok(minor)) = (major.parse(), minor.parse())
+        {
+            self.version = (major, minor);
+        }
+        let Some((_, used)) = USED.iter().find(|(known, _)| *known == path) else {
+            self.skipped = 1;
+            if !self.cannot_matter(&path) {
+                let element = self.open.last().map(|element| format!("<{}>", element.tag));
+                self.note(self.open.len() - 1, element.unwrap_or_default(), position);
+            }
+            return Ok(());
+        };
+        if self.cannot_matter(&path) {
+            self.skipped = 1;
+            return Ok(());
+        }
+        for (key, value) in &attributes {
+            let is_used = match (path.as_str(), key.as_str()) {
+                (_, "xmlns") => true,
+                (_, key) if key.starts_with("xmlns:") => true,
+                // A continuous joint has no end.
+                (LIMIT, "lower" | "upper") if self.joint_kind() == "continuous" => number(value) == Some(0.0),
+                (LIMIT, "acceleration" | "deceleration" | "jerk") => self.rate(key, value, position)?,
+                (_, "quat_xyzw") if path.ends_with("/origin") => self.version >= (1, 1),
+                (_, key) => used.contains(&key) || CANNOT_MATTER.contains(&format!("{path}/{key}").as_str()),
+            };
+            if !is_used {
+                self.note(self.open.len(), format!("{key}=\"{value}\""), position);
+            }
+        }
+        Ok(())
+    }
+
+    fn leave(&mut self) {
+        self.open.pop();
+        self.skipped = self.skipped.saturating_sub(1);
+    }
+
+    fn text(&mut self, text: &str, position: u64) {
+        let text = text.trim_matches(['\u{feff}', ' ', '\t', '\r', '\n']);
+        let is_looked_at = self.skipped == 0 && self.open.get(1).is_none_or(|element| element.tag != DRIVERS);
+        if is_looked_at && !self.open.is_empty() && !text.is_empty() {
+            self.note(self.open.len(), format!("the text \"{text}\""), position);
+        }
+    }
+
+    /// Path of the innermost element below `<robot>`.
+    fn path(&self) -> String {
+        let below = self.open.iter().skip(1).map(|element| element.tag.as_str());
+        below.collect::<Vec<_>>().join("/")
+    }
+
+    /// Kind of the open joint.
+    fn joint_kind(&self) -> &str {
+        self.open.get(1).map_or("", |element| &element.kind)
+    }
+
+    fn cannot_matter(&self, path: &str) -> bool {
+        let of_joint = path.strip_prefix("joint/").filter(|_| self.joint_kind() == "fixed");
+        CANNOT_MATTER.contains(&path) || of_joint.is_some_and(|element| OF_MOVING_JOINTS.contains(&element))
+    }
+
+    /// Takes the limit of a rate of a joint. Returns false for one that is not kept: a jerk, and 0.
+    fn rate(&mut self, key: &str, value: &str, position: u64) -> Result<bool, UrdfError> {
+        let joint = self.open.get(1).map(|element| element.name.clone()).unwrap_or_default();
+        let Some(limit) = number(value).filter(|limit| *limit >= 0.0) else {
+            return Err(UrdfError::Rate {
+                joint,
+                rate: key.to_owned(),
+                found: value.to_owned(),
+                line: line_at(self.text, position),
+            });
+        };
+        if limit == 0.0 || limit.is_infinite() {
+            return Ok(limit > 0.0);
+        }
+        let rates = self.found.rates.entry(joint).or_default();
+        let is_jerk = key == "jerk";
+        let kept = if is_jerk {
+            &mut rates.jerk
+        } else {
+            &mut rates.acceleration
+        };
+        *kept = Some(kept.map_or(limit, |other| other.min(limit)));
+        Ok(!is_jerk)
+    }
+
+    /// Names a statement in the outermost elements, as many as stated.
+    fn note(&mut self, depth: usize, statement: String, position: u64) {
+        let words = |(k, element): (usize, &Element)| match (k, element.name.as_str()) {
+            (0, name) if !name.is_empty() => format!("{} '{}'", element.tag, name.escape_debug()),
+            _ => element.tag.clone(),
+        };
+        let place = self.open[..depth].iter().skip(1).enumerate().map(words);
+        self.found.unused.push(UnusedStatement {
+            place: place.collect::<Vec<_>>().join(", "),
+            statement: statement.escape_debug().to_string().replace("\\\"", "\""),
+            line: line_at(self.text, position),
+        });
+    }
+}
+
+/// Number of an attribute, infinity included.
+fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|number: &f64| !number.is_nan())
+}
