@@ -506,6 +506,7 @@ class Plan:
         speed_share: float = 1.0,
         corner_m: float = 0.005,
         accept: Iterable[str] = (),
+        joint_3: Literal["with-joint-2", "independent"] | None = None,
         stands_rad: npt.ArrayLike | None = None,
         tip: npt.ArrayLike | None = None,
         robot: Robot | None = None,

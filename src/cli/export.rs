@@ -15,8 +15,8 @@ use platewash::export::dialect::Dialect;
 use platewash::export::dialect::ProgramFile;
 use platewash::export::judgement::{Case, ProgramJudgement};
 use platewash::export::{
-    Change, CompareError, ExportError, ExportSettings, ExportedProgram, Refusal, compare, contact_not_judged, dialect,
-    export, ros2,
+    Change, CompareError, ExportError, ExportSettings, ExportedProgram, Joint3, Refusal, compare, contact_not_judged,
+    dialect, export, ros2,
 };
 use platewash::kinematics::urdf::file::read_bytes;
 use platewash::workcell::dry_run::DryRun;
@@ -54,6 +54,10 @@ pub struct ExportArguments {
     /// Name of a waived requirement that the program may break too, as in the certificate (may be repeated)
     #[arg(long, value_name = "REQUIREMENT", value_parser = waived)]
     accept: Vec<Requirement>,
+    /// Count of axis 3 by the arm's controller (RAPID): with-joint-2 where a parallel linkage makes it rax_3 = joint_3 + joint_2, else
+    /// independent. Some arms of ABB are refused without it: see docs/rapid.md, The maker's joints
+    #[arg(long, value_name = "COUNT", value_parser = joint_3)]
+    joint_3: Option<Joint3>,
     /// Joint positions of the arm now, in degrees; refused if more than half a degree from the plan's start
     #[arg(long, value_name = "J1,…,J6", value_parser = joints, allow_hyphen_values = true)]
     stands: Option<JointVector>,
@@ -68,6 +72,10 @@ fn target(name: &str) -> Result<&'static dyn Dialect> {
 
 fn waived(name: &str) -> Result<Requirement> {
     Requirement::named(name).context("no requirement of a certificate has that name")
+}
+
+fn joint_3(name: &str) -> Result<Joint3> {
+    Joint3::named(name).with_context(|| format!("expected one of {}", Joint3::ALL.map(Joint3::name).join(", ")))
 }
 
 fn joints(text: &str) -> Result<JointVector> {
@@ -153,6 +161,7 @@ pub fn run(options: &Options, arguments: &ExportArguments) -> Result<ExitCode> {
         speed_share: arguments.speed_share,
         corner_m: arguments.corner,
         accepted: arguments.accept.clone(),
+        joint_3: arguments.joint_3,
         stands_rad: arguments.stands,
         tip: arguments.tip,
     };
@@ -198,6 +207,7 @@ fn end_of(refusal: &Refusal) -> (&'static str, ExitCode) {
             " (scenario: tool.mass_kg, tool.com_m, tool.inertia_kg_m2)",
             ExitCode::Input,
         ),
+        Refusal::Joint3 { .. } => (" (--joint-3; docs/rapid.md, The maker's joints)", ExitCode::Input),
         Refusal::Waived { .. } => (" (--accept NAME)", ExitCode::NotVerified),
         Refusal::NotKept { .. } | Refusal::TooClose { .. } => ("", ExitCode::NotVerified),
         _ => ("", ExitCode::Input),

@@ -1,5 +1,6 @@
 //! Programs to be written: a job of the UR5, and points that need not be a plan's.
 
+use platewash_export::Joint3;
 use platewash_export::dialect::{Point, Program, ProgramFile};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -47,6 +48,7 @@ pub fn program<'a>(plan: &'a Plan, arm: &'a RobotModel, points: Vec<Point>, spee
         arm,
         points,
         speed_share,
+        joint_3: Joint3::Independent,
         corner_m: 0.005,
         header: vec!["PROVED: two segments".to_owned(), "within 0.5° # of \"it\"".to_owned()],
     }

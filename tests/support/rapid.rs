@@ -1,5 +1,6 @@
 //! What the tests of programs share.
 
+use platewash_export::Joint3;
 use platewash_export::dialect::{Dialect, Point, Program, ProgramFile, ReadError, by_name};
 use platewash_export::reading::Reading;
 use platewash_kinematics::{JointVector, RobotModel};
@@ -54,6 +55,7 @@ pub fn program(points: Vec<Point>, speed_share: f64) -> Program<'static> {
         arm,
         points,
         speed_share,
+        joint_3: Joint3::Independent,
         corner_m: 0.005,
         header: vec!["Verdict: certified. Joints at most 139.5°/s.".to_owned()],
     }

@@ -136,9 +136,8 @@ pub(crate) fn compare_in(
         speed_share: found.speed_share.unwrap_or_else(told),
         ..ExportSettings::default()
     };
-    let mut texts = files.iter().map(|file| &file.text);
-    let settings = texts.try_fold(otherwise, |settings, text| ExportSettings::stated(text, settings));
-    let settings = settings.ok_or_else(|| CompareError::Setting { name: name(files) })?;
+    let settings =
+        ExportSettings::stated(files, otherwise).ok_or_else(|| CompareError::Setting { name: name(files) })?;
     // A program whose greatest share stands in it is compared by that.
     if let (Some(share), None) = (found.speed_share, found.most_share)
         && share > settings.speed_share * (1.0 + DIGITS)

@@ -5,6 +5,7 @@
 //! All dialects. Another one is a line here, beside its file and its fixture.
 
 use crate::csv::Csv;
+use crate::maker_joints::Joint3;
 use crate::rapid::{Rapid, text_of_latin_1};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
@@ -30,6 +31,11 @@ pub trait Dialect: Debug + Sync {
     /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry. [`START_WITHIN`] in one
     /// stands for the largest distance from the start.
     fn assumptions(&self) -> &'static [&'static str];
+
+    /// Returns true where its programs state joints as the arm's controller counts them ([`Joint3`]), not as the description does.
+    fn has_maker_joints(&self) -> bool {
+        false
+    }
 
     /// Refuses a job that it cannot be handed over for: another make of arm, a tool without a mass.
     ///
@@ -127,6 +133,8 @@ pub struct Program<'a> {
     pub points: Vec<Point>,
     /// Share of the plan's speed at which the program runs, above 0 and at most 1: every time is divided by it.
     pub speed_share: f64,
+    /// Count of axis 3 by the controller, for a dialect that has the maker's joints. The points are in the description's.
+    pub joint_3: Joint3,
     /// Radius of corners between points that are not stops \[m\].
     pub corner_m: f64,
     /// Entries at the head of the text, one sentence or statement each, without line ends: verdict, hashes, assumptions.

@@ -2,6 +2,7 @@
 
 use crate::dialect::{Dialect, Program, ProgramFile, ReadError, start_within_deg};
 use crate::judgement::{self, ProgramJudgement};
+use crate::maker_joints::Joint3;
 use crate::points::Source;
 use crate::reading::Reading;
 use crate::refusal::Refusal;
@@ -60,7 +61,7 @@ pub fn export(
     cancel: &CancelToken,
 ) -> Result<ExportedProgram, ExportError> {
     let plan = certified.plan();
-    check(certified, arm, settings)?;
+    check(certified, arm, dialect, settings)?;
     dialect.accepts(&plan.job, arm)?;
     let exported = written(certified, arm, dialect, settings, cancel)?;
     exported.judgement.accepted()?;
@@ -76,13 +77,18 @@ pub(crate) fn again(
     settings: &ExportSettings,
     cancel: &CancelToken,
 ) -> Result<ExportedProgram, ExportError> {
-    settings.check()?;
+    settings.check(dialect, arm)?;
     written(certified, arm, dialect, settings, cancel)
 }
 
 /// Checks the requirements that hold for every dialect.
-fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSettings) -> Result<(), Refusal> {
-    settings.check()?;
+fn check(
+    certified: &Certified<Plan>,
+    arm: &RobotModel,
+    dialect: &dyn Dialect,
+    settings: &ExportSettings,
+) -> Result<(), Refusal> {
+    settings.check(dialect, arm)?;
     let job = &certified.plan().job;
     let (expected, found) = (&job.workcell.arm, ArmId::of(arm));
     if *expected != found {
@@ -100,7 +106,8 @@ fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSetting
         return Err(Refusal::Waived { waived });
     }
     if let Some(stands) = &settings.stands_rad {
-        check_start(stands, &job.home_rad[0], start_within_deg(job))?;
+        let joint_3 = settings.joint_3.unwrap_or_default();
+        check_start(stands, joint_3, &job.home_rad[0], start_within_deg(job))?;
     }
     settings
         .tip
@@ -108,8 +115,10 @@ fn check(certified: &Certified<Plan>, arm: &RobotModel, settings: &ExportSetting
         .map_or(Ok(()), |tip| tool_frame::check(tip, &job.workcell.tool.tip))
 }
 
-fn check_start(stands: &JointVector, start: &JointVector, most_deg: f64) -> Result<(), Refusal> {
-    let off = |joint: &usize| (stands[*joint] - start[*joint]).abs().to_degrees();
+/// Compares where the arm stands, in the joints of the program, with the start of the plan; sizes are those of the description's joints.
+fn check_start(stands: &JointVector, joint_3: Joint3, start: &JointVector, most_deg: f64) -> Result<(), Refusal> {
+    let off_deg = (joint_3.convert_back(stands) - start).map(f64::to_degrees);
+    let off = |joint: &usize| off_deg[*joint].abs();
     let worst = (0..AXES).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
     if off(&worst) <= most_deg {
         return Ok(());
@@ -117,7 +126,7 @@ fn check_start(stands: &JointVector, start: &JointVector, most_deg: f64) -> Resu
     Err(Refusal::Start {
         joint: worst,
         found_deg: stands[worst].to_degrees(),
-        expected_deg: start[worst].to_degrees(),
+        expected_deg: stands[worst].to_degrees() - off_deg[worst],
         most_deg,
     })
 }
@@ -145,6 +154,7 @@ fn written(
             points: points.clone(),
             speed_share: settings.speed_share,
             corner_m: settings.corner_m,
+            joint_3: settings.joint_3.unwrap_or_default(),
             header: header::lines(certified, &source, dialect, settings, (&points, judgement)),
         };
         let files = dialect.write(&program);

@@ -4,6 +4,7 @@
 
 use crate::dialect::{Dialect, Point, START_WITHIN, start_within_deg};
 use crate::judgement::{Case, ProgramJudgement};
+use crate::maker_joints;
 use crate::points::Source;
 use crate::settings::ExportSettings;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -52,6 +53,8 @@ pub(crate) fn lines(
     let within_deg = start_within_deg(&plan.job).to_string();
     let assumed = dialect.assumptions().iter();
     lines.extend(assumed.map(|words| format!("- {}", words.replace(START_WITHIN, &within_deg))));
+    let joint_3 = maker_joints::assumption(dialect, source.arm, settings, points);
+    lines.extend(joint_3.map(|words| format!("- {words}")));
     let rests_on = &certified.certificate().rests_on.assumptions;
     lines.extend(rests_on.iter().map(|words| format!("- {words}")));
     let first = match plan.job.is_motion_home() {

@@ -18,6 +18,7 @@
 //! | a tool as a controller has it, beside the plan's | `tool_frame` |
 //! | settings of a controller that change the motion, as a program states them and as they were handed over | `controller_settings` |
 //! | settings, and as lines of a program | `settings` |
+//! | the count of axis 3 by a controller, and the arms of which it is known | `maker_joints` |
 //! | the choice of points of a plan that a program names | `points` |
 //! | the assumed motion of an arm along a program, and the proof of that motion | `judgement` |
 //! | the head of a program, as comments | `header` |
@@ -33,6 +34,7 @@ pub mod dialect;
 mod export;
 mod header;
 pub mod judgement;
+mod maker_joints;
 mod points;
 pub mod rapid;
 pub mod reading;
@@ -49,5 +51,6 @@ pub mod urscript;
 pub use crate::compare::{Change, CompareError, ProgramComparison, compare};
 pub use crate::export::{ExportError, ExportedProgram, export};
 pub use crate::header::contact_not_judged;
+pub use crate::maker_joints::Joint3;
 pub use crate::refusal::Refusal;
 pub use crate::settings::ExportSettings;

@@ -22,6 +22,18 @@ pub enum Refusal {
         /// The plan's arm.
         found: String,
     },
+    /// The count of axis 3 by the controller of this arm is not stated.
+    #[error(
+        "\"{arm}\": ABB's controllers count axis 3 of an arm with a parallel linkage together with axis 2 (rax_3 = joint_3 + joint_2); {known}. \
+         Counted otherwise, the arm moves elsewhere: state joint_3, with-joint-2 where the forearm keeps its direction while axis 2 alone is jogged, \
+         else independent"
+    )]
+    Joint3 {
+        /// The plan's arm.
+        arm: String,
+        /// Public knowledge of this arm, and its source.
+        known: String,
+    },
     /// The tool has no mass, or one that the controller or the arm does not take.
     #[error("{reason}")]
     Load {
@@ -101,7 +113,7 @@ impl Refusal {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Waived { .. } => "waived",
-            Self::Arm { .. } | Self::OtherArm { .. } => "arm",
+            Self::Arm { .. } | Self::Joint3 { .. } | Self::OtherArm { .. } => "arm",
             Self::Setting { .. } => "setting",
             Self::Load { .. } => "load",
             Self::Frame { .. } => "frame",

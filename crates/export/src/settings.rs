@@ -1,8 +1,10 @@
 //! How a plan is handed over, and these settings as lines of a program's head, so that it can be made again and compared.
 
+use crate::dialect::{Dialect, ProgramFile};
+use crate::maker_joints::{self, Joint3};
 use crate::refusal::Refusal;
 use platewash_certificate::Requirement;
-use platewash_kinematics::{JointVector, Pose};
+use platewash_kinematics::{JointVector, Pose, RobotModel};
 
 /// The shortest tolerance that rounding leaves room for \[m\].
 const LEAST_TOLERANCE_M: f64 = 2e-5;
@@ -24,7 +26,10 @@ pub struct ExportSettings {
     pub corner_m: f64,
     /// Requirements whose waiving is accepted.
     pub accepted: Vec<Requirement>,
-    /// Configuration in which the arm stands now, if it is to be compared with the start of the plan \[rad\].
+    /// Count of axis 3 by the controller, which a program in the maker's joints follows; `None` asks where the arm's is not known to be
+    /// independent.
+    pub joint_3: Option<Joint3>,
+    /// Configuration in which the arm stands now, if it is to be compared with the start of the plan, in the joints of the program \[rad\].
     pub stands_rad: Option<JointVector>,
     /// `T_flange_tip` as the controller has it, if that is to be compared with the plan's.
     pub tip: Option<Pose>,
@@ -37,6 +42,7 @@ impl Default for ExportSettings {
             speed_share: 1.0,
             corner_m: 5e-3,
             accepted: Vec::new(),
+            joint_3: None,
             stands_rad: None,
             tip: None,
         }
@@ -44,11 +50,12 @@ impl Default for ExportSettings {
 }
 
 impl ExportSettings {
-    /// Refuses settings that make no sense.
+    /// Refuses settings that make no sense for a program of a dialect for an arm.
     ///
     /// # Errors
-    /// [`Refusal::Setting`], naming the first.
-    pub(crate) fn check(&self) -> Result<(), Refusal> {
+    /// [`Refusal::Setting`], naming the first; [`Refusal::Joint3`].
+    pub(crate) fn check(&self, dialect: &dyn Dialect, arm: &RobotModel) -> Result<(), Refusal> {
+        maker_joints::check(dialect, arm, self.joint_3)?;
         let own = [
             (
                 "tolerance_m",
@@ -83,14 +90,18 @@ impl ExportSettings {
         if !accepted.is_empty() {
             lines.push(format!("{SETTING} accepted = {}", accepted.join(",")));
         }
+        lines.extend(
+            self.joint_3
+                .map(|count| format!("{SETTING} joint_3 = {}", count.name())),
+        );
         lines
     }
 
-    /// Reads the settings of a text from such lines, with any text before them; settings that it does not state are taken from
+    /// Reads the settings of files from such lines, with any text before them; settings that it does not state are taken from
     /// `otherwise`. `None` where a line cannot be read.
-    pub(crate) fn stated(text: &str, otherwise: Self) -> Option<Self> {
+    pub(crate) fn stated(files: &[ProgramFile], otherwise: Self) -> Option<Self> {
         let mut settings = otherwise;
-        for line in text.lines() {
+        for line in files.iter().flat_map(|file| file.text.lines()) {
             let Some((_, statement)) = line.split_once(SETTING) else {
                 continue;
             };
@@ -101,6 +112,7 @@ impl ExportSettings {
                 "tolerance_m" => settings.tolerance_m = number()?,
                 "speed_share" => settings.speed_share = number()?,
                 "corner_m" => settings.corner_m = number()?,
+                "joint_3" => settings.joint_3 = Some(Joint3::named(value)?),
                 "accepted" => settings.accepted = value.split(',').map(Requirement::named).collect::<Option<_>>()?,
                 _ => return None,
             }

@@ -4,7 +4,7 @@ use platewash_certificate::{Certified, certify};
 use platewash_export::dialect::{Dialect, Point, Program, ProgramFile, by_name};
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::ros2::write::LEAD_IN_S;
-use platewash_export::{ExportSettings, ProgramComparison, compare, export};
+use platewash_export::{ExportSettings, Joint3, ProgramComparison, compare, export};
 use platewash_kinematics::RobotModel;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures;
@@ -46,6 +46,7 @@ fn program(speed_share: f64) -> Program<'static> {
         arm,
         points: (0..knots.t_s.len()).map(point).collect(),
         speed_share,
+        joint_3: Joint3::Independent,
         corner_m: 0.005,
         header: vec!["a plan's head: \u{202e}with\nanything".to_owned()],
     }

@@ -5,7 +5,7 @@ use crate::work::patiently;
 use crate::{argument, errors, plate};
 use platewash::certificate::{CertifyError, Requirement, certify_with};
 use platewash::export::dialect::{DIALECTS, Dialect, ProgramFile};
-use platewash::export::{ExportError, ExportSettings, Refusal, export};
+use platewash::export::{ExportError, ExportSettings, Joint3, Refusal, export};
 use platewash::{CancelToken, Plan, Pose, ProveError, RobotModel};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -20,6 +20,8 @@ pub struct ExportKeywords<'a, 'py> {
     pub corner_m: Option<&'a Bound<'py, PyAny>>,
     /// Requirements whose waiving is accepted.
     pub accept: Option<&'a Bound<'py, PyAny>>,
+    /// Count of axis 3 by the controller.
+    pub joint_3: Option<&'a Bound<'py, PyAny>>,
     /// Configuration in which the arm stands now \[rad\].
     pub stands_rad: Option<&'a Bound<'py, PyAny>>,
     /// `T_flange_tip` as the controller has it.
@@ -42,6 +44,7 @@ impl ExportKeywords<'_, '_> {
             speed_share: argument::number_or("speed_share", self.speed_share, default.speed_share)?,
             corner_m: argument::number_or("corner_m", self.corner_m, default.corner_m)?,
             accepted: accepted.transpose()?.unwrap_or_default(),
+            joint_3: self.joint_3.map(joint_3).transpose()?,
             stands_rad: stands.transpose()?,
             tip: self.tip.map(tip).transpose()?,
         })
@@ -52,6 +55,10 @@ fn accepted(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Requirement> {
     const NEEDED: &str = "the name of a requirement, as certificates have it,";
     let found = Requirement::named(&argument::text(name, value, NEEDED)?);
     found.ok_or_else(|| argument::wrong_value(name, value, NEEDED))
+}
+
+fn joint_3(value: &Bound<'_, PyAny>) -> PyResult<Joint3> {
+    argument::word("joint_3", value, &Joint3::ALL.map(|count| (count.name(), count)))
 }
 
 fn tip(value: &Bound<'_, PyAny>) -> PyResult<Pose> {

@@ -287,7 +287,8 @@ impl PlanObject {
     ///
     /// With `out`, a folder that is there or can be made, the files are written there, all of them or none. The tip may be `tolerance_m` from the plan [m]. The program
     /// runs at `speed_share` of the plan's speed, and corners between its points have the radius `corner_m` [m], where it has corners. What
-    /// the certificate waives must be accepted by name: `accept`. `stands_rad` is where the arm stands now, shape (6,) [rad], `tip` the
+    /// the certificate waives must be accepted by name: `accept`. `joint_3` is how an ABB controller counts axis 3, `"with-joint-2"` where a
+    /// parallel linkage makes it the sum of joints 2 and 3, else `"independent"`; some arms are refused without it. `stands_rad` is where the arm stands now, shape (6,) [rad], `tip` the
     /// tool's tip in the flange's frame as the controller has it, shape (4, 4): both are compared with the plan. `robot` is the arm, by default
     /// the one that the plan was made for.
     ///
@@ -295,10 +296,11 @@ impl PlanObject {
     /// be given.
     #[pyo3(
         signature = (
-            to, out=None, *, tolerance_m=None, speed_share=None, corner_m=None, accept=None, stands_rad=None, tip=None, robot=None
+            to, out=None, *, tolerance_m=None, speed_share=None, corner_m=None, accept=None, joint_3=None, stands_rad=None, tip=None,
+            robot=None
         ),
-        text_signature = "($self, to, out=None, *, tolerance_m=0.0002, speed_share=1.0, corner_m=0.005, accept=(), stands_rad=None, \
-                          tip=None, robot=None)"
+        text_signature = "($self, to, out=None, *, tolerance_m=0.0002, speed_share=1.0, corner_m=0.005, accept=(), joint_3=None, \
+                          stands_rad=None, tip=None, robot=None)"
     )]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn export<'py>(
@@ -310,6 +312,7 @@ impl PlanObject {
         speed_share: Option<&Bound<'py, PyAny>>,
         corner_m: Option<&Bound<'py, PyAny>>,
         accept: Option<&Bound<'py, PyAny>>,
+        joint_3: Option<&Bound<'py, PyAny>>,
         stands_rad: Option<&Bound<'py, PyAny>>,
         tip: Option<&Bound<'py, PyAny>>,
         robot: Option<&Bound<'py, PyAny>>,
@@ -319,6 +322,7 @@ impl PlanObject {
             speed_share,
             corner_m,
             accept,
+            joint_3,
             stands_rad,
             tip,
         };
@@ -357,6 +361,7 @@ impl PlanObject {
             speed_share,
             corner_m: None,
             accept,
+            joint_3: None,
             stands_rad,
             tip: None,
         };

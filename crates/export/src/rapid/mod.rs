@@ -13,8 +13,10 @@ mod read;
 mod write;
 
 use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
+use crate::maker_joints::{self, Joint3};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
+use crate::settings::ExportSettings;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::job::JobTerms;
 
@@ -53,6 +55,10 @@ impl Dialect for Rapid {
         ]
     }
 
+    fn has_maker_joints(&self) -> bool {
+        true
+    }
+
     fn accepts(&self, job: &JobTerms, arm: &RobotModel) -> Result<(), Refusal> {
         accepts::accepts(job, arm)
     }
@@ -61,9 +67,28 @@ impl Dialect for Rapid {
         write::modules(program)
     }
 
-    fn read(&self, files: &[ProgramFile], _: &RobotModel) -> Result<Reading, ReadError> {
-        read::reading(files)
+    fn read(&self, files: &[ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
+        read::reading(files, count_of_joint_3(files, arm)?)
     }
+}
+
+/// The count of axis 3 that a program's head states, or that is known of the arm.
+fn count_of_joint_3(files: &[ProgramFile], arm: &RobotModel) -> Result<Joint3, ReadError> {
+    let stated = ExportSettings::stated(files, ExportSettings::default()).and_then(|settings| settings.joint_3);
+    let name = files.first().map_or("(no file)", |file| &file.name);
+    maker_joints::check(&Rapid, arm, stated).map_err(|refusal| {
+        let line = ExportSettings {
+            joint_3: Some(Joint3::WithJoint2),
+            ..ExportSettings::default()
+        };
+        let line = line.lines().pop().unwrap_or_default();
+        ReadError::at(
+            name,
+            1,
+            format!("expected a line such as \"{line}\" at the head, found none. {refusal}"),
+        )
+    })?;
+    Ok(stated.unwrap_or_default())
 }
 
 /// Text of a module that is not UTF-8: ISO 8859-1, in which controllers and editors write comments. Of the bytes that are signs in Windows'

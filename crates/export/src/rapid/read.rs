@@ -5,10 +5,11 @@
 //! else is refused with its line: loops, conditions, jumps, assignments, functions, and motions that the controller times or
 //! plans by itself.
 //!
-//! Numbers are IEEE singles, as on the controller.
+//! Numbers are IEEE singles, as on the controller. Joints are the maker's in the text, and the description's in the reading.
 
 use crate::controller_settings::{Accepted, SettingList};
 use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
+use crate::maker_joints::Joint3;
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
 use crate::rapid::{self};
@@ -80,9 +81,9 @@ struct Time {
 ///
 /// # Errors
 /// [`ReadError`] with the line that is not read.
-pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
+pub(crate) fn reading(files: &[ProgramFile], joint_3: Joint3) -> Result<Reading, ReadError> {
     let modules = modules(files)?;
-    let within_deg = check_blocks(&modules)?;
+    let within_deg = check_blocks(&modules, joint_3)?;
     let mut procedures: Vec<_> = modules.procedures.iter().filter(|(key, _)| !is_block(key)).collect();
     procedures.sort_by_key(|(_, procedure)| &procedure.place);
     let statements = procedures.into_iter().map(|(key, procedure)| {
@@ -102,7 +103,11 @@ pub(crate) fn reading(files: &[ProgramFile]) -> Result<Reading, ReadError> {
         .procedures
         .get("main")
         .map_or(nowhere, |main| main.place.clone());
-    run.reading(main, within_deg)
+    let mut reading = run.reading(main, within_deg)?;
+    for point in &mut reading.points {
+        point.q_rad = joint_3.convert_back(&point.q_rad);
+    }
+    Ok(reading)
 }
 
 fn is_block(key: &str) -> bool {
@@ -111,7 +116,7 @@ fn is_block(key: &str) -> bool {
 
 /// Checks that the procedures with the checks before the motion are as they were exported, and returns the largest distance from the start
 /// that they allow \[°\].
-fn check_blocks(found: &Modules) -> Result<f64, ReadError> {
+fn check_blocks(found: &Modules, joint_3: Joint3) -> Result<f64, ReadError> {
     let states = |within_deg: &f64| {
         let check = found.procedures.get(CHECK_JOINT);
         check.is_some_and(|check| {
@@ -125,7 +130,7 @@ fn check_blocks(found: &Modules) -> Result<f64, ReadError> {
     let within_deg = START_WITHIN_DEG.into_iter().find(states).unwrap_or(at_home);
     let written = modules(&[ProgramFile {
         name: "checks".to_owned(),
-        text: checks(within_deg),
+        text: checks(within_deg, joint_3),
     }])?;
     for (key, expected) in &written.procedures {
         let Some(procedure) = found.procedures.get(key) else {

@@ -11,6 +11,7 @@ mod start;
 
 use crate::dialect::{Program, ProgramFile, start_within_deg};
 use crate::header::wrapped;
+use crate::maker_joints::Joint3;
 use crate::rapid::is_taken;
 use crate::rapid::write::motion::{Routine, routines};
 use platewash_kinematics::words::fixed;
@@ -40,7 +41,7 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     first.blank();
     let within_deg = start_within_deg(&program.plan.job);
     start::main(&mut first, &routines, within_deg);
-    start::checks(&mut first, within_deg);
+    start::checks(&mut first, within_deg, program.joint_3);
     if shares.is_empty() {
         write_all(&mut first, &routines);
     }
@@ -60,10 +61,10 @@ pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
 }
 
 /// Text of a module that contains only the checks before the first motion, with the largest distance from the start \[°\].
-pub(crate) fn checks(within_deg: f64) -> String {
+pub(crate) fn checks(within_deg: f64, joint_3: Joint3) -> String {
     let mut lines = Lines::default();
     lines.line(0, "MODULE checks");
-    start::checks(&mut lines, within_deg);
+    start::checks(&mut lines, within_deg, joint_3);
     lines.line(0, "ENDMODULE");
     lines.text()
 }

@@ -1,6 +1,7 @@
 //! The motion: a routine a segment, a line a target.
 
 use crate::dialect::{Point, Program};
+use crate::maker_joints::Joint3;
 use crate::rapid::write::{Lines, RUNNING, Routines};
 use crate::rapid::zone_named;
 use platewash_kinematics::JointVector;
@@ -82,9 +83,15 @@ pub fn zone(program: &Program<'_>) -> Zone {
     }
 }
 
-/// The aggregate of a joint target.
-pub fn target(q_rad: &JointVector) -> String {
-    let degrees: Vec<String> = q_rad.iter().map(|q| fixed(q.to_degrees(), ANGLE_DECIMALS)).collect();
+/// The aggregate of a joint target, in the maker's joints. Axis 3 is counted with axis 2 as it is written, whose rounding is no error of joint 3.
+pub fn target(joint_3: Joint3, q_rad: &JointVector) -> String {
+    let mut degrees = q_rad.map(f64::to_degrees);
+    degrees[1] = fixed(degrees[1], ANGLE_DECIMALS).parse().unwrap_or(degrees[1]);
+    let degrees: Vec<String> = joint_3
+        .convert(&degrees)
+        .iter()
+        .map(|q| fixed(*q, ANGLE_DECIMALS))
+        .collect();
     format!("[[{}],[9E9,9E9,9E9,9E9,9E9,9E9]]", degrees.join(","))
 }
 
@@ -142,11 +149,12 @@ fn comment(segment: Option<&PlanSegment>, span_s: [f64; 2], targets: usize) -> S
 /// Returns the line for a point. Where the arm is there already it waits.
 fn motion(program: &Program<'_>, clock: &mut Clock, from: &Point, point: &Point, next: Option<&Point>) -> String {
     let time = clock.up_to(point.t_s);
-    let target_here = target(&point.q_rad);
-    if target_here == target(&from.q_rad) {
+    let target = |point: &Point| target(program.joint_3, &point.q_rad);
+    let target_here = target(point);
+    if target_here == target(from) {
         return format!("WaitTime {time}/{RUNNING};");
     }
-    let waits_next = next.is_some_and(|next| target(&next.q_rad) == target_here);
+    let waits_next = next.is_some_and(|next| target(next) == target_here);
     let stops = point.rests || next.is_none() || waits_next;
     let zone = if stops { "fine" } else { zone(program).word() };
     format!("MoveAbsJ {target_here}\\NoEOffs,v100\\T:={time}/{RUNNING},{zone},pwTool\\WObj:=wobj0;")
@@ -194,7 +202,7 @@ mod tests {
     fn targets_have_no_negative_zero() {
         let q = JointVector::from([-1e-9, 1.0, -1.0, 0.0, 1e-7, -1e-5]);
         assert_eq!(
-            target(&q),
+            target(Joint3::Independent, &q),
             "[[0.0000,57.2958,-57.2958,0.0000,0.0000,-0.0006],[9E9,9E9,9E9,9E9,9E9,9E9]]"
         );
     }

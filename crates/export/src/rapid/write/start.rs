@@ -3,6 +3,7 @@
 //! The tool as RAPID states it: tip frame and load, in mm, kg and kg·m².
 
 use crate::dialect::Program;
+use crate::maker_joints::Joint3;
 use crate::rapid::write::motion::{Routine, target, zone};
 use crate::rapid::write::{Lines, MOST, RUNNING, SHARE, number};
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
@@ -32,7 +33,10 @@ pub fn data(lines: &mut Lines, program: &Program<'_>) {
         .points
         .first()
         .map_or_else(JointVector::zeros, |point| point.q_rad);
-    lines.line(1, &format!("CONST jointtarget pwStart:={};", target(&start)));
+    lines.line(
+        1,
+        &format!("CONST jointtarget pwStart:={};", target(program.joint_3, &start)),
+    );
     if let Some(radius_mm) = zone(program).radius_mm() {
         let [tip, more, angle] = [radius_mm, 1.5 * radius_mm, 0.15 * radius_mm].map(|value| number(value, 6));
         lines.comment(1, "Corners at targets that are no stops.");
@@ -63,8 +67,8 @@ pub fn main(lines: &mut Lines, routines: &[Routine], within_deg: f64) {
 }
 
 /// Writes the checks before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again,
-/// `Stop` can.
-pub fn checks(lines: &mut Lines, within_deg: f64) {
+/// `Stop` can. Joint 3 is checked as the description has it: where axis 3 is counted with axis 2, as far off as axis 3 is more than axis 2.
+pub fn checks(lines: &mut Lines, within_deg: f64, joint_3: Joint3) {
     lines.blank();
     lines.line(1, "PROC pwCheckShare()");
     lines.line(2, &format!("IF {SHARE}>0 AND {SHARE}<={MOST} THEN"));
@@ -84,9 +88,13 @@ pub fn checks(lines: &mut Lines, within_deg: f64) {
     lines.line(2, "VAR jointtarget now;");
     lines.line(2, "now:=CJointT();");
     for joint in 1..=6 {
+        let with = match (joint, joint_3) {
+            (3, Joint3::WithJoint2) => "+(now.robax.rax_2-pwStart.robax.rax_2)",
+            _ => "",
+        };
         lines.line(
             2,
-            &format!("pwCheckJoint {joint},now.robax.rax_{joint},pwStart.robax.rax_{joint};"),
+            &format!("pwCheckJoint {joint},now.robax.rax_{joint},pwStart.robax.rax_{joint}{with};"),
         );
     }
     lines.line(1, "ENDPROC");
