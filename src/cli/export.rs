@@ -74,7 +74,8 @@ fn waived(name: &str) -> Result<Requirement> {
     Requirement::named(name).context("no requirement of a certificate has that name")
 }
 
-fn joint_3(name: &str) -> Result<Joint3> {
+/// Reads a count of axis 3.
+pub fn joint_3(name: &str) -> Result<Joint3> {
     Joint3::named(name).with_context(|| format!("expected one of {}", Joint3::ALL.map(Joint3::name).join(", ")))
 }
 

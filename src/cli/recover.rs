@@ -1,5 +1,6 @@
 //! `platewash recover`: after a stop home from where the arm stands, and the plates that are left.
 
+use super::export::joint_3;
 use super::failure::ExitCode;
 use super::files::Files;
 use super::numbers::{Unit, joints};
@@ -9,6 +10,7 @@ use super::plan_file::PlanFile;
 use anyhow::{Context, Error, Result, anyhow};
 use clap::Args;
 use platewash::certificate::prove_with;
+use platewash::export::Joint3;
 use platewash::kinematics::AXES;
 use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, Watch, recover};
 use platewash::workcell::job::Treatment;
@@ -36,6 +38,10 @@ pub struct RecoverArguments {
     /// Six joint positions of the arm where it stands [deg]
     #[arg(long, value_name = "Q", num_args = AXES, required = true, allow_negative_numbers = true)]
     at_deg: Vec<f64>,
+    /// Count of axis 3 in those positions, as that of export: with-joint-2 where they are read off a controller that counts it so
+    /// [default: independent, as the description]
+    #[arg(long, value_name = "COUNT", value_parser = joint_3)]
+    joint_3: Option<Joint3>,
     /// Time in the plan at which it was stopped [s] [default: the earliest at which the plan is about there]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     stopped_s: Option<f64>,
@@ -98,6 +104,7 @@ pub fn run(options: &Options, arguments: &RecoverArguments) -> Result<ExitCode> 
         return Err(file.not_verified(format_args!("a recovery is one of a proved plan; this one is {first}")));
     }
     let at = joints(&arguments.at_deg, Unit::Degrees).context("--at-deg")?;
+    let at = arguments.joint_3.unwrap_or_default().convert_back(&at);
     let progress = options.progress("planning the recovery");
     let watch = Watch {
         tell: &|activity| progress.say(activity),

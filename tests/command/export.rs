@@ -323,6 +323,67 @@ fn another_arm_has_its_own_programs() {
     platewash(dir, &["export", "o/plan.json", "--to", "urscript"]).refused(2, &["--urdf"]);
 }
 
+/// The controller counts axis 3 with axis 2, which is asked for, stated and read back, also after a stop.
+#[test]
+fn an_arm_with_a_parallel_linkage_has_programs_in_the_makers_joints() {
+    let folder = folder();
+    let dir = folder.path();
+    fs::write(dir.join("arm.urdf"), linkage::urdf("abb_irb2400")).unwrap();
+    let call =
+        |words: &[&str], more: &[&str]| platewash(dir, &[words, &["--urdf", "arm.urdf", "--json"], more].concat());
+    let plan = "out/plan.json";
+    call(&["plan"], &[]).done();
+    let answer = refused(&call(&["export", plan, "--to", "rapid"], &[]), "arm", 2);
+    let words = answer["message"].as_str().unwrap();
+    for part in [
+        "rax_3 = joint_3 + joint_2",
+        "abb_irb2400_support",
+        "--joint-3",
+        "independent",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    let coupled = ["--joint-3", "with-joint-2"];
+    refused(&call(&["export", plan, "--to", "csv"], &coupled), "setting", 2);
+    call(&["export", plan, "--to", "rapid", "--joint-3", "both"], &[]).refused(2, &["with-joint-2, independent"]);
+
+    // The pendant shows 36° for both axes, where joint 3 is at 0°.
+    let stands = ["--stands", "-8,36,36,0,54,0"];
+    call(&["export", plan, "--to", "rapid"], &[&coupled[..], &stands].concat()).done();
+    let path = module(&dir.join("out/rapid"));
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("pwStart:=[[-8.0000,36.0000,36.0000,0.0000,54.0000,0.0000],"));
+    let verify = |text: &str| {
+        fs::write(&path, text).unwrap();
+        call(&["verify", plan, "--program", path.to_str().unwrap()], &[])
+    };
+    let found = verify(&text).done().json();
+    assert_eq!(
+        (&found["holds"], &found["unchanged"]),
+        (&true.into(), &true.into()),
+        "{found}"
+    );
+    let (line, moved) = a_move(&text);
+    let rax_3 = moved.split(',').nth(2).unwrap();
+    let other = moved.replacen(rax_3, &format!("{:.4}", rax_3.parse::<f64>().unwrap() + 0.1), 1);
+    let ran = verify(&text.replacen(&moved, &other, 1));
+    assert_eq!(ran.code, 4, "{}", ran.stderr);
+    assert_eq!(ran.json()["changes"][0]["what"], "joint 3", "line {line}");
+    verify(&text.replacen("platewash setting: joint_3 = with-joint-2", "", 1))
+        .refused(2, &["platewash setting: joint_3", "found none"]);
+
+    // A stop where joint 3 is at 20° and joint 2 at 10°.
+    let at = ["--at-deg", "-8", "10", "30", "0", "54", "0"];
+    call(&["recover", plan], &[&coupled[..], &at].concat()).done();
+    call(
+        &["export", "out/recovery/home.json", "--to", "rapid", "--out", "home"],
+        &coupled,
+    )
+    .done();
+    let home = fs::read_to_string(module(&dir.join("home"))).unwrap();
+    assert!(home.contains("pwStart:=[[-8.0000,10.0000,30.0000,0.0000,54.0000,0.0000],"));
+}
+
 #[test]
 fn programs_of_two_plans_do_not_stand_side_by_side() {
     let folder = planned();

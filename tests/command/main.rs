@@ -42,6 +42,9 @@ mod verbs;
 mod verify;
 mod view;
 
+#[path = "../support/linkage.rs"]
+mod linkage;
+
 use serde_json::Value;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

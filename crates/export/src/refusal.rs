@@ -24,9 +24,9 @@ pub enum Refusal {
     },
     /// The count of axis 3 by the controller of this arm is not stated.
     #[error(
-        "\"{arm}\": ABB's controllers count axis 3 of an arm with a parallel linkage together with axis 2 (rax_3 = joint_3 + joint_2); {known}. \
-         Counted otherwise, the arm moves elsewhere: state joint_3, with-joint-2 where the forearm keeps its direction while axis 2 alone is jogged, \
-         else independent"
+        "how the controller of \"{arm}\" counts axis 3 must be stated: where a parallel linkage drives it, ABB's count it together with axis 2 \
+         (rax_3 = joint_3 + joint_2), {known}. Counted otherwise, the arm moves elsewhere. Give joint_3: with-joint-2 where the forearm keeps its \
+         direction while axis 2 alone is jogged, else independent"
     )]
     Joint3 {
         /// The plan's arm.

@@ -7,6 +7,7 @@
 mod csv;
 mod dialect;
 mod judgement;
+mod maker_joints;
 mod rapid_accepts;
 mod rapid_read;
 mod rapid_round_trip;
@@ -18,6 +19,8 @@ mod trajectory_messages;
 mod urscript;
 mod whole_plan;
 
+#[path = "../../../tests/support/linkage.rs"]
+mod linkage;
 #[path = "../../../tests/support/programs.rs"]
 mod programs;
 #[path = "../../../tests/support/rapid.rs"]

@@ -1,6 +1,7 @@
 //! What is written in RAPID is read back as it was meant.
 
 use crate::rapid::{every, kitchen, program, rapid};
+use platewash_export::Joint3;
 use platewash_export::dialect::Point;
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_kinematics::{JointVector, Pose};
@@ -232,9 +233,16 @@ fn tools() -> impl Strategy<Value = Tool> {
 
 proptest! {
     #[test]
-    fn reads_back_any_points(points in points(), share in 0.05..1.0_f64, corner_m in 0.0001..0.3_f64) {
+    fn reads_back_any_points(
+        points in points(),
+        share in 0.05..1.0_f64,
+        corner_m in 0.0001..0.3_f64,
+        joint_3 in proptest::sample::select(&Joint3::ALL),
+    ) {
         let mut program = program(points, share);
         program.corner_m = corner_m;
+        program.joint_3 = joint_3;
+        program.header.push(format!("platewash setting: joint_3 = {}", joint_3.name()));
         let files = rapid().write(&program);
         let reading = rapid().read(&files, program.arm).unwrap();
         assert_as_meant(&program.points, share, &reading, TIME_S);

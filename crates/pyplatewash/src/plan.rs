@@ -285,12 +285,12 @@ impl PlanObject {
     /// A robot program of the plan, as a dictionary of its files' texts by their names: `"ros2"` and the other targets of the command's
     /// `export`. The plan is proved, the program read back, interpreted and judged; what does not hold is not handed over.
     ///
-    /// With `out`, a folder that is there or can be made, the files are written there, all of them or none. The tip may be `tolerance_m` from the plan [m]. The program
-    /// runs at `speed_share` of the plan's speed, and corners between its points have the radius `corner_m` [m], where it has corners. What
-    /// the certificate waives must be accepted by name: `accept`. `joint_3` is how an ABB controller counts axis 3, `"with-joint-2"` where a
-    /// parallel linkage makes it the sum of joints 2 and 3, else `"independent"`; some arms are refused without it. `stands_rad` is where the arm stands now, shape (6,) [rad], `tip` the
-    /// tool's tip in the flange's frame as the controller has it, shape (4, 4): both are compared with the plan. `robot` is the arm, by default
-    /// the one that the plan was made for.
+    /// With `out`, a folder that is there or can be made, the files are written there, all of them or none. The tip may be `tolerance_m` from the
+    /// plan [m]. The program runs at `speed_share` of the plan's speed, and corners between its points have the radius `corner_m` [m], where it has
+    /// corners. What the certificate waives must be accepted by name: `accept`. `joint_3` is how an ABB controller counts axis 3, `"with-joint-2"`
+    /// where a parallel linkage makes it the sum of joints 2 and 3, else `"independent"`; some arms are refused without it. `stands_rad` is where
+    /// the arm stands now, shape (6,) [rad], `tip` the tool's tip in the flange's frame as the controller has it, shape (4, 4): both are compared
+    /// with the plan. `robot` is the arm, by default the one that the plan was made for.
     ///
     /// Raises ExportError, with `code`, for a plan that is not handed over; InputError; FileError; ProveError for a plan whose arm must
     /// be given.
