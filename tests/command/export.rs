@@ -337,7 +337,7 @@ fn an_arm_with_a_parallel_linkage_has_programs_in_the_makers_joints() {
     let words = answer["message"].as_str().unwrap();
     for part in [
         "rax_3 = joint_3 + joint_2",
-        "abb_irb2400_support",
+        "ros-industrial/abb",
         "--joint-3",
         "independent",
     ] {

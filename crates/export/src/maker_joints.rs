@@ -82,71 +82,35 @@ const fn arm(model: &'static str, joint_3: Option<Joint3>, source: &'static str)
 
 const COUPLED: Option<Joint3> = Some(Joint3::WithJoint2);
 const SERIAL: Option<Joint3> = Some(Joint3::Independent);
-const CORRECTED: &str = "ros-industrial/abb: J23_coupled is true in older launch files, and corrected for serial arms by abb_experimental#155";
+const ABB: &str = "ros-industrial/abb, launch files (J23_coupled)";
+const EXPERIMENTAL: &str = "ros-industrial/abb_experimental, launch files (J23_coupled)";
+const CORRECTED: &str = "ros-industrial/abb, older launch files; abb_experimental#155 corrects those of serial arms";
 
-/// The arms; read on 2026-11-29. A launch file states `J23_coupled`; it lies in `<package>/launch/robot_interface_download_<arm>.launch`.
+/// The arms; read on 2026-11-29. The launch files are `abb_irb<model>_support/launch/robot_interface_download_irb<model>….launch`.
 static ARMS: [ListedArm; 21] = [
-    arm("2400", COUPLED, "ros-industrial/abb, abb_irb2400_support/launch"),
-    arm("4400", COUPLED, "ros-industrial/abb, abb_irb4400_support/launch"),
-    arm(
-        "6660",
-        COUPLED,
-        "ros-industrial/abb_experimental, abb_irb6660_support/launch",
-    ),
-    arm(
-        "5400",
-        None,
-        "ros-industrial/abb, abb_irb5400_support/launch, in doubt by abb#206",
-    ),
-    arm("1410", None, "ros-industrial/abb#189: no package states it"),
-    arm(
-        "6400",
-        None,
-        "industrialmonitordirect.com, knowledge/abb-irb-240044006400-j2j3-axis-coupling-in-moveabsj",
-    ),
+    arm("2400", COUPLED, ABB),
+    arm("4400", COUPLED, ABB),
+    arm("6660", COUPLED, EXPERIMENTAL),
+    arm("5400", None, "ros-industrial/abb#206, against its launch file"),
+    arm("1410", None, "ros-industrial/abb#189: no package"),
+    // blogs/knowledge/abb-irb-240044006400-j2j3-axis-coupling-in-moveabsj
+    arm("6400", None, "industrialmonitordirect.com"),
     arm("8700", None, "RobotComponents/RobotComponents#181"),
     arm("52", None, CORRECTED),
     arm("6650s", None, CORRECTED),
     arm("7600", None, CORRECTED),
-    arm("120", SERIAL, "ros-industrial/abb, abb_irb120_support/launch"),
-    arm(
-        "140",
-        SERIAL,
-        "ros-industrial/abb_experimental, abb_irb140_support/launch",
-    ),
-    arm("1200", SERIAL, "ros-industrial/abb, abb_irb1200_support/launch"),
-    arm(
-        "1300",
-        SERIAL,
-        "ros-industrial/abb_experimental, abb_irb1300_support/launch",
-    ),
-    arm(
-        "1600",
-        SERIAL,
-        "ros-industrial/abb_experimental, abb_irb1600_support/launch (10/1.45), and #155",
-    ),
-    arm(
-        "2600",
-        SERIAL,
-        "ros-industrial/abb_experimental, abb_irb2600_support/launch",
-    ),
-    arm(
-        "4600",
-        SERIAL,
-        "ros-industrial/abb_experimental, abb_irb4600_support/launch",
-    ),
-    arm("6600", SERIAL, "ros-industrial/abb, abb_irb6600_support/launch"),
-    arm("6640", SERIAL, "ros-industrial/abb, abb_irb6640_support/launch"),
-    arm(
-        "6700",
-        SERIAL,
-        "ros-industrial/abb, abb_irb6700_support/launch, and abb_experimental#155",
-    ),
-    arm(
-        "15000",
-        SERIAL,
-        "ros-industrial/abb_experimental, abb_crb15000_support/launch",
-    ),
+    arm("120", SERIAL, ABB),
+    arm("140", SERIAL, EXPERIMENTAL),
+    arm("1200", SERIAL, ABB),
+    arm("1300", SERIAL, EXPERIMENTAL),
+    // Of the 10/1.45; the older ones of the others are corrected by #155. So it is for the 6700.
+    arm("1600", SERIAL, EXPERIMENTAL),
+    arm("2600", SERIAL, EXPERIMENTAL),
+    arm("4600", SERIAL, EXPERIMENTAL),
+    arm("6600", SERIAL, ABB),
+    arm("6640", SERIAL, ABB),
+    arm("6700", SERIAL, ABB),
+    arm("15000", SERIAL, EXPERIMENTAL),
 ];
 
 /// The arm on the list that a description's name means: `irb2400`, `abb_irb_2400-16`, `ABB IRB 4400L`. The number stands behind `irb`, `crb` or `abb`.
@@ -200,7 +164,11 @@ pub(crate) fn assumption(
 ) -> Option<String> {
     let listed = listed(arm.name());
     match (dialect.has_maker_joints(), settings.joint_3) {
-        (true, Some(Joint3::WithJoint2)) => Some(coupled(settings.speed_share, points)),
+        (true, Some(Joint3::WithJoint2)) => {
+            let against = listed.filter(|arm| arm.joint_3 == SERIAL);
+            let against = against.map_or_else(String::new, |arm| format!(" Independent by {}.", arm.source));
+            Some(coupled(settings.speed_share, points) + &against)
+        }
         (true, None) if listed.is_some() => None,
         (true, _) => Some("rax_3 is counted on its own, as the description's joint 3.".to_owned()),
         (false, _) => {

@@ -150,6 +150,17 @@ fn a_changed_axis_or_head_line_is_no_program_of_the_plan() {
     assert!(!found.holds() && !found.is_unchanged());
 }
 
+/// The list is not the controller: what is given counts, and the head says what stands against it.
+#[test]
+fn a_count_against_the_list_is_stated_at_the_head() {
+    let washing = washing("abb_irb4600_60_205");
+    let program = exported(&washing, "rapid", &ExportSettings::default()).unwrap();
+    assert!(!program.files[0].text.contains("rax_3 is") && start_deg(&program.files)[2] == 0.0);
+    let program = exported(&washing, "rapid", &counted(Some(Joint3::WithJoint2))).unwrap();
+    assert_eq!(start_deg(&program.files)[2], 36.0);
+    assert!(program.files[0].text.contains("Independent by"));
+}
+
 /// Not on the list: independent unless it is stated, and without the line that states it the program is another one.
 #[test]
 fn an_arm_that_is_not_listed_is_taken_as_independent_and_its_program_says_so() {
