@@ -277,7 +277,8 @@ def test_states_why_a_program_is_not_exported(plan: pw.Plan) -> None:
     with pytest.raises(pw.ExportError) as caught:
         pw.Plan.from_json(text.replace(knot, knot[:-1], 1)).export("ros2")
     assert caught.value.code == "uncertified"
-    for name, value in {"speed_share": 1.5, "tolerance_m": -1.0, "corner_m": float("nan"), "accept": ["nothing"]}.items():
+    wrong = {"speed_share": 1.5, "tolerance_m": -1.0, "corner_m": float("nan"), "accept": ["nothing"], "joint_3": "with-joint-2"}
+    for name, value in wrong.items():
         with pytest.raises(pw.InputError, match=f"^{name}") as refused:
             plan.export("ros2", **{name: value})
         assert refused.value.argument is not None and refused.value.argument.startswith(name)

@@ -42,7 +42,7 @@ GOOD: dict[str, Any] = {
     "thickness_m": 0.02, "position_tolerance_m": 1e-6, "orientation_tolerance_rad": 1e-6, "max_iterations": 60, "max_qp_iterations": 30, "step_bound_rad": 0.7,
     "analytic_starts": True, "listed_starts": 4, "random_restarts": 0, "random_seed": 0, "data": {"a": 1},
     "mounted_on": "tool0", "kind": "layout", "execution": pw.simulate(WASH.plan), "certificate": pw.prove(WASH.plan), "prove": True, "simulate": False, "height": 300,
-    "to": "ros2", "out": None, "tolerance_m": 2e-4, "speed_share": 0.5, "speed_m_s": 0.1, "Plan.dry_run height_m": 0.05, "corner_m": 5e-3, "accept": ["swept"], "stands_rad": WASH.plan.trajectory.q_rad[0], "tip": None, "stopped_s": 0.0,
+    "to": "ros2", "out": None, "tolerance_m": 2e-4, "speed_share": 0.5, "speed_m_s": 0.1, "Plan.dry_run height_m": 0.05, "corner_m": 5e-3, "accept": ["swept"], "joint_3": "independent", "stands_rad": WASH.plan.trajectory.q_rad[0], "tip": None, "stopped_s": 0.0,
     "profile": None, "foot": pw.Foot(radius_m=0.08, height_m=0.005), "rings": None, "count": 3, "inner_m": 0.02, "lead_rad": 2.0, "blend_rad": 1.8, "laps": 1, "height_error_m": 0.001, "deviation_m": 0.001, "measured": None, "soil": None, "WashCurve.on plate": pw.Plate(x_m=0.3, y_m=0.0),
     "html": "<p>a page", "svg": "<svg></svg>", "Figure.save path": "figure.svg", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
