@@ -147,7 +147,7 @@ pub(crate) fn check(dialect: &dyn Dialect, arm: &RobotModel, stated: Option<Join
         (None, Some(listed)) if has_maker_joints => Err(Refusal::Joint3 {
             arm: arm.name().to_owned(),
             known: match listed.joint_3 {
-                Some(_) => format!("as for this arm by {}", listed.source),
+                Some(_) => format!("as stated for this arm by {}", listed.source),
                 None => format!("which public sources leave open for this arm ({})", listed.source),
             },
         }),
