@@ -144,6 +144,24 @@ fn a_tool0_that_does_not_leave_the_flange_is_no_place_for_a_tool() {
             "'tool0' (x leads out)",
         ],
     );
+    // So are one behind a prefix, and one whose z axis leads into the arm.
+    let inwards = "<child link=\"tool0\"/>\n    <origin xyz=\"0 0 0\" rpy=\"0 -1.5707963267948966 0\"/>";
+    for (edits, words) in [
+        (
+            [(tool0, sideways), ("\"tool0\"", "\"left_tool0\"")],
+            "'left_tool0' whose z axis is 90.0° from axis 6",
+        ),
+        (
+            [(tool0, inwards), ("\"flange\"", "\"face\"")],
+            "z axis should leave the arm by its name, but -z leads away",
+        ),
+    ] {
+        let other = folder.path().join("other");
+        std::fs::create_dir_all(&other).unwrap();
+        let urdf = arm(&other, &edits);
+        let refused = platewash(dir, &["plan", "-q", "--scenario", "sink", "--urdf", &urdf]);
+        refused.refused(2, &[words, "--tool-mount"]);
+    }
     // Where it is stated, a tool at the flange's side is planned with, or named where it is in the way; no controller has it there.
     let found = plan(&["--tool-mount", "tool0"]);
     if found.code != 0 {

@@ -96,9 +96,10 @@ const LIMIT: &str = "joint/limit";
 /// Elements, with all in them, and attributes that cannot matter: names of shapes, textures, where an encoder finds its zero, gains
 /// of a safety controller, the words of
 /// simulators about looks and sensors, and motors behind joints. `docs/urdf.md` gives the reasons.
-const CANNOT_MATTER: [&str; 11] = [
+const CANNOT_MATTER: [&str; 12] = [
     "link/visual/name",
     "link/collision/name",
+    "link/collision/material",
     "link/visual/material/texture",
     "material/texture",
     "joint/calibration",
