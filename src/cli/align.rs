@@ -8,11 +8,13 @@ use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use platewash::kinematics::urdf::file::read_text;
 use platewash::kinematics::words::fixed;
+use platewash::scenario::{OriginLink, RobotSection, load_arm};
 use platewash::workcell::align::{
     Alignment, DrawnPoint, Touch, TouchedPoint, align, drawn_points, fitting_order, touched_points,
 };
 use platewash::workcell::number_table::TableError;
 use platewash::workcell::words::{millimetres, printable};
+use platewash::{Failure, RobotModel, Scenario};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -42,12 +44,12 @@ const NOTHING: f64 = 1e-9;
 #[derive(Debug, Args)]
 pub struct AlignArguments {
     /// CSV of touched points: columns x_m,y_m,z_m (in the drawing: world frame, metres) and touched_x_mm,touched_y_mm,touched_z_mm (the
-    /// tip in the base frame as the pendant shows it, millimetres); a column name is allowed
+    /// tip in the controller's base frame as the pendant shows it, millimetres); a column name is allowed
     pub file: PathBuf,
     /// Largest accepted residual in metres, at most 0.05
     #[arg(long, value_name = "M", default_value_t = 0.001, value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
-    /// Point of the drawing in metres, to convert to the base frame (may be repeated)
+    /// Point of the drawing in metres, to convert to the frames of the arm and the pendant (may be repeated)
     #[arg(long, num_args = 3, allow_negative_numbers = true, value_names = ["X", "Y", "Z"], value_parser = coordinate)]
     pub point: Vec<f64>,
     /// CSV of such points: columns x_m,y_m,z_m and name
@@ -61,10 +63,18 @@ struct Answer {
     /// True where every residual is within the tolerance.
     fits: bool,
     tolerance_m: f64,
+    /// Mount of the root link, or of the controller's base where no arm is given.
     mount: FramePose,
     /// The mount as a scenario's keys in `[robot]` state it.
     robot: MountKeys,
-    /// Angle between the world's z axis and the base's.
+    /// Link whose mount that is, in words.
+    link: String,
+    /// Mount of the controller's base, from which the pendant counts.
+    controller_base: FramePose,
+    /// Link that is the controller's base, in words, where it lies apart from the root link.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_link: Option<String>,
+    /// Angle between the world's z axis and that of the mounted link.
     tilt_rad: f64,
     /// True where that angle is so small that plates may be taken to lie level without the keys of the mount.
     level: bool,
@@ -84,6 +94,7 @@ struct Answer {
 struct MountKeys {
     mount_m: [f64; 3],
     mount_rpy_deg: [f64; 3],
+    mount_link: OriginLink,
 }
 
 /// Residual of a touched point under the fitted mount.
@@ -95,12 +106,13 @@ struct Residual {
     length_m: f64,
 }
 
-/// A point of the drawing in the base frame.
+/// A point of the drawing in the frame of the mounted link, and in that of the controller's base, as the pendant shows it.
 #[derive(Debug, Serialize)]
 struct AlignedPoint {
     name: Option<String>,
     drawn_m: [f64; 3],
     base_m: [f64; 3],
+    pendant_mm: [f64; 3],
 }
 
 /// A tolerance \[m\].
@@ -113,6 +125,7 @@ fn tolerance(text: &str) -> Result<f64> {
 pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode> {
     let touched = in_file(&arguments.file, touched_points)?;
     let wanted = points_to_map(arguments)?;
+    let arm = arm(options)?;
     let touches: Vec<Touch> = touched.iter().map(|point| point.touch).collect();
     let order = fitting_order(&touches, arguments.tolerance).map(|order| {
         let order: Vec<String> = order.iter().map(usize::to_string).collect();
@@ -123,7 +136,7 @@ pub fn run(options: &Options, arguments: &AlignArguments) -> Result<ExitCode> {
         let reordered = order.map(|order| format!("; {}", reordered(order)));
         anyhow!("{}: {error}{}", name_of(&arguments.file), reordered.unwrap_or_default())
     })?;
-    let answer = Answer::new(&alignment, &touched, order, &wanted, arguments.tolerance);
+    let answer = Answer::new(&alignment, arm.as_ref(), &touched, order, &wanted, arguments.tolerance);
     options.print(&answer, || answer.text())?;
     Ok(ExitCode::NotVerified.unless(answer.fits && answer.level))
 }
@@ -138,7 +151,21 @@ fn in_file<T>(file: &Path, points: fn(&str) -> Result<Vec<T>, TableError>) -> Re
     points(&text).with_context(|| name_of(file))
 }
 
-/// The points that shall be told in the base frame.
+/// The arm of `--urdf`, `--arm` or `--scenario`, if one is given.
+fn arm(options: &Options) -> Result<Option<RobotModel>> {
+    let scenario = options.scenario.as_deref().map(Scenario::load).transpose()?;
+    if scenario.is_none() && options.urdf.is_none() {
+        return Ok(None);
+    }
+    let stated = scenario.map_or_else(RobotSection::default, |scenario| scenario.robot);
+    let section = match options.urdf {
+        Some(_) => options.robot_section(stated),
+        None => stated,
+    };
+    Ok(Some(load_arm(&section, &options.files).map_err(Failure::from)?))
+}
+
+/// The points that shall be told in the frames of arm and pendant.
 fn points_to_map(arguments: &AlignArguments) -> Result<Vec<DrawnPoint>> {
     let given = arguments.point.chunks_exact(3).map(|point| DrawnPoint {
         line: 0,
@@ -155,13 +182,17 @@ fn reordered(order: &str) -> String {
 }
 
 impl Answer {
+    /// The pendant counts from the controller's base, so that `pendant` is aligned for it.
     fn new(
-        alignment: &Alignment,
+        pendant: &Alignment,
+        arm: Option<&RobotModel>,
         touched: &[TouchedPoint],
         order: Option<&str>,
         wanted: &[DrawnPoint],
         tolerance_m: f64,
     ) -> Self {
+        let base = arm.and_then(RobotModel::controller_base);
+        let alignment = &arm.map_or_else(|| pendant.clone(), |arm| pendant.of_root(arm));
         let (_, largest_m) = alignment.worst();
         let left = touched.iter().zip(&alignment.residuals_m);
         let left = left.map(|(point, residual_m)| Residual {
@@ -174,6 +205,7 @@ impl Answer {
             name: point.name.clone(),
             drawn_m: point.drawn_m,
             base_m: alignment.in_base(point.drawn_m),
+            pendant_mm: pendant.in_base(point.drawn_m).map(|m| 1e3 * m),
         });
         let mount = FramePose::from(&alignment.mount);
         let rounded = |numbers: [f64; 3], unit: f64| numbers.map(|v| (v * unit).round() / unit + 0.0);
@@ -183,8 +215,15 @@ impl Answer {
             robot: MountKeys {
                 mount_m: rounded(mount.position_m, 1e6),
                 mount_rpy_deg: rounded(mount.rpy_deg, 1e7),
+                mount_link: arm.map_or(OriginLink::Base, |_| OriginLink::Root),
             },
             mount,
+            link: match arm.and_then(|arm| arm.links().first()) {
+                None => "the base from which the pendant counts".to_owned(),
+                Some(root) => format!("link '{}'", printable(&root.name)),
+            },
+            controller_base: FramePose::from(&pendant.mount),
+            base_link: base.map(|base| base.to_string()),
             tilt_rad: alignment.tilt_rad(),
             level: alignment.tilt_rad() <= TILTED_RAD,
             rms_m: alignment.rms_m,
@@ -192,7 +231,7 @@ impl Answer {
             touches: left.collect(),
             spread_m: alignment.spread_m,
             stretch: alignment.stretch,
-            notes: notes(alignment, touched, order, tolerance_m),
+            notes: [notes(alignment, touched, order, tolerance_m), note_on_link(arm)].concat(),
             points: carried.collect(),
         }
     }
@@ -209,17 +248,28 @@ impl Answer {
         let [rms, largest, tolerance] = [self.rms_m, self.largest_m, self.tolerance_m].map(mm);
         let (position, turn) = (row(self.mount.position_m, 6), row(self.mount.rpy_deg, 5));
         let quaternion = self.mount.quaternion_wxyz.map(|v| fixed(v, 9)).join(", ");
-        let MountKeys { mount_m, mount_rpy_deg } = &self.robot;
+        let MountKeys {
+            mount_m,
+            mount_rpy_deg,
+            mount_link,
+        } = &self.robot;
+        let (link, mount_link) = (&self.link, mount_link.name());
+        let base = self.base_link.as_ref().map_or_else(String::new, |base| {
+            let place = row(self.controller_base.position_m, 6);
+            format!("  controller's base  {base}; it stands at {place} m\n")
+        });
         let tilt = fixed(self.tilt_rad.to_degrees(), 4);
         let mut text = format!(
             "{verdict}: {count} points, off by {rms} mm rms and {largest} mm at most; tolerance {tolerance} mm\n\n\
-             T_world_base, where the base stands in the drawing\n  \
+             T_world_base, where {link} stands in the drawing\n  \
                position, m        {position}\n  \
                roll pitch yaw, °  {turn}\n  \
                quaternion wxyz    {quaternion}\n  \
                in a scenario      [robot]\n                     \
                                   mount_m = {mount_m:?}\n                     \
-                                  mount_rpy_deg = {mount_rpy_deg:?}\n  \
+                                  mount_rpy_deg = {mount_rpy_deg:?}\n                     \
+                                  mount_link = \"{mount_link}\"\n\
+             {base}  \
                tilt of the table against the base, °  {tilt}\n\n\
              line   residual of           x, mm      y, mm      z, mm    all, mm\n"
         );
@@ -231,12 +281,15 @@ impl Answer {
             let _ = writeln!(text, "{:<6} {name:<16} {x:>10} {y:>10} {z:>10} {all:>10}", touch.line);
         }
         if !self.points.is_empty() {
-            text += "\npoint            in the drawing, m                  in the base frame, m; and mm, as a pendant shows it\n";
+            let _ = writeln!(
+                text,
+                "\npoint            in the drawing, m                  in the frame of {link}, m; and mm, as a pendant shows it"
+            );
         }
         for (k, point) in self.points.iter().enumerate() {
             let name = point.name.as_deref().map_or_else(|| k.to_string(), printable);
             let (drawn, base) = (row(point.drawn_m, 6), row(point.base_m, 6));
-            let pendant = row(point.base_m.map(|v| 1e3 * v), 3);
+            let pendant = row(point.pendant_mm, 3);
             let _ = writeln!(text, "{name:<16} {drawn:<34} {base}; {pendant}");
         }
         text.push('\n');
@@ -253,6 +306,13 @@ fn farthest_off(point: &TouchedPoint) -> String {
         point.line,
         name.unwrap_or_default()
     )
+}
+
+/// Note that the mount is the pendant's, where no arm is given.
+fn note_on_link(arm: Option<&RobotModel>) -> Vec<String> {
+    let words = "the mount is that of the base from which the pendant counts, as mount_link = \"base\" says; many arms have that base above or turned \
+                 against the root link of their description: give it as --urdf FILE, --arm NAME or --scenario FILE for the mount of the root link";
+    arm.is_none().then(|| words.to_owned()).into_iter().collect()
 }
 
 /// Notes on a fitted mount.
@@ -298,8 +358,8 @@ fn notes(alignment: &Alignment, touched: &[TouchedPoint], order: Option<&str>, t
     let mount = &alignment.mount;
     tell(
         mount.translation.vector.norm() > NOTHING || mount.rotation.angle() > NOTHING,
-        "a scenario with the keys above states plates by their places in the drawing; one without them by those in the base frame \
-         (--point, --points)",
+        "a scenario with the keys above states plates by their places in the drawing; one without them by those in the frame of \
+         the arm's root link (--point, --points)",
     );
     let tilt_rad = alignment.tilt_rad();
     let by = match tilt_rad > STEEP_RAD {

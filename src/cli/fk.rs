@@ -40,7 +40,7 @@ pub struct FkArguments {
 /// Arguments of `ik`.
 #[derive(Debug, Args)]
 pub struct IkArguments {
-    /// Position in the base frame, metres
+    /// Position in the frame of the arm's root link, metres; `platewash robot` says where the pendant counts from another link
     #[arg(long, num_args = 3, required = true, allow_negative_numbers = true, value_names = ["X", "Y", "Z"], value_parser = coordinate)]
     position: Vec<f64>,
     #[command(flatten)]

@@ -114,8 +114,11 @@ enum Verb {
     Recover(recover::RecoverArguments),
     /// Find where the arm stands at a table, from points touched with its tip
     ///
-    /// Prints T_world_base, the residual of each point, and points of the drawing in the base frame. Exit code 4 if a residual exceeds
-    /// the tolerance.
+    /// Prints the mount, the residual of each point, and points of the drawing in the frames of arm and pendant. Exit code 4 if a residual
+    /// exceeds the tolerance.
+    ///
+    /// The pendant counts from the controller's base, which in many descriptions lies apart from the root link. With --urdf, --arm or
+    /// --scenario the mount is that of the root link; without, that of the controller's base, as the printed key mount_link says.
     Align(align::AlignArguments),
     /// Simulate a plan file under a control law: tracking, torque, and what is washed
     ///

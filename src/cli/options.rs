@@ -379,8 +379,8 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ("simulate tune view figures export dry-run compare", "seed", PLAN_STATES),
     (
         "align",
-        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount out",
-        "align works from the points of its file alone, without a scenario or a seed, and writes no file; leave it out",
+        "seed srdf visual_shapes split_links tool_mount out",
+        "align needs no more than the points of its file and the links of an arm, and writes no file; leave it out",
     ),
     (
         "prove-motion",

@@ -78,7 +78,7 @@ pub fn region_of_plan(plan: &Plan, arm: &RobotModel) -> TaskRegion {
         let mut scenario = Scenario::load(shipped.name).ok()?;
         scenario.seed = plan.job.seed;
         let layout = scenario.layout(arm).ok()?;
-        (layout.plates == plan.job.plates).then(|| scenario.task_region())
+        (layout.plates == plan.job.plates).then(|| scenario.task_region(arm))
     });
     region.unwrap_or_default()
 }
@@ -187,7 +187,6 @@ pub struct Stage<'a> {
     serve: &'a ServeArguments,
     listener: Listener,
     bundle: Bundle,
-    region: TaskRegion,
 }
 
 /// A page that is served, of a run that has not ended.
@@ -216,21 +215,26 @@ impl LiveArguments {
             serve: &self.serve,
             listener,
             bundle,
-            region: scenario.task_region(),
         }))
     }
 }
 
 impl Stage<'_> {
     /// Serves the page of a plan that is about to be simulated, opens it, and waits until it is there.
-    pub fn open(self, options: &Options, plan: &Plan, arm: &RobotModel, certificate: &Certificate) -> Result<LivePage> {
+    pub fn open(
+        self,
+        options: &Options,
+        (plan, arm): (&Plan, &RobotModel),
+        certificate: &Certificate,
+        region: &TaskRegion,
+    ) -> Result<LivePage> {
         let live = LiveRun::new(plan.hash.as_deref().unwrap_or_default());
         let settings = &plan.job.simulation;
         let executed = ExecutedMotion::live(settings.law, TorqueLimits::new(&settings.plant, arm.limits()).0);
         let beside = ViewExtras {
             certificate: Some(certificate),
             executed: Some(&executed),
-            region: Some(&self.region),
+            region: Some(region),
             events: Some(&live.events()),
         };
         let page = html(plan, arm, &beside, &self.bundle).map_err(internal)?;

@@ -38,7 +38,7 @@ pub struct ProveMotionArguments {
     /// TOML file with the tool: sections [tool] and [[tool_body]] as in a scenario [default: only what the arm's description holds]
     #[arg(long, value_name = "FILE")]
     tool: Option<PathBuf>,
-    /// Place of the arm's base among the obstacles: x, y, z [m], and roll, pitch, yaw [deg] where it is turned [default: at their origin]
+    /// Place of the arm's root link among the obstacles: x, y, z [m], and roll, pitch, yaw [deg] where it is turned [default: at their origin]
     #[arg(long, value_name = "X,Y,Z[,R,P,Y]", value_parser = mount, allow_hyphen_values = true)]
     mount: Option<Pose>,
     /// Joint that does not move, and its position [rad or m]: one that the trajectory leaves out, or a further one of description or
@@ -133,7 +133,7 @@ fn mount(text: &str) -> Result<Pose> {
         mount_rpy_deg: [number(3, 360.0)?, number(4, 360.0)?, number(5, 360.0)?],
         ..RobotSection::default()
     };
-    Ok(section.mount())
+    Ok(section.stated_mount())
 }
 
 /// A joint and its position.

@@ -2,9 +2,11 @@
 
 use super::failure::ExitCode;
 use super::files::Files;
+use super::fk::FramePose;
 use super::options::Options;
 use anyhow::{Context, Result};
 use clap::Args;
+use platewash::kinematics::controller_base::ControllerBase;
 use platewash::kinematics::ik::analytic::AnalyticArm;
 use platewash::kinematics::tool_mount::ToolMount;
 use platewash::kinematics::urdf::UnusedStatement;
@@ -47,6 +49,9 @@ struct Answer {
     /// Reason that no link is known to carry the tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_tool_mount: Option<String>,
+    /// Link from which the controller counts, where its frame is not that of the root link.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    controller_base: Option<ControllerBaseRow>,
     inverse_kinematics: InverseKinematics,
     /// Reason that the arm cannot be simulated: masses that the description lacks.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -83,6 +88,28 @@ struct ToolMountRow {
     leads_out: bool,
     /// Angle between that axis and the axis of joint 6 \[deg\].
     off_axis_6_deg: f64,
+}
+
+/// The controller's base, apart from the root link.
+#[derive(Serialize)]
+struct ControllerBaseRow {
+    link: String,
+    root: String,
+    /// Pose of the link in the frame of the root link.
+    #[serde(flatten)]
+    pose: FramePose,
+    words: String,
+}
+
+impl From<ControllerBase<'_>> for ControllerBaseRow {
+    fn from(base: ControllerBase<'_>) -> Self {
+        Self {
+            link: base.link.to_owned(),
+            root: base.root.to_owned(),
+            pose: FramePose::from(&base.pose),
+            words: base.to_string(),
+        }
+    }
 }
 
 /// Closed form of the inverse kinematics, or the reason that there is none.
@@ -158,6 +185,7 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
         tool_mount: tool_mount
             .ok()
             .map(|mount| ToolMountRow::new(&robot, mount, stated.is_some())),
+        controller_base: robot.controller_base().map(ControllerBaseRow::from),
         inverse_kinematics: InverseKinematics::of(&robot),
         no_dynamics: DynamicsModel::new(&robot, None).err().map(|error| error.to_string()),
         start_deg: scenario.robot.start_deg,
@@ -288,6 +316,8 @@ impl Answer {
             );
         }
         let tool_mount = self.tool_mount.as_ref().map(ToolMountRow::text);
+        let base = self.controller_base.as_ref();
+        let base = base.map(|base| format!("controller's base: {}\n", base.words));
         let nowhere = || {
             format!(
                 "tool mounted nowhere: {}",
@@ -300,7 +330,7 @@ impl Answer {
              {}\
              reach of the last link, at most {:.3} m\n\
              {}\n\
-             {}\n\
+             {}{}\n\
              inverse kinematics: {}\n\
              simulation: {}\n\n{}\n\
              pairs checked for clearance ({}):",
@@ -309,6 +339,7 @@ impl Answer {
             self.stated_text(),
             self.reach_bound_m,
             tool_mount.unwrap_or_else(nowhere),
+            base.unwrap_or_default(),
             match self.start_deg {
                 Some(start_deg) => format!("home {start_deg:?}° (robot.start_deg)"),
                 None => "home not stated: a clear one is looked for (robot --suggest shows it)".to_owned(),
@@ -473,7 +504,7 @@ fn suggest(options: &Options) -> Result<ExitCode> {
 
 fn map(scenario: &Scenario, robot: &RobotModel, tool: &Tool, found: &Suggestion) -> RegionMap {
     let (axis, _) = robot.reach_bound(&tool.tip_frame(robot));
-    let axis = scenario.robot.mount() * axis;
+    let axis = scenario.robot.mount(robot) * axis;
     let radius_m = found.plate.rim_m();
     let squares = found.region.squares.iter();
     RegionMap {
@@ -488,7 +519,7 @@ fn map(scenario: &Scenario, robot: &RobotModel, tool: &Tool, found: &Suggestion)
         sector: found.region.sector.map(|sector| (sector.rho_m, sector.azimuth_deg)),
         axis_m: [axis.x, axis.y],
         plate: (found.plate.centre_xy(), radius_m),
-        arm_m: arm_outlines(robot, tool, &scenario.robot.mount(), &found.home.q_rad()),
+        arm_m: arm_outlines(robot, tool, &scenario.robot.mount(robot), &found.home.q_rad()),
     }
 }
 

@@ -172,7 +172,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -
     files.add_report("report", &report)?;
     let is_swept = report.verdict == Verdict::Swept;
     let executed = ExecutedMotion::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
-    let region = scenario.task_region();
+    let region = scenario.task_region(arm);
     if let Some(page) = page::of(options, &plan, arm, None, Some(&executed), &region)? {
         files.add("page.html", page);
     }
@@ -190,6 +190,7 @@ fn run_washing(
 ) -> Result<ExitCode> {
     let washing = wash(options, scenario)?;
     let (plan, arm, motion) = (&washing.planned.plan, &washing.arm, &washing.motion()?);
+    let region = scenario.task_region(arm);
     let lasts_s = lasts_at_most_s(plan, &plan.job.simulation);
     let dt_s = arguments.motion.time_step.or(scenario.control.dt_s, lasts_s)?;
     let prove = || prove_with(plan, arm, &options.cancel).map_err(Failure::from);
@@ -202,14 +203,14 @@ fn run_washing(
         }
         Some(stage) => {
             let certificate = prove()?;
-            let show = stage.open(options, plan, arm, &certificate)?;
+            let show = stage.open(options, (plan, arm), &certificate, &region)?;
             let simulation = show.simulated(options, plan, arm)?;
             (certificate, simulation, Some(show))
         }
     };
     let search_time = arguments.motion.search_time();
     let remedies = infeasible::remedies_of_proof(options, scenario, (arm, &certificate), search_time)?;
-    let (executed, region) = (simulation.executed(), scenario.task_region());
+    let executed = simulation.executed();
     #[expect(clippy::needless_late_init, reason = "it must outlive the files, which refer to it")]
     let report;
     let (page, files) = rayon::join(

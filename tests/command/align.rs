@@ -1,6 +1,8 @@
 //! `platewash align`.
 
 use super::{folder, platewash};
+use platewash::Scenario;
+use platewash::kinematics::irb120::IRB120_URDF;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -264,4 +266,147 @@ fn rejects_foreign_tables_by_their_difference() {
     // Line ends and the mark of a spreadsheet are none of it.
     write(dir, &format!("\u{feff}{}", good.replace('\n', "\r\n")));
     platewash(dir, &["align", "touched.csv"]).done();
+}
+
+/// The IRB 120 with its link `base` elsewhere, in a file.
+fn arm(dir: &Path, origin: &str) {
+    let old = "<child link=\"base\"/>\n    <origin xyz=\"0 0 0\"/>";
+    let text = IRB120_URDF.replace(old, &format!("<child link=\"base\"/>\n    <origin {origin}/>"));
+    assert_ne!(text, IRB120_URDF);
+    std::fs::write(dir.join("arm.urdf"), text).unwrap();
+}
+
+/// By hand: `base_link` stands at the origin of the drawing, and the pendant counts from 0.45 m above it.
+const RAISED: &str =
+    "a,0.6,-0.4,0,600,-400,-450\nb,0.9,-0.3,0,900,-300,-450\nc,0.8,0.5,0,800,500,-450\nd,0.5,0.2,0.08,500,200,-370\n";
+
+#[test]
+fn the_mount_of_the_root_link_is_found_where_the_pendant_counts_from_another_link() {
+    let folder = folder();
+    let dir = folder.path();
+    arm(dir, "xyz=\"0 0 0.45\"");
+    write(dir, &format!("{HEADER}{RAISED}"));
+    let arguments = [
+        "align",
+        "touched.csv",
+        "--urdf",
+        "arm.urdf",
+        "--point",
+        "0.6",
+        "-0.4",
+        "0",
+    ];
+    let said = platewash(dir, &arguments).done().stdout;
+    for words in [
+        "T_world_base, where link 'base_link' stands in the drawing",
+        "mount_m = [0.0, 0.0, 0.0]\n",
+        "mount_link = \"root\"\n",
+        "controller's base  link 'base', 450.0 mm above link 'base_link'; it stands at 0.000000, 0.000000, 0.450000 m\n",
+        "0.600000, -0.400000, 0.000000; 600.000, -400.000, -450.000\n",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let answer = platewash(dir, &[&arguments[..], &["--json"]].concat()).done().json();
+    assert_eq!(answer["robot"]["mount_link"], "root");
+    assert!(answer["mount"]["position_m"][2].as_f64().unwrap().abs() < 1e-9);
+    assert!((answer["controller_base"]["position_m"][2].as_f64().unwrap() - 0.45).abs() < 1e-9);
+}
+
+/// Without a description the mount is the pendant's, and the printed keys say so: the scenario with them has the arm where it stands.
+#[test]
+fn a_mount_without_a_description_says_that_it_is_the_pendants() {
+    let folder = folder();
+    let dir = folder.path();
+    arm(dir, "xyz=\"0 0 0.45\"");
+    write(dir, &format!("{HEADER}{RAISED}"));
+    let said = platewash(dir, &["align", "touched.csv"]).done().stdout;
+    let (_, keys) = said.split_once("in a scenario      ").unwrap();
+    let (keys, rest) = keys.split_once("  tilt of the table").unwrap();
+    assert!(
+        keys.contains("mount_m = [0.0, 0.0, 0.45]") && keys.contains("mount_link = \"base\""),
+        "{said}"
+    );
+    assert!(
+        rest.contains("note: the mount is that of the base from which the pendant counts") && rest.contains("--urdf"),
+        "{said}"
+    );
+    let text = format!(
+        "{keys}urdf = \"arm.urdf\"\n[tool]\nlength_m = 0.15\n[layout]\npositions_m = [[0.3, 0.2]]\n[wash]\nheight_m = 0\n"
+    );
+    std::fs::write(dir.join("cell.toml"), text.replace("                     ", "")).unwrap();
+    let scenario = Scenario::load(&dir.join("cell.toml").to_string_lossy()).unwrap();
+    let mount = scenario.robot.mount(&scenario.arm().unwrap());
+    assert!(mount.translation.vector.norm() < 1e-12, "{mount}");
+}
+
+/// By hand: `base_link` stands at (0.1, 0.2, 0) m, not turned; `base` is turned by half a turn, as on a UR.
+#[test]
+fn a_turned_base_turns_the_mount() {
+    let folder = folder();
+    let dir = folder.path();
+    arm(dir, "rpy=\"0 0 3.141592653589793\"");
+    let mut text = HEADER.to_owned();
+    for (k, [x, y, z]) in TABLE.iter().enumerate() {
+        writeln!(
+            text,
+            "p{k},{x},{y},{z},{},{},{}",
+            -1e3 * (x - 0.1),
+            -1e3 * (y - 0.2),
+            1e3 * z
+        )
+        .unwrap();
+    }
+    write(dir, &text);
+    std::fs::write(
+        dir.join("cell.toml"),
+        "[robot]\nurdf = \"arm.urdf\"\n[layout]\npositions_m = [[0.4, 0]]\n",
+    )
+    .unwrap();
+    for arm in [["--urdf", "arm.urdf"], ["--scenario", "cell.toml"]] {
+        let said = platewash(dir, &[&["align", "touched.csv"], &arm[..]].concat())
+            .done()
+            .stdout;
+        assert!(said.contains("mount_m = [0.1, 0.2, 0.0]\n"), "{said}");
+        assert!(
+            said.contains("mount_rpy_deg = [0.0, 0.0, 0.0]\n") || said.contains("mount_rpy_deg = [0.0, 0.0, -0.0]\n"),
+            "{said}"
+        );
+    }
+    let robot = platewash(dir, &["robot", "--urdf", "arm.urdf"]).done().stdout;
+    let words = "controller's base: link 'base', at the place of link 'base_link', turned by roll, pitch, yaw = (0, 0, 180.0)°\n";
+    assert!(robot.contains(words), "{robot}");
+}
+
+/// Plates at (0.3, ±0.85) m, touched with a pendant that counts from a turned base.
+#[test]
+fn touched_plates_of_a_turned_base_are_refused_or_lie_where_they_were_touched() {
+    let folder = folder();
+    let dir = folder.path();
+    arm(dir, "rpy=\"0 0 3.141592653589793\"");
+    std::fs::write(
+        dir.join("plates.csv"),
+        "name,touched_x_mm,touched_y_mm,touched_z_mm\none,-300,-850,30\ntwo,-300,850,30\n",
+    )
+    .unwrap();
+    let cell = |key: &str| {
+        let text = format!(
+            "[robot]\nurdf = \"arm.urdf\"\n[tool]\nlength_m = 0.15\n[layout]\nplate_file = \"plates.csv\"\n{key}[wash]\nheight_m = 0\n"
+        );
+        std::fs::write(dir.join("cell.toml"), text).unwrap();
+        platewash(dir, &["layout", "--scenario", "cell.toml", "--json"])
+    };
+    cell("").refused(
+        2,
+        &[
+            "(-0.3000, -0.8500, 0.0300) m",
+            "(0.3000, 0.8500, 0.0300) m",
+            "layout.touched_from",
+        ],
+    );
+    let placed = cell("touched_from = \"base\"\n").done().json();
+    for (k, expected) in [[0.3, 0.85], [0.3, -0.85]].iter().enumerate() {
+        let at = &placed["plates"][k]["pose"]["position_m"];
+        let off = |axis: usize| (at[axis].as_f64().unwrap() - expected[axis]).abs();
+        assert!(off(0) < 1e-9 && off(1) < 1e-9, "{at}");
+    }
 }

@@ -92,8 +92,10 @@ fn layouts_say_which_plates_are_tilted() {
 }
 
 #[test]
-fn alignment_takes_no_scenario() {
+fn alignment_takes_no_seed() {
     let folder = folder();
-    platewash(folder.path(), &["align", "touched.csv", "--scenario", "kitchen"])
-        .refused(2, &["--scenario: align works from the points of its file alone"]);
+    platewash(folder.path(), &["align", "touched.csv", "--seed", "2"]).refused(
+        2,
+        &["--seed: align needs no more than the points of its file and the links of an arm"],
+    );
 }

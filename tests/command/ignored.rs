@@ -13,7 +13,7 @@ fn options_that_would_be_ignored_are_refused() {
     let verify = ["verify", "p.json", "--against", "kitchen", "--scenario", "kitchen"];
     platewash(dir, &verify).refused(2, &["--scenario", "leave it out"]);
     platewash(dir, &["sweep", "--seeds", "1..2", "--seed", "4"]).refused(2, &["--seed:", "leave it out"]);
-    platewash(dir, &["align", "touched.csv", "--urdf", "arm.urdf"]).refused(2, &["--urdf:", "leave it out"]);
+    platewash(dir, &["align", "touched.csv", "--srdf", "arm.srdf"]).refused(2, &["--srdf:", "leave it out"]);
 }
 
 #[test]
@@ -38,15 +38,8 @@ fn help_shows_no_option_that_is_refused() {
         ),
         (
             "align",
-            &["--json"],
-            &[
-                "--scenario <",
-                "--seed <",
-                "--urdf <",
-                "--srdf <",
-                "--package-path <",
-                "--out <",
-            ],
+            &["--json", "--scenario <", "--urdf <", "--package-path <"],
+            &["--seed <", "--srdf <", "--out <"],
         ),
         ("study", &["--out"], &["--scenario <", "--seed <", "--urdf <"]),
         ("sweep", &["--scenario", "--seeds <"], &["--seed <"]),

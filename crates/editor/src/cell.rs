@@ -85,7 +85,7 @@ fn tell_parts(placed: &PlacedJob, arm: Option<&str>, answer: &mut AnswerWriter<'
         layout,
         job,
     } = placed;
-    let view = View::of_job(job, &scenario.task_region());
+    let view = View::of_job(job, &scenario.task_region(job.arm()));
     let id = loaded.id.as_str();
     let plates = &layout.plates;
     answer.step("show cell");

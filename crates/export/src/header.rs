@@ -11,7 +11,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
 use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
-use platewash_kinematics::{AXES, JointVector, Pose, sha256_hex};
+use platewash_kinematics::{AXES, JointVector, Pose, RobotModel, sha256_hex};
 use platewash_workcell::job::{Requirements, Soil};
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
@@ -74,15 +74,41 @@ fn hash(certificate: &Certificate) -> String {
     serde_json_canonicalizer::to_vec(certificate).map_or_else(|_| "none".to_owned(), |text| sha256_hex(&text))
 }
 
-/// Describes the attitude of the base: upright, or a quaternion. The controller must know a turn for its dynamics, and no program
-/// states it.
-fn attitude(mount: &Pose) -> String {
-    if mount.rotation == UnitQuaternion::identity() {
+/// Describes the attitude of a link: upright, or a quaternion.
+fn attitude(pose: &Pose) -> String {
+    if pose.rotation == UnitQuaternion::identity() {
         return "upright".to_owned();
     }
-    let q = mount.rotation.quaternion();
+    let q = pose.rotation.quaternion();
     let parts = [q.w, q.i, q.j, q.k].map(|part| fixed(part, 6)).join(", ");
-    format!("turned by the quaternion (w, x, y, z) = ({parts}): the controller must be set up for that mount")
+    format!("turned by the quaternion (w, x, y, z) = ({parts})")
+}
+
+/// Describes where the arm stands, and its controller's base where that is another link than the root. The controller must know a turn of
+/// the mount for its dynamics, and no program states it.
+fn mount(mount: &Pose, arm: &RobotModel) -> String {
+    let at = |pose: &Pose| {
+        format!(
+            "at {} mm of the world, {}",
+            place(pose.translation.vector),
+            attitude(pose)
+        )
+    };
+    let set_up = match mount.rotation == UnitQuaternion::identity() {
+        true => "",
+        false => ": the controller must be set up for that mount",
+    };
+    match arm.controller_base() {
+        None => format!("mount: base {}{set_up}", at(mount)),
+        Some(base) => {
+            let (root, link) = (quoted(base.root), quoted(base.link));
+            let of_controller = at(&(mount * base.pose));
+            format!(
+                "mount: link {root} {}; the controller's base, link {link}, {of_controller}{set_up}",
+                at(mount)
+            )
+        }
+    }
 }
 
 /// Lines on arm, mount, tool, and the bodies around them.
@@ -96,11 +122,7 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             quoted(&world.arm.name),
             world.arm.urdf_sha256
         ),
-        format!(
-            "mount: base at {} mm of the world, {}",
-            place(world.mount.translation.vector),
-            attitude(&world.mount)
-        ),
+        mount(&world.mount, source.arm),
         format!(
             "tool: tip at {} mm of the flange; sponge of radius {} mm, {} mm high while it washes, free {} mm higher (assumed)",
             place(world.tool.tip.translation.vector),
@@ -116,9 +138,13 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             mount.axis
         )
     }));
-    if world.mount != Pose::identity() {
-        lines.push("positions: in the frame of the arm's base; places of plates and obstacles in the world".to_owned());
-    }
+    let frame = match source.arm.controller_base() {
+        Some(base) => Some(format!("link {}, not of the controller's base", quoted(base.root))),
+        None => (world.mount != Pose::identity()).then(|| "the arm's base".to_owned()),
+    };
+    lines.extend(
+        frame.map(|frame| format!("positions: in the frame of {frame}; places of plates and obstacles in the world")),
+    );
     lines.extend(sponge.stiffness_pa.map(|stiffness_pa| {
         let [softest, stiffest] = stiffness_pa.map(|pa| rounded_to(1e-3 * pa, DIGITS));
         format!("sponge: stiffness from {softest} to {stiffest} kPa (assumed)")

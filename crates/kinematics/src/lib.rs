@@ -23,6 +23,7 @@
 //! | shapes: collision and looks | [`geometry`] |
 //! | tool frames by name | [`tool_frame`] |
 //! | the link and axis that carry a tool, stated or found | [`tool_mount`] |
+//! | the frame from which the controller counts | [`controller_base`] |
 //! | inverse kinematics | [`ik`] |
 //! | many configurations at once | [`batch`] |
 //! | points spread evenly | [`halton`] |
@@ -48,6 +49,7 @@
 //! ```
 
 pub mod batch;
+pub mod controller_base;
 pub mod fingerprint;
 pub mod geometry;
 pub mod halton;

@@ -6,6 +6,7 @@
 
 mod against_pinocchio;
 mod batch;
+mod controller_base;
 mod fingerprint;
 mod ik_analytic;
 mod ik_answers;

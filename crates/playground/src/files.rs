@@ -77,7 +77,7 @@ fn html(result: &LastResult, bundle: Option<&BundleText>) -> Result<String, Stri
         let report = SimulationReport::new(plan, &arm, &plan.job.simulation, &execution).ok()?;
         Some(ExecutedMotion::simulated(&execution, &report))
     });
-    let region = result.scenario.task_region();
+    let region = result.scenario.task_region(&arm);
     let extras = ViewExtras {
         certificate: result.certificate.as_deref(),
         executed: executed.as_ref(),

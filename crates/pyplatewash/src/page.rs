@@ -97,7 +97,7 @@ fn view(
     scenario: Option<&ScenarioObject>,
 ) -> PyResult<View> {
     let (certificate, done) = of_the_plan(py, plan, execution, certificate)?;
-    let region = scenario.map(|scenario| scenario.inner().task_region());
+    let region = scenario.map(|scenario| scenario.inner().task_region(robot.model()));
     let (plan, arm) = (plan.inner().clone(), robot.model().clone());
     let made = patiently(py, move |_| {
         let executed = done.map(|done| executed(&done)).transpose()?;
@@ -256,7 +256,7 @@ pub fn _plan_figure<'py>(
         );
         return Err(errors::input(py, "robot", &words));
     }
-    let region = scenario.map(|scenario| scenario.inner().task_region());
+    let region = scenario.map(|scenario| scenario.inner().task_region(&arm));
     let drawn = patiently(py, move |cancel| {
         let report = done.as_ref().map(|done| {
             let Question { plan, arm, settings } = &done.question;

@@ -487,8 +487,9 @@ type Region = ([f64; 2], Option<f64>, Option<Vec<[f64; 2]>>);
 /// Region in which a scenario draws plates, in the world [m]: the foot of the arm's mount, the radius about it that their centres keep away
 /// from, and the outline of their region. `name` is that of the argument.
 #[pyfunction]
-pub fn _task_region(name: &str, scenario: &Bound<'_, PyAny>) -> PyResult<Region> {
+pub fn _task_region(py: Python<'_>, name: &str, scenario: &Bound<'_, PyAny>) -> PyResult<Region> {
     let scenario = called(name, scenario, SCENARIO)?;
-    let region = scenario.task_region();
-    Ok((scenario.foot_m(), region.base_circle_m, region.polygon_m))
+    let arm = scenario.arm().map_err(|e| errors::failure(py, &e))?;
+    let region = scenario.task_region(&arm);
+    Ok((scenario.foot_m(&arm), region.base_circle_m, region.polygon_m))
 }

@@ -53,7 +53,7 @@ pub use crate::sections::holder::HolderSection;
 pub use crate::sections::layout::{Faces, LayoutSection, PlateSection, RegionName};
 pub use crate::sections::motion::{IkSection, JobSection, LimitsSection, OnFailure, Program, TransitionSection};
 pub use crate::sections::obstacle::{HeldPlates, MeshPartsName, ObstacleSection};
-pub use crate::sections::robot::{BuiltInArm, ReducedClearanceSection, RobotSection};
+pub use crate::sections::robot::{BuiltInArm, OriginLink, ReducedClearanceSection, RobotSection};
 pub use crate::sections::room::{FloorSection, TableSection};
 pub use crate::sections::simulation::{ControlSection, PlantSection, TIME_STEPS_S, plant_keys};
 pub use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, BodyFrame, HandleName, ToolBodySection, ToolSection};

@@ -133,7 +133,7 @@ impl Scenario {
                 "\"fastest\" is for job.program = \"certified\"; the paper's program knows \"nearest\" and \"given\"",
             );
         }
-        if self.job.program == Program::Paper && self.robot.mount() != Pose::identity() {
+        if self.job.program == Program::Paper && self.robot.stated_mount() != Pose::identity() {
             return conflict(
                 "robot.mount_m, robot.mount_rpy_deg",
                 "the paper's arm stands at the origin of the world: leave them out, or state job.program = \"certified\"",

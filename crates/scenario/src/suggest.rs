@@ -102,7 +102,7 @@ impl Scenario {
 
     /// A place in front of the arm \[m\].
     fn front_m(&self, arm: &RobotModel) -> Result<[f64; 2], Failure> {
-        Ok(place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount()))
+        Ok(place_in_front(arm, &self.tool_on(arm)?, &self.robot.mount(arm)))
     }
 
     /// The same scenario with a home and a region that suit an arm; `None` where no such region was found.
@@ -120,7 +120,7 @@ impl Scenario {
         layout.base_radius_m = layout.base_radius_m.min(sector.rho_m[0]);
         layout.only_washable = true;
         // The home is that for a plate ahead, in the middle of the row.
-        let ([x, y], [front_x, front_y]) = (self.foot_m(), front_m);
+        let ([x, y], [front_x, front_y]) = (self.foot_m(arm), front_m);
         let (ahead_x, ahead_y) = (front_x - x, front_y - y);
         let part = 0.5 * (sector.rho_m[0] + sector.rho_m[1]) / (ahead_x * ahead_x + ahead_y * ahead_y).sqrt();
         let job = fitted.with_one_plate(arm, [x + part * ahead_x, y + part * ahead_y])?;

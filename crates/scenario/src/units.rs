@@ -45,6 +45,15 @@ pub enum Note {
         /// The links.
         links: Vec<String>,
     },
+    /// A controller that counts from another link than the root link of the arm's description.
+    ControllerBase {
+        /// Name of the arm.
+        robot: String,
+        /// Name of the root link.
+        root: String,
+        /// Link from which the controller counts, and its place at the root link.
+        base: String,
+    },
     /// Links that move and have no collision shapes: no clearance of theirs is checked.
     NoShapes {
         /// Name of the arm.
@@ -104,7 +113,8 @@ impl Note {
         })
     }
 
-    /// Notes on values of an arm's description that are probably meant in another unit, and on links without collision shapes.
+    /// Notes on values of an arm's description that are probably meant in another unit, on links without collision shapes, and on a
+    /// controller that does not count from the root link.
     #[must_use]
     pub fn of_arm(robot: &RobotModel) -> Vec<Self> {
         let (_, reach_m) = robot.reach_bound(&robot.last_link_frame());
@@ -117,7 +127,12 @@ impl Note {
             robot: name(),
             links: of_visuals.to_vec(),
         });
-        long.into_iter().chain(bare).chain(visual).collect()
+        let base = robot.controller_base().map(|base| Self::ControllerBase {
+            robot: name(),
+            root: base.root.to_owned(),
+            base: base.to_string(),
+        });
+        long.into_iter().chain(bare).chain(visual).chain(base).collect()
     }
 }
 
@@ -151,6 +166,10 @@ impl fmt::Display for Note {
                 f,
                 "robot {robot}: visuals stand for the collision shapes of {}",
                 links.join(", ")
+            ),
+            Self::ControllerBase { robot, root, base } => write!(
+                f,
+                "robot {robot}: the controller counts from {base}; places here count from the world, poses of the arm from link '{root}'"
             ),
             Self::MeasuredPlate {
                 file,

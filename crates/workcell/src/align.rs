@@ -1,7 +1,7 @@
 //! Mount of an arm at a table, computed from points touched with its tip.
 //!
 //! A touched point is known twice: in the drawing of the table, which is the world (`p`), and as the pendant shows the tip there, in the
-//! base frame (`b`). The mount `T_world_base` is the rotation R and the translation t for which Σ |p − (R b + t)|² is least (Kabsch 1976,
+//! frame of the controller's base (`b`), which is not the root link of every arm ([`Alignment::of_root`]). The mount `T_world_base` is the rotation R and the translation t for which Σ |p − (R b + t)|² is least (Kabsch 1976,
 //! Umeyama 1991): with the singular values of the covariance, and with the sign that makes R a rotation and no mirror.
 //!
 //! | concept | module |
@@ -24,7 +24,7 @@ use crate::plate::GREATEST_M;
 use crate::trig::acos;
 use crate::words::millimetres;
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
-use platewash_kinematics::Pose;
+use platewash_kinematics::{Pose, RobotModel};
 
 /// Greatest number of points.
 pub(crate) const MOST: usize = 10_000;
@@ -55,14 +55,14 @@ const MISFIT_M: f64 = 0.002;
 pub struct Touch {
     /// Position in the drawing, world frame \[m\].
     pub drawn_m: [f64; 3],
-    /// Position of the tip, base frame \[m\].
+    /// Position of the tip, frame of the controller's base \[m\].
     pub touched_m: [f64; 3],
 }
 
 /// Mount of the arm with the quality of the fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alignment {
-    /// Mount of the arm, `T_world_base`.
+    /// Mount of the frame in which the points were touched, `T_world_base`: the controller's base.
     pub mount: Pose,
     /// Residual of each point: the drawn position less the touched one in the world frame \[m\].
     pub residuals_m: Vec<[f64; 3]>,
@@ -89,7 +89,17 @@ impl Alignment {
         lengths.fold((0, 0.0), |worst, found| if found.1 > worst.1 { found } else { worst })
     }
 
-    /// Converts a point of the drawing to the base frame \[m\].
+    /// Returns the same fit with the mount of the arm's root link, `T_world_root = T_world_base · T_base_root`.
+    #[must_use]
+    pub fn of_root(&self, arm: &RobotModel) -> Self {
+        let base = arm.controller_base();
+        Self {
+            mount: base.map_or(self.mount, |base| self.mount * base.pose.inverse()),
+            ..self.clone()
+        }
+    }
+
+    /// Converts a point of the drawing to the mounted frame \[m\].
     #[must_use]
     pub fn in_base(&self, drawn_m: [f64; 3]) -> [f64; 3] {
         self.mount.inverse_transform_point(&Point3::from(drawn_m)).coords.into()

@@ -1,7 +1,9 @@
 use platewash_workcell::align::*;
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
-use platewash_kinematics::Pose;
+use platewash_kinematics::irb120::IRB120_URDF;
+use platewash_kinematics::urdf::MeshSource;
+use platewash_kinematics::{Pose, RobotModel};
 use proptest::prelude::*;
 
 /// Corners and a stud of a table, drawn \[m\].
@@ -50,6 +52,33 @@ proptest! {
             let exact = mount.inverse_transform_point(&p.into()).coords;
             prop_assert!((there - exact).norm() < 1e-9);
         }
+    }
+
+    /// The pendant counts from a link `base` anywhere at the root link; the mount of the root link is found all the same.
+    #[test]
+    fn points_touched_from_another_link_give_the_mount_of_the_root_link(
+        axis in prop::array::uniform3(-1.0..1.0f64),
+        turn in 0.0..0.5f64,
+        place in prop::array::uniform3(-2.0..2.0f64),
+        yaw in -3.1..3.1f64,
+        at in prop::array::uniform3(-0.8..0.8f64),
+        roll in -0.2..0.2f64,
+        half_turn in any::<bool>(),
+    ) {
+        let [x, y, z] = at;
+        let base_yaw = if half_turn { std::f64::consts::PI } else { 0.1 };
+        let old = "<child link=\"base\"/>\n    <origin xyz=\"0 0 0\"/>";
+        let new = format!("<child link=\"base\"/>\n    <origin xyz=\"{x} {y} {z}\" rpy=\"{roll} 0 {base_yaw}\"/>");
+        let text = IRB120_URDF.replace(old, &new);
+        prop_assert!(text != IRB120_URDF);
+        let arm = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+        // By hand, without the code that reads the description.
+        let base = Pose::from_parts(Vector3::from(at).into(), UnitQuaternion::from_euler_angles(roll, 0.0, base_yaw));
+        let root = mount(axis, turn, place, yaw);
+        let found = align(&touched(&(root * base), &TABLE)).unwrap().of_root(&arm);
+        prop_assert!((found.mount.translation.vector - root.translation.vector).norm() < 1e-7);
+        prop_assert!(found.mount.rotation.angle_to(&root.rotation) < 1e-7);
+        prop_assert!(found.worst().1 < 1e-12);
     }
 
     /// No pose nearby fits noisy points better: least squares.

@@ -119,6 +119,7 @@ impl VerdictBasis {
                 .chain(unchecked(arm))
                 .chain(hulls(arm))
                 .chain(unused(arm))
+                .chain(controller_base(arm))
                 .collect(),
             dry_run: job.dry_run.clone(),
             recovery: job.recovery.clone(),
@@ -245,6 +246,15 @@ fn unused(arm: &RobotModel) -> Option<String> {
             listed.join("; ")
         )
     })
+}
+
+/// Returns a note about the frame from which the controller counts, if it is not that of the root link.
+fn controller_base(arm: &RobotModel) -> Option<String> {
+    let base = arm.controller_base()?;
+    Some(format!(
+        "the mount is that of the root link {}; the controller counts from {base}",
+        quoted(base.root)
+    ))
 }
 
 /// Greatest sine of the angle between the vertical and the normal of a half-space that counts as a floor.

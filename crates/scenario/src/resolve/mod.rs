@@ -3,6 +3,7 @@
 //! | concept | module |
 //! | --- | --- |
 //! | the arm; the tool on it | `arm`; `tool_on_arm` |
+//! | the link that a mount and touched places count from | `mount` |
 //! | places of the plates; plates and soils out of files | `placement`; `plate_files` |
 //! | bodies around the arm; meshes as convex bodies | `surroundings`; `solids` |
 //! | requirements of contact, landing and lifting | `contact` |
@@ -11,6 +12,7 @@
 pub(crate) mod arm;
 pub(crate) mod certified;
 pub(crate) mod contact;
+pub(crate) mod mount;
 pub(crate) mod placement;
 pub(crate) mod plate_files;
 pub(crate) mod solids;
@@ -260,9 +262,10 @@ impl Scenario {
     /// # Errors
     /// [`Failure`]: an obstacle that is none, or an arm with a shape that is none.
     pub fn workcell(&self, arm: &RobotModel, plates: usize) -> Result<Workcell, Failure> {
+        self.check_mount(arm)?;
         let tool = self.tool_on(arm)?;
         let obstacles = self.obstacles(arm, &tool, plates)?;
-        let mut workcell = Workcell::new(arm, tool, self.robot.mount(), obstacles)?;
+        let mut workcell = Workcell::new(arm, tool, self.robot.mount(arm), obstacles)?;
         workcell.reduced_clearances = self.reduced_clearances()?;
         Ok(workcell)
     }

@@ -107,16 +107,17 @@ impl Scenario {
         if let Cow::Owned(read) = self.plates_read()? {
             return read.layout(arm);
         }
-        let base = layout::mounted_footprint(arm, &self.robot.mount());
-        Ok(self.draw(base.as_ref(), &mut random::stream(self.seed, "layout"))?)
+        self.check_mount(arm)?;
+        let base = layout::mounted_footprint(arm, &self.robot.mount(arm));
+        Ok(self.draw(arm, base.as_ref(), &mut random::stream(self.seed, "layout"))?)
     }
 
     /// A layout, in the world. It is drawn about the foot of the arm's mount, along the world's axes: there the rules of spacing hold.
-    fn draw(&self, base: Option<&BaseFootprint>, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
+    fn draw(&self, arm: &RobotModel, base: Option<&BaseFootprint>, rng: &mut Pcg64) -> Result<Layout, LayoutError> {
         if let Some(plates) = self.listed_plates() {
-            return Ok(Layout::with_overlaps(plates, self.foot_m(), base));
+            return Ok(Layout::with_overlaps(plates, self.foot_m(arm), base));
         }
-        let (foot_m, kinds) = (self.foot_m(), self.kinds());
+        let (foot_m, kinds) = (self.foot_m(arm), self.kinds());
         let placement = match self.layout.placement() {
             Placement::Given { centres_m, region } => Placement::Given {
                 centres_m: centres_m.iter().map(|[x, y]| [x - foot_m[0], y - foot_m[1]]).collect(),
@@ -146,15 +147,14 @@ impl Scenario {
 
     /// The foot of the arm's mount, seen from above, in the world \[m\].
     #[must_use]
-    pub fn foot_m(&self) -> [f64; 2] {
-        let [x, y, _] = self.robot.mount_m;
-        [x, y]
+    pub fn foot_m(&self, arm: &RobotModel) -> [f64; 2] {
+        self.robot.mount(arm).translation.vector.xy().into()
     }
 
     /// Region in which plates are drawn at random, for display: world frame.
     #[must_use]
-    pub fn task_region(&self) -> TaskRegion {
-        let ([x, y], layout) = (self.foot_m(), &self.layout);
+    pub fn task_region(&self, arm: &RobotModel) -> TaskRegion {
+        let ([x, y], layout) = (self.foot_m(arm), &self.layout);
         let moved = |outline: Vec<[f64; 2]>| outline.into_iter().map(|[u, v]| [u + x, v + y]).collect();
         let drawn = self.listed_plates().is_none();
         TaskRegion {
@@ -179,9 +179,10 @@ impl Scenario {
             return self.layout(arm);
         }
         self.check_work()?;
-        let base = layout::mounted_footprint(arm, &self.robot.mount());
+        self.check_mount(arm)?;
+        let base = layout::mounted_footprint(arm, &self.robot.mount(arm));
         let mut rng = random::stream(self.seed, "layout");
-        let mut draw = || self.draw(base.as_ref(), &mut rng);
+        let mut draw = || self.draw(arm, base.as_ref(), &mut rng);
         let terms = self.terms(arm, &Layout::of(Vec::new()))?;
         Ok(platewash_planner::draw_washable_layout(arm, &terms, &mut draw, watch)?)
     }

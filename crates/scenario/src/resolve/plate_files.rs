@@ -5,11 +5,14 @@
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::load::{MAX_BYTES, unread};
 use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
+use crate::resolve::mount::place_words;
 use crate::resolve::placement::ShapeKeys;
 use crate::scenario::Scenario;
 use crate::sections::layout::{LayoutSection, PlateSection, ProfileName};
 use crate::sections::motion::Program;
+use crate::sections::robot::OriginLink;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
+use platewash_kinematics::Pose;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::job::{MeasuredShape, PatternName, Soil};
 use platewash_workcell::layout::MAX_PLATES;
@@ -360,6 +363,14 @@ impl Scenario {
         })
     }
 
+    /// The frames in which a touched place may be, in the world: that of the arm's root link, and that of the controller's base.
+    fn touched_frames(&self) -> Result<[Pose; 2], String> {
+        let arm = self.arm().map_err(|error| error.to_string())?;
+        self.check_mount(&arm).map_err(|error| error.problem.to_string())?;
+        let mount = self.robot.mount(&arm);
+        Ok([mount, arm.controller_base().map_or(mount, |base| mount * base.pose)])
+    }
+
     /// The rows of a table of plates as `[[plate]]` sections, each with the index of its kind.
     fn table(&self, text: &str, kinds: &[PlateSection]) -> Result<Vec<(PlateSection, Option<usize>)>, TableError> {
         let shape = TableShape {
@@ -386,7 +397,14 @@ impl Scenario {
                 });
             }
         };
-        let mount = self.robot.mount();
+        let touched = match is_touched {
+            true => Some(self.touched_frames().map_err(|reason| TableError {
+                line: 1,
+                column: None,
+                reason,
+            })?),
+            false => None,
+        };
         let mut names: Vec<String> = Vec::new();
         let mut rows = Vec::new();
         for row in table.rows() {
@@ -400,11 +418,27 @@ impl Scenario {
                 names.push(name);
             }
             let at = |columns: &[&str; 3]| table.places(columns).map(|places| row.numbers(places)).transpose();
-            let at_m = if is_touched {
-                let [x, y, z] = at(&TOUCHED)?.unwrap_or_default();
-                (mount * Point3::new(1e-3 * x, 1e-3 * y, 1e-3 * z)).coords.into()
-            } else {
-                at(&PLACE)?.unwrap_or_default()
+            let at_m = match &touched {
+                Some(frames) => {
+                    let tip = Point3::from(at(&TOUCHED)?.unwrap_or_default().map(|mm| 1e-3 * mm));
+                    let [as_root, as_base] = frames.each_ref().map(|frame| (frame * tip).coords.into());
+                    match self.layout.touched_from {
+                        Some(OriginLink::Root) => as_root,
+                        Some(OriginLink::Base) => as_base,
+                        None if frames[0] == frames[1] => as_root,
+                        None => {
+                            let [place, ..] = table.places(&TOUCHED).unwrap_or_default();
+                            let [as_root, as_base] = [as_root, as_base].map(place_words);
+                            let reason = format!(
+                                "the controller's base lies apart from the root link of the arm; found touched places, and nothing that says from which of \
+                                 the two they count. With layout.touched_from = \"root\" the plate is at {as_root} in the world, with \"base\" at \
+                                 {as_base}; state one of them: a pendant counts from \"base\""
+                            );
+                            return row.refused(place, reason);
+                        }
+                    }
+                }
+                None => at(&PLACE)?.unwrap_or_default(),
             };
             if at_m.iter().any(|at: &f64| at.abs() > FARTHEST_M) {
                 let columns = if is_touched { &TOUCHED } else { &PLACE };

@@ -6,6 +6,7 @@ use crate::error::{Problem, conflict};
 use crate::load::serialize_lossy;
 use crate::measured::Unit;
 use crate::sections::body_shape::pose;
+use crate::sections::robot::OriginLink;
 use platewash_keys::Section;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::layout::{PlateGeometry, Region};
@@ -63,6 +64,11 @@ pub struct LayoutSection {
     #[key(domain = Path)]
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
     pub plate_file: Option<PathBuf>,
+    /// Link from which the touched places of plate_file count: `base` of the arm's description, as a pendant does (REP-199), or its root
+    /// link. To be stated where these two frames differ.
+    #[key(domain = Word(&["root", "base"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub touched_from: Option<OriginLink>,
     /// Radius and height of the ring that a plate stands on, below its body; its radius is at most that of the rim.
     #[key(unit = "m", domain = PairAbove(0.0, 1.0))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -3,7 +3,7 @@
 use crate::load;
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
-use platewash_kinematics::{Pose, ToolFrame};
+use platewash_kinematics::{Pose, RobotModel, ToolFrame};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -49,11 +49,17 @@ pub struct RobotSection {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub home_deg: Option<[f64; 6]>,
     /// Position of the arm's base in the world, whose z = 0 is the floor and whose z points up: 0.4 above it on a pedestal of that height.
+    /// mount_link says which link that is.
     #[key(unit = "m", domain = Triple(-10.0, 10.0))]
     pub mount_m: [f64; 3],
     /// Orientation of the base: roll, pitch and yaw about the fixed axes x, y, z of the world; [180, 0, 0] hangs from a ceiling.
     #[key(unit = "deg", domain = Triple(-360.0, 360.0))]
     pub mount_rpy_deg: [f64; 3],
+    /// Link that stands at mount_m: the root link of the arm's description, or its link `base`, from which the controller counts
+    /// (REP-199). To be stated with a mount where these two frames differ; without a mount the root link stands at the world's origin.
+    #[key(domain = Word(&["root", "base"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mount_link: Option<OriginLink>,
     /// Rated payload, against which the tool's mass is checked; without it, 3 kg for the built-in arm, unknown for others.
     #[key(unit = "kg", domain = NumberAbove(0.0, 1e6))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,10 +91,43 @@ pub enum BuiltInArm {
     Irb120,
 }
 
-impl RobotSection {
-    /// `T_world_base`.
+/// Links from which places are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OriginLink {
+    /// The root link of the arm's description.
+    Root,
+    /// The link from which the controller counts: `base`, or `base_link` where there is none.
+    Base,
+}
+
+impl OriginLink {
+    /// Both.
+    pub(crate) const ALL: [Self; 2] = [Self::Root, Self::Base];
+
+    /// Its name in a file.
     #[must_use]
-    pub fn mount(&self) -> Pose {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Root => "root",
+            Self::Base => "base",
+        }
+    }
+}
+
+impl RobotSection {
+    /// Pose in the world of the link that `mount_link` names, of the root link where it names none.
+    #[must_use]
+    pub fn stated_mount(&self) -> Pose {
         pose(self.mount_m, self.mount_rpy_deg)
+    }
+
+    /// `T_world_root` of an arm.
+    #[must_use]
+    pub fn mount(&self, arm: &RobotModel) -> Pose {
+        match arm.controller_base() {
+            Some(base) if self.mount_link == Some(OriginLink::Base) => self.stated_mount() * base.pose.inverse(),
+            _ => self.stated_mount(),
+        }
     }
 }
