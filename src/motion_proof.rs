@@ -563,6 +563,12 @@ fn assumptions(
             names(some.iter().map(|obstacle| obstacle.name.as_str()).collect())
         ),
     });
+    all.extend(arm.controller_base().map(|base| {
+        format!(
+            "The arm's root link, '{}', stands at the mount; the controller counts from {base}.",
+            base.root
+        )
+    }));
     if timed {
         let words = match rules.acceleration_rad_s2 {
             None => {

@@ -13,11 +13,11 @@ use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
 use platewash::kinematics::urdf::file::read_text;
 use platewash::kinematics::urdf::{FixedJoints, UrdfError};
-use platewash::scenario::{ArmError, MeshPlaces, Note, ObstacleText, RobotSection, load_arm_with_fixed};
+use platewash::scenario::{ArmError, MeshPlaces, Note, ObstacleText, OriginLink, RobotSection, load_arm_with_fixed};
 use platewash::viewer::page::html;
 use platewash::viewer::view::{ArmMotion, View};
 use platewash::workcell::workcell::Workcell;
-use platewash::{Failure, JointVector, MotionReport, Pose, RobotModel, judged_motion, prove_motion};
+use platewash::{Failure, JointVector, MotionReport, RobotModel, judged_motion, prove_motion};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
@@ -38,9 +38,13 @@ pub struct ProveMotionArguments {
     /// TOML file with the tool: sections [tool] and [[tool_body]] as in a scenario [default: only what the arm's description holds]
     #[arg(long, value_name = "FILE")]
     tool: Option<PathBuf>,
-    /// Place of the arm's root link among the obstacles: x, y, z [m], and roll, pitch, yaw [deg] where it is turned [default: at their origin]
+    /// Place of the arm among the obstacles: x, y, z [m], and roll, pitch, yaw [deg] where it is turned [default: at their origin]
     #[arg(long, value_name = "X,Y,Z[,R,P,Y]", value_parser = mount, allow_hyphen_values = true)]
-    mount: Option<Pose>,
+    mount: Option<[[f64; 3]; 2]>,
+    /// Link that stands at --mount: root, the root link of the arm's description, or base, from which its controller counts; needed where
+    /// these two differ
+    #[arg(long, value_name = "LINK", value_parser = origin_link, requires = "mount")]
+    mount_link: Option<OriginLink>,
     /// Joint that does not move, and its position [rad or m]: one that the trajectory leaves out, or a further one of description or
     /// trajectory, such as a gripper's (may be repeated)
     #[arg(long, value_name = "JOINT=VALUE", value_parser = fixed_joint, allow_hyphen_values = true)]
@@ -116,8 +120,8 @@ fn accelerations(text: &str) -> Result<[f64; AXES]> {
     }
 }
 
-/// A place, and a turn where one is stated.
-fn mount(text: &str) -> Result<Pose> {
+/// A place \[m\], and a turn where one is stated: roll, pitch, yaw \[°\].
+fn mount(text: &str) -> Result<[[f64; 3]; 2]> {
     let expected = "must be x, y, z in metres from -10 to 10 or these and roll, pitch, yaw in degrees from -360 to 360, between commas";
     let numbers: Vec<&str> = text.split(',').collect();
     let number = |k: usize, most: f64| {
@@ -128,12 +132,16 @@ fn mount(text: &str) -> Result<Pose> {
     if ![3, 6].contains(&numbers.len()) {
         bail!("{expected}");
     }
-    let section = RobotSection {
-        mount_m: [number(0, 10.0)?, number(1, 10.0)?, number(2, 10.0)?],
-        mount_rpy_deg: [number(3, 360.0)?, number(4, 360.0)?, number(5, 360.0)?],
-        ..RobotSection::default()
-    };
-    Ok(section.stated_mount())
+    Ok([
+        [number(0, 10.0)?, number(1, 10.0)?, number(2, 10.0)?],
+        [number(3, 360.0)?, number(4, 360.0)?, number(5, 360.0)?],
+    ])
+}
+
+/// A link from which places are counted.
+fn origin_link(text: &str) -> Result<OriginLink> {
+    let known = OriginLink::ALL.into_iter().find(|link| link.name() == text);
+    known.ok_or_else(|| anyhow!("must be root or base"))
 }
 
 /// A joint and its position.
@@ -168,8 +176,17 @@ fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
 fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotModel) -> Result<Workcell> {
     let meshes = mesh_places(options);
     let load = |file: &PathBuf| ObstacleText::load(file).map_err(Failure::from);
-    let mount = arguments.mount.unwrap_or_else(Pose::identity);
-    let mut cell = Workcell::without_tool(arm, mount, Vec::new())?;
+    let [mount_m, mount_rpy_deg] = arguments.mount.unwrap_or_default();
+    let mount = RobotSection {
+        mount_m,
+        mount_rpy_deg,
+        mount_link: arguments.mount_link,
+        ..RobotSection::default()
+    };
+    if let Some(readings) = mount.ambiguous_mount(arm) {
+        bail!("--mount, --mount-link: {readings}");
+    }
+    let mut cell = Workcell::without_tool(arm, mount.mount(arm), Vec::new())?;
     if let Some(file) = &arguments.tool {
         cell.tool = load(file)?.tool(arm, &meshes).map_err(Failure::from)?;
     }

@@ -222,6 +222,42 @@ fn the_arm_stands_at_its_mount_and_carries_its_tool() {
     prove(dir, &[&file, "--mount", "1,2"]).refused(2, &["--mount", "x, y, z in metres"]);
 }
 
+/// The controller of this arm counts from 0.3 m above its root link: a mount says for which of the two it is.
+#[test]
+fn a_mount_says_for_which_link_it_is() {
+    let folder = folder();
+    let dir = folder.path();
+    let old = "<child link=\"base\"/>\n    <origin xyz=\"0 0 0\"/>";
+    let arm = platewash::kinematics::irb120::IRB120_URDF.replace(old, &old.replace("0 0 0", "0 0 0.3"));
+    let (file, arm) = (write(dir, "swing.csv", SWING), write(dir, "arm.urdf", &arm));
+    let around = write(dir, "post.toml", POST);
+    let proved = |more: &[&str]| {
+        prove(
+            dir,
+            &[&[&file[..], "--urdf", &arm, "--obstacles", &around, "--json"], more].concat(),
+        )
+    };
+    proved(&["--mount", "0,0,0.3"]).refused(
+        2,
+        &[
+            "--mount, --mount-link: the root link 'base_link' and the controller's base, 'base',",
+            "As \"root\" link 'base_link' stands at (0.0000, 0.0000, 0.3000) m in the world, as \"base\" at (0.0000, 0.0000, 0.0000) m",
+        ],
+    );
+    let [at_origin, of_base] = [
+        proved(&[]).json(),
+        proved(&["--mount", "0,0,0.3", "--mount-link", "base"]).json(),
+    ];
+    assert_eq!(at_origin["clearance"], of_base["clearance"]);
+    let of_root = proved(&["--mount", "0,0,0.3", "--mount-link", "root"]).json();
+    assert_ne!(at_origin["clearance"], of_root["clearance"]);
+    let said = at_origin["assumptions"].to_string();
+    assert!(
+        said.contains("stands at the mount; the controller counts from link 'base'"),
+        "{said}"
+    );
+}
+
 /// A gripper of the description is held still; a joint of the arm that the trajectory leaves out, too.
 #[test]
 fn joints_that_do_not_move_are_fixed() {

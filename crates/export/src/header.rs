@@ -380,6 +380,27 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// By hand: half a turn of the root link about z takes a base 100 mm ahead of it 100 mm back.
+    #[test]
+    fn the_mount_names_the_controllers_base_where_it_is_another_link() {
+        let old = "<child link=\"base\"/>\n    <origin xyz=\"0 0 0\"/>";
+        let new = old.replace("0 0 0", "0.1 0 0.3");
+        let text = platewash_kinematics::irb120::IRB120_URDF.replace(old, &new);
+        let arm = RobotModel::from_urdf(&text, &platewash_kinematics::urdf::MeshSource::none()).unwrap();
+        let stands = Pose::new(Vector3::new(1.0, 0.0, 0.5), Vector3::z() * std::f64::consts::PI);
+        assert_eq!(
+            mount(&stands, &arm),
+            "mount: link \"base_link\" at 1000.0, 0.0, 500.0 mm of the world, turned by the quaternion (w, x, y, z) = (0.000000, 0.000000, \
+             0.000000, 1.000000); the controller's base, link \"base\", at 900.0, 0.0, 800.0 mm of the world, turned by the quaternion (w, x, \
+             y, z) = (0.000000, 0.000000, 0.000000, 1.000000): the controller must be set up for that mount"
+        );
+        let plain = RobotModel::irb120().unwrap();
+        assert_eq!(
+            mount(&Pose::identity(), &plain),
+            "mount: base at 0.0, 0.0, 0.0 mm of the world, upright"
+        );
+    }
+
     proptest! {
         #[test]
         fn every_line_is_a_comment_in_ascii(sentences in proptest::collection::vec(any::<String>(), 0..4)) {

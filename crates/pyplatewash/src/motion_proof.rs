@@ -27,7 +27,7 @@ const CLEARANCE_M: f64 = 0.005;
 /// `qdd` allow. Without `t` positions and clearance are proved for any timing, and speeds are not judged.
 /// `obstacles` is the path of a TOML file with `[[obstacle]]`, `[floor]` and `[table]` sections or of a planning scene of MoveIt (`.scene`), a
 /// list of dictionaries with the keys of `[[obstacle]]`, or a dictionary of all three sections; nothing else is there. They are in the frame
-/// of the world, in which the arm's base stands at `mount`, a pose of shape (4, 4), by default at its origin. `tool` is a `Tool`.
+/// of the world, in which the arm's root link stands at `mount`, a pose of shape (4, 4), by default at its origin. `tool` is a `Tool`.
 /// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given: the arm rests before and behind straight lines, and with
 /// speeds it brakes behind the last point at these limits, which is judged, too.
 ///

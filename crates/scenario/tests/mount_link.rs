@@ -118,7 +118,7 @@ fn a_base_at_the_root_link_needs_no_statement() {
 fn a_mount_without_its_link_is_refused_with_both_readings() {
     let words = [
         "robot.mount_m, robot.mount_rpy_deg, robot.mount_link",
-        "counts from link 'base', 290.0 mm above link 'base_link'",
+        "the root link 'base_link' and the controller's base, 'base',",
         "\"root\" link 'base_link' stands at (0.0000, 0.0000, 0.4500) m",
         "\"base\" at (0.0000, 0.0000, 0.1600) m",
     ];

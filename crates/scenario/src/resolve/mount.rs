@@ -9,25 +9,33 @@ use platewash_kinematics::{Pose, RobotModel};
 impl Scenario {
     /// Refuses a mount that does not say which link stands there, on an arm whose controller does not count from the root link.
     pub(crate) fn check_mount(&self, arm: &RobotModel) -> Result<(), ScenarioError> {
-        let robot = &self.robot;
-        let is_open = robot.mount_link.is_none() && robot.stated_mount() != Pose::identity();
-        let Some(base) = arm.controller_base().filter(|_| is_open) else {
+        let Some(detail) = self.robot.ambiguous_mount(arm) else {
             return Ok(());
         };
+        let keys = "robot.mount_m, robot.mount_rpy_deg, robot.mount_link".to_owned();
+        Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }))
+    }
+}
+
+impl RobotSection {
+    /// Both readings of a mount that does not say which link stands there, on an arm whose controller does not count from the root link.
+    #[must_use]
+    pub fn ambiguous_mount(&self, arm: &RobotModel) -> Option<String> {
+        let is_open = self.mount_link.is_none() && self.stated_mount() != Pose::identity();
+        let base = arm.controller_base().filter(|_| is_open)?;
         let [as_root, as_base] = OriginLink::ALL.map(|link| {
-            let stated = RobotSection {
+            let stated = Self {
                 mount_link: Some(link),
-                ..robot.clone()
+                ..self.clone()
             };
             pose_words(&stated.mount(arm))
         });
-        let detail = format!(
-            "the controller counts from {base}; found a mount that does not say for which of the two links it is. With robot.mount_link = \"root\" link \
-             '{root}' stands at {as_root} in the world, with \"base\" at {as_base}; state one of them",
-            root = base.root
-        );
-        let keys = "robot.mount_m, robot.mount_rpy_deg, robot.mount_link".to_owned();
-        Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }))
+        Some(format!(
+            "the root link '{root}' and the controller's base, '{link}', are in different places; found a mount that does not say for which of them it is. \
+             As \"root\" link '{root}' stands at {as_root} in the world, as \"base\" at {as_base}; state one of them",
+            root = base.root,
+            link = base.link,
+        ))
     }
 }
 

@@ -103,7 +103,7 @@ pub enum OriginLink {
 
 impl OriginLink {
     /// Both.
-    pub(crate) const ALL: [Self; 2] = [Self::Root, Self::Base];
+    pub const ALL: [Self; 2] = [Self::Root, Self::Base];
 
     /// Its name in a file.
     #[must_use]
