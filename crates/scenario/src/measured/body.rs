@@ -148,6 +148,8 @@ pub(super) struct Body {
     floors: Vec<f64>,
     /// Greatest distance beyond the rim \[m\], with its point.
     pub beyond: (f64, Vector3<f64>),
+    /// Greatest height above the profile, and beyond the rim greatest distance from its edge, of what is above it \[m\], with its point.
+    pub above: (f64, Vector3<f64>),
 }
 
 impl Body {
@@ -157,6 +159,7 @@ impl Body {
             depths: vec![0.0; CELLS],
             floors: vec![f64::INFINITY; CELLS],
             beyond: (0.0, Vector3::zeros()),
+            above: (0.0, Vector3::zeros()),
         };
         let rim_m = ruler.surface.rim_m();
         let edge_m = ruler.surface.height_m(rim_m);
@@ -176,6 +179,23 @@ impl Body {
                         true => edge_m - part.corners[k].z,
                         false => -part.above_m[k],
                     };
+                    let (k, least) =
+                        (0..3)
+                            .map(|k| (k, depth((k, &radii[k]))))
+                            .fold(
+                                (0, f64::INFINITY),
+                                |least, found| {
+                                    if found.1 < least.1 { found } else { least }
+                                },
+                            );
+                    // Beside the edge of the body, a point is as far from it as from the edge.
+                    let above_m = match radii[k] > rim_m && least < 0.0 {
+                        true => least.hypot(radii[k] - rim_m) + part.bound_m,
+                        false => part.bound_m - least,
+                    };
+                    if above_m > body.above.0 {
+                        body.above = (above_m, part.corners[k]);
+                    }
                     let deep_m = radii.iter().enumerate().map(depth).fold(0.0, f64::max) + part.bound_m;
                     let floor_m = part.corners.iter().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
                     for cell in cells {
@@ -193,6 +213,11 @@ impl Body {
             );
         }
         body
+    }
+
+    /// Greatest depth below the profile \[m\].
+    pub fn depth_m(&self) -> f64 {
+        self.depths.iter().copied().fold(0.0, f64::max)
     }
 
     /// Returns the thickness, and the foot if the body has one: whatever takes the least volume and holds the whole mesh.

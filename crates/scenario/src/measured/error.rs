@@ -108,6 +108,19 @@ pub enum MeasuredError {
         /// Mean slope there \[°\].
         slope_deg: f64,
     },
+    /// Something stands up from the face or the rim.
+    #[error(
+        "something stands {} high on the face or the rim, at {place}; expected {} or less: a plate's body ends at its face, so leave out of the \
+         file what is no plate, or place it as an obstacle",
+        millimetres(*.height_m),
+        millimetres(MOST_DEVIATION_M)
+    )]
+    StandsUp {
+        /// Height above the face, and beyond the rim above its edge \[m\].
+        height_m: f64,
+        /// Place of it.
+        place: Place,
+    },
     /// The plate differs too much from its profile.
     #[error(
         "the plate is {} off its profile at {place}; expected {} or less: it is chipped, dented, bent or not round, or the file holds more \

@@ -77,6 +77,8 @@ pub struct MeasuredPlate {
     pub surface: Surface,
     /// Thickness along the axis \[m\]; `None` if only the face was measured.
     pub thickness_m: Option<f64>,
+    /// Depth below the face to which the mesh of a face reaches, at a lip or elsewhere \[m\]; 0 if the body was measured. A plate is no thinner.
+    pub least_thickness_m: f64,
     /// Foot, if the body was measured and has one.
     pub foot: Option<Foot>,
     /// Pose in the file in metres, `T_file_plate`: origin at the pole, z along the axis out of the face, x as near the file's as can be.
@@ -135,6 +137,7 @@ impl File {
         MeasuredPlate {
             surface,
             thickness_m: None,
+            least_thickness_m: 0.0,
             foot: None,
             pose: self.pose(frame),
             unit: self.unit,
@@ -246,15 +249,24 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
     let all = || mesh.triangles.iter().map(|t| local(t, &frame));
     let mut plate = file.plate(&frame, surface, &extremes, relief(&surface, Some(&upper), None));
     plate.out_of_round_m = out_of_round_m(face.facets.iter().flat_map(|t| local(t, &frame)), &surface);
+    let mut plate = smooth_enough(plate)?;
+    // Every triangle counts, whether it belongs to the face or not.
+    let body = Body::of(&ruler, all());
+    if body.above.0 > MOST_DEVIATION_M {
+        let (height_m, place) = (body.above.0, file.place(&frame, &body.above.1));
+        return Err(MeasuredError::StandsUp { height_m, place });
+    }
     if mesh.is_closed(&frame.axis()) {
-        let body = Body::of(&ruler, all());
         let (thickness_m, foot) = body.thickness_and_foot(&surface);
         let lower = Heights::of(all(), rim_m, -1.0);
         plate.relief = relief(&surface, Some(&upper), Some((&lower, thickness_m)));
         (plate.thickness_m, plate.foot) = (Some(thickness_m), foot);
-        if body.beyond.0 > plate.deviation_m {
-            plate.deviation_m = body.beyond.0;
-            plate.worst = file.place(&frame, &body.beyond.1);
+    } else {
+        plate.least_thickness_m = body.depth_m();
+    }
+    for (off_m, at) in [body.beyond, body.above] {
+        if off_m > plate.deviation_m {
+            (plate.deviation_m, plate.worst) = (off_m, file.place(&frame, &at));
         }
     }
     smooth_enough(plate)

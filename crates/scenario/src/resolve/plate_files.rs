@@ -244,8 +244,8 @@ impl Scenario {
         let plate = self.measure(stated, OF_LAYOUT, &mut files);
         let of_layout = plate.map_err(refused)?.map(|(index, plate)| {
             let shape = Shape::of(&plate);
+            layout.plate_thickness_m = shape.thickness_m(layout.plate_thickness_m);
             (layout.plate_radius_m, layout.plate_knots) = (shape.radius_m, shape.knots);
-            layout.plate_thickness_m = shape.thickness_m.unwrap_or(layout.plate_thickness_m);
             layout.plate_foot_m = shape.foot_m.or(layout.plate_foot_m);
             index
         });
@@ -259,9 +259,9 @@ impl Scenario {
                 .map_err(refused)?;
             let index = plate.map(|(index, plate)| {
                 let shape = Shape::of(&plate);
-                (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
                 // What was measured counts, so that the body holds the mesh.
-                row.thickness_m = shape.thickness_m.or(row.thickness_m);
+                row.thickness_m = Some(shape.thickness_m(row.thickness_m.unwrap_or(self.layout.plate_thickness_m)));
+                (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
                 row.foot_m = shape.foot_m.or(row.foot_m);
                 index
             });
@@ -515,7 +515,9 @@ struct SoilFile {
 struct Shape {
     radius_m: Option<f64>,
     knots: Option<Vec<[f64; 2]>>,
-    thickness_m: Option<f64>,
+    /// Thickness, if the body was measured, and the least one otherwise.
+    measured_m: Option<f64>,
+    least_m: f64,
     foot_m: Option<[f64; 2]>,
 }
 
@@ -532,9 +534,17 @@ impl Shape {
         Self {
             radius_m,
             knots,
-            thickness_m: plate.thickness_m,
+            measured_m: plate.thickness_m,
+            least_m: plate.least_thickness_m,
             foot_m: plate.foot.map(|foot| [foot.radius_m, foot.height_m]),
         }
+    }
+}
+
+impl Shape {
+    /// Thickness of the plate: as measured, otherwise as stated, and so thick that the body holds the whole mesh \[m\].
+    fn thickness_m(&self, stated_m: f64) -> f64 {
+        self.measured_m.unwrap_or_else(|| stated_m.max(self.least_m))
     }
 }
 
