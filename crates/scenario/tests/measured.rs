@@ -684,3 +684,99 @@ fn uneven_vertices_do_not_move_the_axis() {
     let found = from_mesh(&mesh, None).unwrap();
     check(&found, &truth, &by, [1e-4, 5e-5, 1e-4, 5e-5, 2e-4]);
 }
+
+/// Distance of a point from the body of a plate, at most; 0 inside \[m\]. The body of a face alone is as thick as it must be.
+fn distance_m(found: &MeasuredPlate, point: &Point3<f64>) -> f64 {
+    let local = found.pose.inverse_transform_point(point);
+    let (rho, rim_m) = (local.xy().coords.norm(), found.surface.rim_m());
+    let face = found.surface.height_m(rho.min(rim_m));
+    let thickness_m = found.thickness_m.unwrap_or(found.least_thickness_m);
+    let bottom = match found.foot {
+        Some(foot) if rho <= foot.radius_m => (face - thickness_m).min(-thickness_m - foot.height_m),
+        _ => face - thickness_m,
+    };
+    let along = (local.z - face).max(bottom - local.z).max(0.0);
+    along.hypot((rho - rim_m).max(0.0))
+}
+
+/// A box or a sheet with its corners at random, somewhere about a plate of that radius and height.
+fn addition(rng: &mut Pcg64, rim_m: f64) -> (Vec<Triangle>, [f64; 3]) {
+    let mut size = |least: f64, most: f64| 10.0_f64.powf(rng.random_range(least.log10()..most.log10()));
+    // A wall, a pin, a bar, a crumb.
+    let half = [size(5e-4, 0.5 * rim_m), size(5e-4, 0.02), size(5e-4, 0.1)];
+    let turn = UnitQuaternion::from_euler_angles(0.0, rng.random_range(-0.3..0.3), rng.random_range(0.0..TAU));
+    let (rho, phi) = (rim_m * rng.random_range(0.0..1.05), rng.random_range(0.0..TAU));
+    let place = Vector3::new(rho * phi.cos(), rho * phi.sin(), rng.random_range(-0.06..0.06));
+    let corner = |k: usize| {
+        let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        Point3::from(place + turn * Vector3::new(sign(0) * half[0], sign(1) * half[1], sign(2) * half[2]))
+    };
+    let faces = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let count = if rng.random_bool(0.7) {
+        6
+    } else {
+        rng.random_range(1..6)
+    };
+    let triangles = faces[..count]
+        .iter()
+        .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+    (triangles.map(|t| t.map(corner)).collect(), half)
+}
+
+/// Whatever else a file of a plate holds is within the plan's body and the deviation, or the file is refused.
+#[test]
+fn every_triangle_is_in_the_body_or_the_mesh_is_refused() {
+    let thorough = std::env::var_os("PLATEWASH_THOROUGH").is_some();
+    let (mut taken, mut refused) = (0, 0);
+    for seed in 0..if thorough { 2000 } else { 60 } {
+        let mut rng = rng(7000 + seed);
+        let name = SHIPPED_PROFILES[rng.random_range(0..SHIPPED_PROFILES.len())];
+        let truth = if rng.random_bool(0.3) {
+            Surface::Disc { radius_m: 0.12 }
+        } else {
+            Surface::shipped(name).unwrap()
+        };
+        let (outline, face) = outline(&truth, 3e-3);
+        // A body, or its face alone.
+        let shown = if rng.random_bool(0.5) {
+            &outline[..]
+        } else {
+            &outline[..face]
+        };
+        let mut mesh = revolved(shown, 100, |_, k, [rho, z]| {
+            let (s, c) = (TAU * k as f64 / 100.0).sin_cos();
+            Point3::new(rho * c, rho * s, z)
+        });
+        let (more, half) = addition(&mut rng, truth.rim_m());
+        mesh.extend(more);
+        let by = motion(&mut rng);
+        let mesh = moved(&mesh, |p| by * p);
+        let Ok(found) = from_mesh(&mesh, Some(Unit::Metre)) else {
+            refused += 1;
+            continue;
+        };
+        taken += 1;
+        for [a, b, c] in &mesh {
+            for k in 0..=8 {
+                for j in 0..=8 - k {
+                    let [u, v] = [f64::from(k), f64::from(j)].map(|share| share / 8.0);
+                    let point = a + (b - a) * u + (c - a) * v;
+                    let off_m = distance_m(&found, &point);
+                    assert!(
+                        off_m <= found.deviation_m + 2e-5,
+                        "seed {seed} {half:?}: {off_m} {}",
+                        found.deviation_m
+                    );
+                }
+            }
+        }
+    }
+    assert!(taken > 5 && refused > 20, "{taken} {refused}");
+}
