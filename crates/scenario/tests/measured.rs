@@ -465,7 +465,7 @@ fn a_million_triangles_take_seconds() {
 
 /// Points as touched by hand: rings from the middle to the rim, each point near its place.
 fn touched(truth: &Surface, rings: usize, sigma: f64, rng: &mut Pcg64) -> Vec<Point3<f64>> {
-    let around = 60 / rings;
+    let around = 10;
     let point = |k: usize| {
         let ring = k / around;
         let share = ((ring as f64 + 1.0) / rings as f64).powf(0.7);
@@ -478,7 +478,7 @@ fn touched(truth: &Surface, rings: usize, sigma: f64, rng: &mut Pcg64) -> Vec<Po
         let phi = TAU * ((k % around) as f64 + rng.random_range(-0.3..0.3) + 0.5 * (ring % 2) as f64) / around as f64;
         truth.point(rho, phi) + noise(rng, sigma)
     };
-    (0..60).map(point).collect()
+    (0..around * rings).map(point).collect()
 }
 
 #[test]
@@ -779,4 +779,79 @@ fn every_triangle_is_in_the_body_or_the_mesh_is_refused() {
         }
     }
     assert!(taken > 5 && refused > 20, "{taken} {refused}");
+}
+
+/// Points on a grid of a square, an oval, a star and a round plate with a stray point.
+#[test]
+fn a_rim_that_is_not_round_all_round_is_refused() {
+    let of_rim = |rho: &dyn Fn(f64) -> f64, count: usize| -> Vec<Point3<f64>> {
+        let point = |share: f64, k: usize| {
+            let phi = TAU * k as f64 / count as f64;
+            Point3::new(share * rho(phi) * phi.cos(), share * rho(phi) * phi.sin(), 0.0)
+        };
+        [0.2, 0.5, 0.8, 1.0]
+            .iter()
+            .flat_map(|share| (0..count).map(move |k| (share, k)))
+            .map(|(share, k)| point(*share, k))
+            .collect()
+    };
+    let square = |phi: f64| 0.1 / phi.cos().abs().max(phi.sin().abs());
+    let oval = |phi: f64| 0.11 / (1.0 + 0.2 * phi.cos().powi(2)).sqrt();
+    let round = |_: f64| 0.12;
+    for (name, points) in [
+        ("square", of_rim(&square, 16)),
+        ("corners", of_rim(&square, 8)),
+        ("oval", of_rim(&oval, 24)),
+        ("few", of_rim(&round, 5)),
+    ] {
+        let why = from_points(&points, Some(Unit::Metre)).unwrap_err();
+        let is_told = matches!(
+            why,
+            MeasuredError::BeyondRim { .. } | MeasuredError::RimGap { .. } | MeasuredError::NoAxis { .. }
+        );
+        assert!(is_told, "{name}: {why}");
+    }
+    let mut points = of_rim(&round, 12);
+    from_points(&points, Some(Unit::Metre)).unwrap();
+    let stray = Point3::new(0.05, -0.15, 0.0);
+    points.push(stray);
+    let why = from_points(&points, Some(Unit::Metre)).unwrap_err();
+    let MeasuredError::BeyondRim { place, .. } = why else {
+        panic!("{why}")
+    };
+    assert!((Point3::from(place.in_file) - stray).norm() < 1e-9, "{place}");
+}
+
+/// A slab of a square, of an oval, and a round one with a corner.
+#[test]
+fn a_slab_that_is_not_round_is_told_so() {
+    let slab = |rho: &dyn Fn(f64) -> f64| {
+        let outline = [[0.0, 0.01], [1.0, 0.01], [1.0, 0.0], [0.0, 0.0]];
+        revolved(&outline, 4, |_, k, [share, z]| {
+            let phi = TAU * (k as f64 + 0.5) / 4.0;
+            Point3::new(share * rho(phi) * phi.cos(), share * rho(phi) * phi.sin(), z)
+        })
+    };
+    let why = from_mesh(&slab(&|_| 0.14), Some(Unit::Metre)).unwrap_err();
+    let MeasuredError::NotRound {
+        rim_m: [least, most], ..
+    } = why
+    else {
+        panic!("{why}")
+    };
+    assert!(least < 0.101 && most > 0.13, "{why}");
+    let oval = |around: usize| {
+        revolved(
+            &[[0.0, 0.01], [1.0, 0.01], [1.0, 0.0], [0.0, 0.0]],
+            around,
+            |_, k, [share, z]| {
+                let phi = TAU * k as f64 / around as f64;
+                Point3::new(0.13 * share * phi.cos(), 0.12 * share * phi.sin(), z)
+            },
+        )
+    };
+    for around in [12, 48, 200] {
+        let why = from_mesh(&oval(around), Some(Unit::Metre)).unwrap_err();
+        assert!(matches!(why, MeasuredError::NotRound { .. }), "{around}: {why}");
+    }
 }

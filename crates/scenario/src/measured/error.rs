@@ -73,8 +73,8 @@ pub enum MeasuredError {
     },
     /// The rim is no circle.
     #[error(
-        "it is not a surface of revolution: its rim is between {} and {} from the axis; expected one radius within {}: only round plates \
-         can be washed",
+        "it is not a surface of revolution: its rim is between {} and {} from the axis, the least at {place}; expected one radius within {}: \
+         only round plates can be washed",
         millimetres(.rim_m[0]),
         millimetres(.rim_m[1]),
         millimetres(MOST_DEVIATION_M)
@@ -82,6 +82,41 @@ pub enum MeasuredError {
     NotRound {
         /// Least and greatest radius of the rim \[m\].
         rim_m: [f64; 2],
+        /// Place of the least radius.
+        place: Place,
+    },
+    /// A probed point is beyond the rim.
+    #[error(
+        "the rim is not round, or a point is not on the plate: it is at {place}, and the rim is {} from the axis; expected points up to {} \
+         beyond: leave that point out; only round plates can be washed",
+        millimetres(*.rim_m),
+        millimetres(MOST_DEVIATION_M)
+    )]
+    BeyondRim {
+        /// The point.
+        place: Place,
+        /// Radius of the rim: the median of the outermost points of all eighths of the turn \[m\].
+        rim_m: f64,
+    },
+    /// A probed rim has a gap.
+    #[error(
+        "no point is on the rim, {} from the axis, between azimuth {:.0}° and {:.0}°, about {place}; expected one at least every {} °, within {} \
+         of that radius: touch the rim all round; only round plates can be washed",
+        millimetres(*.rim_m),
+        .between_deg[0],
+        .between_deg[1],
+        .most_deg,
+        millimetres(MOST_DEVIATION_M)
+    )]
+    RimGap {
+        /// Azimuths of the points on the rim on both sides \[°\].
+        between_deg: [f64; 2],
+        /// Greatest difference of their azimuths \[°\].
+        most_deg: f64,
+        /// Middle of the rim between them.
+        place: Place,
+        /// Radius of the rim \[m\].
+        rim_m: f64,
     },
     /// A part of the face is missing.
     #[error(

@@ -63,12 +63,24 @@ impl Heights {
         Self(heights)
     }
 
-    /// Refuses a face with a hole.
+    /// Refuses a face with a hole, and one that ends before the rim in a quarter of all directions: that is not round.
     pub fn check_whole(&self, rim_m: f64, placed: impl Fn(&Vector3<f64>) -> Place) -> Result<(), MeasuredError> {
         let is_missing = |ring: usize, azimuth: usize| self.0[ring * GRID[1] + azimuth].is_nan();
         let inside = (0..GRID[0])
             .take_while(|ring| radius_m(*ring, rim_m) <= rim_m - EDGE_M)
             .count();
+        let reach = |azimuth: usize| (0..inside).rev().find(|ring| !is_missing(*ring, azimuth)).unwrap_or(0);
+        let short: Vec<_> = (0..GRID[1]).filter(|azimuth| reach(*azimuth) + 2 < inside).collect();
+        if let Some(least) = short.iter().copied().min_by_key(|azimuth| reach(*azimuth))
+            && 4 * short.len() > GRID[1]
+        {
+            let ring = reach(least);
+            let [x, y] = place(ring, least, rim_m);
+            return Err(MeasuredError::NotRound {
+                rim_m: [radius_m(ring, rim_m), rim_m],
+                place: placed(&Vector3::new(x, y, 0.0)),
+            });
+        }
         for azimuth in 0..GRID[1] {
             // A ring alone is no hole: next to the pole, noise turns small facets over.
             let mut pairs = 1..inside;

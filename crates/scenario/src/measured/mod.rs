@@ -224,10 +224,12 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
         .count();
     // A bite out of the rim is a part that is missing.
     if 4 * off_round > SECTORS.min(face.rim.len()) {
-        let rim_m = radii.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], rho| {
-            [low.min(rho), high.max(rho)]
-        });
-        return Err(MeasuredError::NotRound { rim_m });
+        let by_radius = |a: &Vector3<f64>, b: &Vector3<f64>| a.xy().norm().total_cmp(&b.xy().norm());
+        let all = || face.rim.iter().map(|point| frame.local(point));
+        let [least, most] = [all().min_by(by_radius), all().max_by(by_radius)].map(Option::unwrap_or_default);
+        let rim_m = [least.xy().norm(), most.xy().norm()];
+        let place = file.place(&frame, &least);
+        return Err(MeasuredError::NotRound { rim_m, place });
     }
     check_slope(&rings(&fitted.placed(&frame), rim_m), rim_m)?;
     let local = |t: &[u32; 3], frame: &Frame| t.map(|k| frame.local(&mesh.points[k as usize]));

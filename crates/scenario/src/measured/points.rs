@@ -1,17 +1,18 @@
 //! Plate whose face was touched in points.
 
-use crate::measured::algebra::Moments;
+use crate::measured::algebra::{Moments, median};
 use crate::measured::axis::{Cloud, Fitted, Frame};
 use crate::measured::body::{Extremes, Ruler};
 use crate::measured::face::{check_slope, outermost, relief};
 use crate::measured::knots::{Profile, rings};
 use crate::measured::{
-    FIRST_KNOTS, FLAT, File, MeasuredError, MeasuredPlate, Unit, is_coordinate, out_of_round_m, smooth_enough, sparing,
+    FIRST_KNOTS, FLAT, File, MOST_DEVIATION_M, MeasuredError, MeasuredPlate, Place, Unit, is_coordinate,
+    out_of_round_m, smooth_enough, sparing,
 };
 use nalgebra::{Point3, Vector3};
-use platewash_kinematics::trig::atan2;
+use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_workcell::words::millimetres;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Least number of probed points.
 pub const LEAST_POINTS: usize = 12;
@@ -25,6 +26,10 @@ const UNSURE_M: f64 = 1e-3;
 /// Number of sectors in which the outermost probed point is sought.
 const POINT_SECTORS: usize = 12;
 
+/// Number of sectors whose outermost points tell the radius of the rim, and greatest difference of the azimuths of points on it \[rad\].
+const RIM_SECTORS: usize = 8;
+const RIM_GAP: f64 = 1.05;
+
 /// Greatest number of searches for knots and axis, and movement of the frame below which they are found \[m\].
 const MOST_SEARCHES: usize = 6;
 const STILL_M: f64 = 2e-6;
@@ -36,7 +41,7 @@ const AZIMUTH_GAP: f64 = 1.75;
 /// Returns the plate whose face was touched in points. Its rim is at the outermost one: touch the rim all round.
 ///
 /// # Errors
-/// [`MeasuredError`]: too few points, or points that fix no axis or no profile, or deviate by more than [`MOST_DEVIATION_M`](crate::measured::MOST_DEVIATION_M).
+/// [`MeasuredError`]: too few points, points that fix no axis or no profile, whose outermost ones are on no circle, or that deviate by more than [`MOST_DEVIATION_M`](crate::measured::MOST_DEVIATION_M).
 pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<MeasuredPlate, MeasuredError> {
     if points.len() < LEAST_POINTS {
         let (found, least) = (points.len(), LEAST_POINTS);
@@ -118,6 +123,7 @@ pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<Measure
     let rim_m = profile.rim_m();
     let local: Vec<_> = sorted.iter().map(|point| frame.local(point)).collect();
     check_gaps(&local, rim_m)?;
+    check_rim(&local, |point| file.place(&frame, point))?;
     check_slope(&rings(&fitted.kept(&frame, &profile), rim_m), rim_m)?;
     let surface = profile.surface().ok_or(MeasuredError::Empty)?;
     let frame = frame.raised(profile.level_m());
@@ -157,6 +163,42 @@ fn side_of_points(points: &[Vector3<f64>], axis: &Vector3<f64>, reach_m: f64) ->
         rise_m < 0.0
     };
     Frame::new(&if is_turned { -axis } else { *axis }, Vector3::zeros())
+}
+
+/// Refuses points whose outermost ones are not on one circle, or not all round.
+fn check_rim(local: &[Vector3<f64>], placed: impl Fn(&Vector3<f64>) -> Place) -> Result<(), MeasuredError> {
+    let azimuth = |point: &Vector3<f64>| atan2(point.y, point.x);
+    let mut outermost = [0.0_f64; RIM_SECTORS];
+    for point in local {
+        let sector = ((azimuth(point) + PI) / TAU * RIM_SECTORS as f64) as usize % RIM_SECTORS;
+        outermost[sector] = outermost[sector].max(point.xy().norm());
+    }
+    let rim_m = median(outermost.to_vec());
+    let off = |point: &Vector3<f64>| point.xy().norm() - rim_m;
+    if let Some(beyond) = local
+        .iter()
+        .max_by(|a, b| off(a).total_cmp(&off(b)))
+        .filter(|point| off(point) > MOST_DEVIATION_M)
+    {
+        let place = placed(beyond);
+        return Err(MeasuredError::BeyondRim { place, rim_m });
+    }
+    let on_rim = local.iter().filter(|point| off(point) >= -MOST_DEVIATION_M);
+    let mut azimuths: Vec<f64> = on_rim.map(azimuth).collect();
+    azimuths.sort_unstable_by(f64::total_cmp);
+    azimuths.extend(azimuths.first().map(|first| first + TAU));
+    match azimuths.windows(2).find(|gap| gap[1] - gap[0] > RIM_GAP) {
+        None => Ok(()),
+        Some(gap) => {
+            let (sine, cosine) = sin_cos(gap[0].midpoint(gap[1]));
+            Err(MeasuredError::RimGap {
+                between_deg: [gap[0].to_degrees(), gap[1].to_degrees()],
+                most_deg: RIM_GAP.to_degrees().round(),
+                place: placed(&Vector3::new(rim_m * cosine, rim_m * sine, 0.0)),
+                rim_m,
+            })
+        }
+    }
 }
 
 /// Refuses points that leave too much of the face untouched.
