@@ -114,7 +114,7 @@ const CANNOT_MATTER: [&str; 12] = [
 /// Element for drivers of joints. It cannot matter, but for the limits that it may state of their commands.
 const DRIVERS: &str = "ros2_control";
 
-/// What a fixed joint may state and never uses.
+/// Elements of a fixed joint that are never used.
 const OF_MOVING_JOINTS: [&str; 5] = ["axis", "limit", "dynamics", "safety_controller", "calibration"];
 
 /// Returns all statements of a text that is known to be well-formed.

@@ -190,7 +190,7 @@ impl Body {
                             );
                     // Beside the edge of the body, a point is as far from it as from the edge.
                     let above_m = match radii[k] > rim_m && least < 0.0 {
-                        true => least.hypot(radii[k] - rim_m) + part.bound_m,
+                        true => (least * least + (radii[k] - rim_m) * (radii[k] - rim_m)).sqrt() + part.bound_m,
                         false => part.bound_m - least,
                     };
                     if above_m > body.above.0 {
