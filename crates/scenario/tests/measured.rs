@@ -178,7 +178,7 @@ fn shipped_profiles_are_found_in_meshes() {
             let mesh = plate(&truth, count, 5e-5, &mut rng).0;
             let by = motion(&mut rng);
             let mesh = moved(&mesh, |p| Point3::from((by * p).coords * 1e3));
-            let found = from_mesh(&mesh, None);
+            let found = from_mesh(&mesh, None, None);
             // Coarse facets are far off the plate that they stand for, and some of them too far.
             if count == 1000 && matches!(found, Err(MeasuredError::Rough { .. })) {
                 continue;
@@ -208,7 +208,7 @@ fn sample(count: usize) -> (Surface, Vec<Triangle>) {
 #[test]
 fn deviation_bounds_every_point_of_the_facets() {
     let (_, mesh) = sample(6000);
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, None).unwrap();
     let mut rng = rng(1);
     let mut worst: f64 = 0.0;
     for t in &mesh {
@@ -227,37 +227,37 @@ fn units_are_guessed_from_the_diameter_or_stated() {
     let (truth, mesh) = sample(10_000);
     for unit in Unit::ALL {
         let scaled = moved(&mesh, |p| Point3::from(p.coords / unit.length_m()));
-        let found = from_mesh(&scaled, None).unwrap();
+        let found = from_mesh(&scaled, None, None).unwrap();
         assert_eq!((found.unit, found.unit_is_guessed), (unit, true));
         assert!(apart_m(&found.surface, &truth) < 1e-4);
-        let stated = from_mesh(&scaled, Some(unit)).unwrap();
+        let stated = from_mesh(&scaled, Some(unit), None).unwrap();
         assert!(!stated.unit_is_guessed && stated.surface == found.surface);
         assert_eq!(Unit::named(unit.name()), Some(unit));
     }
     let small = moved(&mesh, |p| Point3::from(p.coords * 0.5));
-    assert!(matches!(from_mesh(&small, None), Err(MeasuredError::Unit { .. })));
-    assert!(apart_m(&from_mesh(&small, Some(Unit::Metre)).unwrap().surface, &truth) > 1e-3);
-    let why = from_mesh(&mesh, Some(Unit::Millimetre)).unwrap_err();
+    assert!(matches!(from_mesh(&small, None, None), Err(MeasuredError::Unit { .. })));
+    assert!(apart_m(&from_mesh(&small, Some(Unit::Metre), None).unwrap().surface, &truth) > 1e-3);
+    let why = from_mesh(&mesh, Some(Unit::Millimetre), None).unwrap_err();
     assert!(matches!(why, MeasuredError::Size { .. }), "{why}");
 }
 
 #[test]
 fn mirrored_meshes_other_windings_and_other_orders_change_little() {
     let (truth, mut mesh) = sample(10_000);
-    let plain = from_mesh(&mesh, None).unwrap();
+    let plain = from_mesh(&mesh, None, None).unwrap();
     let mirrored = moved(&mesh, |p| Point3::new(-p.x, p.y, p.z));
-    let found = from_mesh(&mirrored, None).unwrap();
+    let found = from_mesh(&mirrored, None, None).unwrap();
     check(&found, &truth, &Isometry3::identity(), [1e-4, 1e-4, 2e-4, 1e-4, 1e-4]);
     assert!(found.thickness_m.is_some() && found.foot.is_some());
     let inside_out: Vec<_> = mesh.iter().map(|t| [t[0], t[2], t[1]]).collect();
-    assert!((from_mesh(&inside_out, None).unwrap().deviation_m - plain.deviation_m).abs() < 1e-6);
+    assert!((from_mesh(&inside_out, None, None).unwrap().deviation_m - plain.deviation_m).abs() < 1e-6);
     let mut rng = rng(2);
     for k in (1..mesh.len()).rev() {
         mesh.swap(k, rng.random_range(0..=k));
         let turn = rng.random_range(0..3);
         mesh[k].rotate_left(turn);
     }
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, None).unwrap();
     assert!(apart_m(&found.surface, &plain.surface) < 1e-6);
     assert!((found.pose.translation.vector - plain.pose.translation.vector).norm() < 1e-6);
     assert!((found.deviation_m - plain.deviation_m).abs() < 1e-6);
@@ -277,7 +277,7 @@ fn a_face_alone_is_a_plate_without_a_body() {
         });
         let by = motion(&mut rng);
         mesh = moved(&mesh, |p| by * p);
-        let found = from_mesh(&mesh, None).unwrap();
+        let found = from_mesh(&mesh, None, None).unwrap();
         check(&found, &truth, &by, [2e-4, 1e-4, 2e-4, 1e-4, 1e-4]);
         assert!(found.thickness_m.is_none() && found.foot.is_none() && found.relief.lower.is_empty());
         // The relief is that of the face.
@@ -300,14 +300,20 @@ fn a_flat_disc_has_its_centre_by_its_rim() {
         let mesh = plate(&truth, 20_000, sigma, &mut rng).0;
         let by = motion(&mut rng);
         // Level, it looks up; its foot is below.
-        let upright = from_mesh(&mesh, None).unwrap();
+        let upright = from_mesh(&mesh, None, None).unwrap();
         check(&upright, &truth, &Isometry3::identity(), [1e-4, 1e-4, 1e-4, 1e-5, 2e-4]);
         assert!(upright.surface.is_flat());
         assert!((3.9e-3..4.5e-3).contains(&upright.thickness_m.unwrap()), "{upright:?}");
-        let found = from_mesh(&moved(&mesh, |p| by * p), None).unwrap();
+        let found = from_mesh(&moved(&mesh, |p| by * p), None, None).unwrap();
         check(&found, &truth, &by, [1e-4, 1e-4, 1e-4, 1e-5, 2e-4]);
-        // A foot on top is no face.
-        let turned = from_mesh(&moved(&mesh, |p| Point3::new(p.x, -p.y, -p.z)), None).unwrap();
+        // With the foot on top, the side must be stated.
+        let turned = moved(&mesh, |p| Point3::new(p.x, -p.y, -p.z));
+        let why = from_mesh(&turned, None, None).unwrap_err().to_string();
+        assert!(
+            why.contains("towards +z of the file is 1.") && why.contains("the one towards -z"),
+            "{why}"
+        );
+        let turned = from_mesh(&turned, None, Some(FaceSide::MinusZ)).unwrap();
         assert!(turned.pose.rotation.transform_vector(&Vector3::z()).z < -0.99);
     }
 }
@@ -359,7 +365,7 @@ fn cup(radius_m: f64, high_m: f64, draft_m: f64) -> Vec<Triangle> {
 
 #[test]
 fn what_is_no_round_plate_is_refused() {
-    let why = from_mesh(&tray(), None).unwrap_err();
+    let why = from_mesh(&tray(), None, None).unwrap_err();
     assert!(matches!(why, MeasuredError::NotRound { .. }), "{why}");
     let mut rng = rng(6);
     for (radius_m, high_m, draft_m) in [
@@ -369,7 +375,12 @@ fn what_is_no_round_plate_is_refused() {
         (0.035, 0.16, 0.002),
     ] {
         let by = motion(&mut rng);
-        let why = from_mesh(&moved(&cup(radius_m, high_m, draft_m), |p| by * p), Some(Unit::Metre)).unwrap_err();
+        let why = from_mesh(
+            &moved(&cup(radius_m, high_m, draft_m), |p| by * p),
+            Some(Unit::Metre),
+            None,
+        )
+        .unwrap_err();
         assert!(matches!(why, MeasuredError::Steep { .. }), "{why}");
     }
 }
@@ -388,7 +399,7 @@ fn holes_chips_and_dents_are_refused_with_their_place() {
         .filter(|t| !(is_there(t) && is_face(t) == faces_up))
         .copied()
         .collect();
-    let why = from_mesh(&holed, None).unwrap_err();
+    let why = from_mesh(&holed, None, None).unwrap_err();
     let MeasuredError::Missing { place, .. } = why else {
         panic!("{why}")
     };
@@ -407,7 +418,7 @@ fn holes_chips_and_dents_are_refused_with_their_place() {
         }
         _ => *p,
     });
-    let why = from_mesh(&bitten, None).unwrap_err();
+    let why = from_mesh(&bitten, None, None).unwrap_err();
     let (MeasuredError::Missing { place, .. } | MeasuredError::Rough { place, .. }) = why else {
         panic!("{why}")
     };
@@ -419,7 +430,7 @@ fn holes_chips_and_dents_are_refused_with_their_place() {
             let share = 1.0 - (p.coords - at).xy().norm() / 0.015;
             Point3::new(p.x, p.y, p.z - deep_m * share.max(0.0))
         };
-        from_mesh(&moved(&mesh, dent), None)
+        from_mesh(&moved(&mesh, dent), None, None)
     };
     let why = dented(5e-3).unwrap_err();
     let MeasuredError::Rough { place, deviation_m } = why else {
@@ -441,14 +452,17 @@ fn holes_chips_and_dents_are_refused_with_their_place() {
 
 #[test]
 fn meshes_without_numbers_or_areas_are_refused() {
-    assert_eq!(from_mesh(&[], None).unwrap_err(), MeasuredError::Empty);
+    assert_eq!(from_mesh(&[], None, None).unwrap_err(), MeasuredError::Empty);
     let point = Point3::new(0.1, 0.0, 0.0);
-    assert_eq!(from_mesh(&[[point; 3]; 9], None).unwrap_err(), MeasuredError::Empty);
+    assert_eq!(
+        from_mesh(&[[point; 3]; 9], None, None).unwrap_err(),
+        MeasuredError::Empty
+    );
     let line = [0.0, 0.1, 0.3].map(|x| Point3::new(x, 0.0, 0.0));
-    assert_eq!(from_mesh(&[line; 3], None).unwrap_err(), MeasuredError::Empty);
+    assert_eq!(from_mesh(&[line; 3], None, None).unwrap_err(), MeasuredError::Empty);
     let (_, mut mesh) = sample(5000);
     mesh[7][1].y = f64::NAN;
-    let why = from_mesh(&mesh, None).unwrap_err();
+    let why = from_mesh(&mesh, None, None).unwrap_err();
     assert!(matches!(why, MeasuredError::Coordinate { index: 7, .. }), "{why}");
 }
 
@@ -458,7 +472,7 @@ fn a_million_triangles_take_seconds() {
     let mut rng = rng(8);
     let mesh = plate(&truth, 1_000_000, 5e-5, &mut rng).0;
     let start = std::time::Instant::now();
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, None).unwrap();
     println!("{} triangles: {:.2} s", mesh.len(), start.elapsed().as_secs_f64());
     check(&found, &truth, &Isometry3::identity(), [1e-4, 5e-5, 1e-4, 5e-5, 3e-4]);
 }
@@ -490,7 +504,7 @@ fn shipped_profiles_are_found_by_probed_points() {
                 let mut rng = rng(100 + seed);
                 let by = motion(&mut rng);
                 let points: Vec<_> = touched(&truth, rings, 2e-5, &mut rng).iter().map(|p| by * p).collect();
-                let found = from_points(&points, Some(Unit::Metre)).unwrap();
+                let found = from_points(&points, Some(Unit::Metre), None).unwrap();
                 check(&found, &truth, &by, [1e-3, 5e-4, 1e-3, 1e-3, 5e-4]);
                 assert!(found.deviation_m < 5e-4 && found.thickness_m.is_none());
             }
@@ -498,7 +512,7 @@ fn shipped_profiles_are_found_by_probed_points() {
     }
     let mut rng = rng(9);
     let flat = touched(&Surface::Disc { radius_m: 0.13 }, 5, 2e-5, &mut rng);
-    let found = from_points(&flat, None).unwrap();
+    let found = from_points(&flat, None, None).unwrap();
     assert!(found.surface.is_flat());
     check(
         &found,
@@ -513,26 +527,26 @@ fn points_that_fix_no_axis_are_refused() {
     let truth = Surface::shipped("coupe275").unwrap();
     let points = touched(&truth, 6, 2e-5, &mut rng(10));
     assert_eq!(
-        from_points(&points[..11], None).unwrap_err(),
+        from_points(&points[..11], None, None).unwrap_err(),
         MeasuredError::Few { found: 11, least: 12 }
     );
     let line: Vec<_> = (0..20).map(|k| Point3::new(0.01 * f64::from(k), 0.002, 0.0)).collect();
     let half: Vec<_> = points.iter().filter(|p| p.x > 0.0).copied().collect();
     let rim: Vec<_> = points.iter().filter(|p| p.coords.xy().norm() > 0.11).copied().collect();
     for few in [line, half, rim] {
-        let why = from_points(&few, Some(Unit::Metre)).unwrap_err();
+        let why = from_points(&few, Some(Unit::Metre), None).unwrap_err();
         assert!(matches!(why, MeasuredError::NoAxis { .. }), "{why}");
     }
     let mut wrong = points.clone();
     wrong[3].z += 6e-3;
-    let why = from_points(&wrong, None).unwrap_err();
+    let why = from_points(&wrong, None, None).unwrap_err();
     let MeasuredError::Rough { place, .. } = why else {
         panic!("{why}")
     };
     assert!((Point3::from(place.in_file) - wrong[3]).norm() < 1e-9);
     wrong[3].z = f64::INFINITY;
     assert!(matches!(
-        from_points(&wrong, None),
+        from_points(&wrong, None, None),
         Err(MeasuredError::Coordinate { index: 3, .. })
     ));
 }
@@ -584,7 +598,7 @@ fn a_small_rim_of_a_flat_plate_is_no_outlier() {
     let below = top.iter().rev().map(|[rho, z]| [*rho, z - 0.004]);
     let outline: Vec<_> = top.iter().copied().chain(below).collect();
     let (mesh, by) = turned(&outline, 128, 20);
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, Some(towards(&by))).unwrap();
     let [turn, beside, along] = pose_errors(&found, &by);
     assert!(turn < 1e-4 && beside < 1e-4 && along < 2e-4 && found.deviation_m < 3e-4);
     assert!((found.surface.height_m(0.13) - 6e-3).abs() < 2e-4);
@@ -613,7 +627,7 @@ fn a_rolled_lip_ends_the_face() {
             .map(|rho| [rho, height(rho) - 2.0 * roll_m]);
         let outline: Vec<_> = top.chain(roll).chain(below).collect();
         let (mesh, by) = turned(&outline, 256, 21);
-        let found = from_mesh(&mesh, None).unwrap();
+        let found = from_mesh(&mesh, None, None).unwrap();
         let [turn, beside, along] = pose_errors(&found, &by);
         let rim_m = found.surface.rim_m();
         assert!(turn < 1e-4 && beside < 1e-4 && along < 2e-4);
@@ -634,7 +648,7 @@ fn a_watch_glass_has_its_axis_by_its_rim() {
     let below = top.iter().rev().map(|[rho, z]| [*rho, z - 0.003]);
     let outline: Vec<_> = top.iter().copied().chain(below).collect();
     let (mesh, by) = turned(&outline, 200, 22);
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, None).unwrap();
     let [turn, beside, along] = pose_errors(&found, &by);
     assert!(turn < 5e-4 && beside < 2e-4 && along < 2e-4 && (found.surface.rim_m() - 0.12).abs() < 2e-4);
     // Points on it fix no axis.
@@ -644,7 +658,7 @@ fn a_watch_glass_has_its_axis_by_its_rim() {
         .map(|t| t[0])
         .filter(|p| by.inverse_transform_point(&Point3::from(p.coords * 0.0254)).z > 0.0)
         .collect();
-    let why = from_points(&points, Some(Unit::Inch)).unwrap_err();
+    let why = from_points(&points, Some(Unit::Inch), None).unwrap_err();
     assert!(matches!(why, MeasuredError::NoAxis { .. }), "{why}");
 }
 
@@ -665,7 +679,7 @@ fn a_groove_is_found() {
         .map(|rho| [rho, height(rho)])
         .collect();
     let (mesh, _) = turned(&top, 200, 23);
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, None).unwrap();
     assert!(found.deviation_m < 1.5e-4, "{}", found.deviation_m);
 }
 
@@ -681,7 +695,7 @@ fn uneven_vertices_do_not_move_the_axis() {
         let (s, c) = (even + 0.6 * even.sin()).sin_cos();
         by * (Point3::new(rho * c, rho * s, z) + noise(&mut rng, 5e-5))
     });
-    let found = from_mesh(&mesh, None).unwrap();
+    let found = from_mesh(&mesh, None, None).unwrap();
     check(&found, &truth, &by, [1e-4, 5e-5, 1e-4, 5e-5, 2e-4]);
 }
 
@@ -758,7 +772,7 @@ fn every_triangle_is_in_the_body_or_the_mesh_is_refused() {
         mesh.extend(more);
         let by = motion(&mut rng);
         let mesh = moved(&mesh, |p| by * p);
-        let Ok(found) = from_mesh(&mesh, Some(Unit::Metre)) else {
+        let Ok(found) = from_mesh(&mesh, Some(Unit::Metre), None) else {
             refused += 1;
             continue;
         };
@@ -804,7 +818,7 @@ fn a_rim_that_is_not_round_all_round_is_refused() {
         ("oval", of_rim(&oval, 24)),
         ("few", of_rim(&round, 5)),
     ] {
-        let why = from_points(&points, Some(Unit::Metre)).unwrap_err();
+        let why = from_points(&points, Some(Unit::Metre), None).unwrap_err();
         let is_told = matches!(
             why,
             MeasuredError::BeyondRim { .. } | MeasuredError::RimGap { .. } | MeasuredError::NoAxis { .. }
@@ -812,10 +826,10 @@ fn a_rim_that_is_not_round_all_round_is_refused() {
         assert!(is_told, "{name}: {why}");
     }
     let mut points = of_rim(&round, 12);
-    from_points(&points, Some(Unit::Metre)).unwrap();
+    from_points(&points, Some(Unit::Metre), None).unwrap();
     let stray = Point3::new(0.05, -0.15, 0.0);
     points.push(stray);
-    let why = from_points(&points, Some(Unit::Metre)).unwrap_err();
+    let why = from_points(&points, Some(Unit::Metre), None).unwrap_err();
     let MeasuredError::BeyondRim { place, .. } = why else {
         panic!("{why}")
     };
@@ -832,7 +846,7 @@ fn a_slab_that_is_not_round_is_told_so() {
             Point3::new(share * rho(phi) * phi.cos(), share * rho(phi) * phi.sin(), z)
         })
     };
-    let why = from_mesh(&slab(&|_| 0.14), Some(Unit::Metre)).unwrap_err();
+    let why = from_mesh(&slab(&|_| 0.14), Some(Unit::Metre), None).unwrap_err();
     let MeasuredError::NotRound {
         rim_m: [least, most], ..
     } = why
@@ -851,7 +865,93 @@ fn a_slab_that_is_not_round_is_told_so() {
         )
     };
     for around in [12, 48, 200] {
-        let why = from_mesh(&oval(around), Some(Unit::Metre)).unwrap_err();
+        let why = from_mesh(&oval(around), Some(Unit::Metre), None).unwrap_err();
         assert!(matches!(why, MeasuredError::NotRound { .. }), "{around}: {why}");
     }
+}
+
+/// Direction of the file in which the face of a plate looks that was moved.
+fn towards(by: &Isometry3<f64>) -> FaceSide {
+    let z = by.rotation * Vector3::z();
+    let sides = [
+        (FaceSide::PlusX, z.x),
+        (FaceSide::MinusX, -z.x),
+        (FaceSide::PlusY, z.y),
+        (FaceSide::MinusY, -z.y),
+        (FaceSide::PlusZ, z.z),
+        (FaceSide::MinusZ, -z.z),
+    ];
+    sides.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
+}
+
+/// A disc 20 mm thick, with a dent in its upper side or a ring near the rim of one of its sides.
+#[test]
+fn the_washed_side_is_stated_or_unmistakable() {
+    let disc = |dent_m: f64, ring_m: f64| {
+        let top = (0..=24).map(|k| [0.005 * f64::from(k), 0.0]);
+        let below = [
+            [0.12, -0.02],
+            [0.115, -0.02],
+            [0.115, -0.02 - ring_m],
+            [0.109, -0.02 - ring_m],
+            [0.109, -0.02],
+            [0.05, -0.02],
+            [0.0, -0.02],
+        ];
+        let outline: Vec<_> = top.chain(below).collect();
+        revolved(&outline, 90, |ring, k, [rho, z]| {
+            let phi = TAU * k as f64 / 90.0;
+            let dent = if (8..12).contains(&ring) && k < 8 { dent_m } else { 0.0 };
+            Point3::new(rho * phi.cos(), rho * phi.sin(), z - dent)
+        })
+    };
+    let up = |found: &MeasuredPlate| found.pose.rotation.transform_vector(&Vector3::z()).z;
+    let (metre, smooth) = (Some(Unit::Metre), disc(0.0, 0.0));
+    assert!(up(&from_mesh(&smooth, metre, None).unwrap()) > 0.999);
+    assert!(up(&from_mesh(&smooth, metre, Some(FaceSide::MinusZ)).unwrap()) < -0.999);
+    // The other side of a dented one is not taken without a word.
+    let dented = disc(6e-3, 0.0);
+    let why = from_mesh(&dented, metre, None).unwrap_err();
+    assert!(
+        matches!(
+            why,
+            MeasuredError::OtherSide {
+                tried: FaceSide::PlusZ,
+                other: FaceSide::MinusZ,
+                ..
+            }
+        ),
+        "{why}"
+    );
+    assert!(up(&from_mesh(&dented, metre, Some(FaceSide::MinusZ)).unwrap()) < -0.999);
+    // A ring that the plate stands on does not make the underside the face, however high it is, and is enclosed.
+    for ring_m in [1e-3, 3e-3, 8e-3, 0.02] {
+        let found = from_mesh(&disc(0.0, ring_m), metre, None).unwrap();
+        assert!(up(&found) > 0.999, "{ring_m}");
+        let low = found.foot.map_or(found.thickness_m.unwrap(), |foot| {
+            found.thickness_m.unwrap() + foot.height_m
+        });
+        assert!(low >= 0.02 + ring_m - 1e-6, "{ring_m} {low}");
+    }
+    // Standing on its edge, a disc has no upper side, however little it leans.
+    for lean in [0.0, 1e-12, -1e-12, 0.05] {
+        let by = UnitQuaternion::from_euler_angles(0.5 * TAU / 2.0 + lean, 0.0, 0.0);
+        let edge = moved(&smooth, |p| by * p);
+        let why = from_mesh(&edge, metre, None).unwrap_err().to_string();
+        assert!(why.contains("neither side looks along the file's z"), "{why}");
+        let found = from_mesh(&edge, metre, Some(FaceSide::MinusY)).unwrap();
+        assert!(found.pose.rotation.transform_vector(&Vector3::z()).y < -0.99);
+        let why = from_mesh(&edge, metre, Some(FaceSide::PlusZ)).unwrap_err().to_string();
+        assert!(why.contains("from the stated +z"), "{why}");
+    }
+    // Of touched points alike.
+    let points = (0..60).map(|k| {
+        let (rho, phi) = (0.12 * f64::from(1 + k / 12) / 5.0, TAU * f64::from(k % 12) / 12.0);
+        Point3::new(rho * phi.cos(), 0.0, rho * phi.sin())
+    });
+    let points: Vec<_> = points.collect();
+    let why = from_points(&points, metre, None).unwrap_err().to_string();
+    assert!(why.contains("neither side looks along the file's z"), "{why}");
+    let found = from_points(&points, metre, Some(FaceSide::PlusY)).unwrap();
+    assert!(found.pose.rotation.transform_vector(&Vector3::z()).y > 0.999);
 }

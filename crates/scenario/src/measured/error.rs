@@ -1,6 +1,6 @@
 //! Errors of a measured plate, and places on it.
 
-use crate::measured::{LEAST_PLATE_M, MOST_DEVIATION_M, MOST_PLATE_M};
+use crate::measured::{FaceSide, LEAST_PLATE_M, MOST_DEVIATION_M, MOST_PLATE_M};
 use platewash_workcell::words::millimetres;
 
 /// Place on a measured plate.
@@ -169,10 +169,64 @@ pub enum MeasuredError {
         /// Place of it.
         place: Place,
     },
+    /// The side that would be the face is refused, and the other one is a face.
+    #[error(
+        "{why}. That is the side towards {tried} of the file; the other side would fit: if it is the face, state \"{other}\" as the face"
+    )]
+    OtherSide {
+        /// Reason that the side is refused.
+        why: Box<MeasuredError>,
+        /// Side that was tried.
+        tried: FaceSide,
+        /// The other side.
+        other: FaceSide,
+    },
+    /// The side that is washed is not told.
+    #[error("{why}: state the direction of the file in which the washed face looks")]
+    FaceUnclear {
+        /// Reason.
+        why: String,
+    },
     /// The points fix no axis.
     #[error("the points fix no axis: {why}")]
     NoAxis {
         /// Reason, and advice.
         why: String,
     },
+}
+
+impl MeasuredError {
+    /// The axis is not along the stated direction.
+    pub(super) fn across(stated: Option<FaceSide>, off_deg: f64) -> Self {
+        let stated = stated.map_or("", FaceSide::name);
+        let why = format!("the plate's axis is {off_deg:.0}° from the stated {stated}, so that no side looks there");
+        Self::FaceUnclear { why }
+    }
+
+    /// The plate is flat, and its axis is level in the file.
+    pub(super) fn level(sides: [FaceSide; 2]) -> Self {
+        let [first, second] = sides;
+        let why = format!(
+            "the plate is flat, and neither side looks along the file's z: one looks along {first}, one along {second}"
+        );
+        Self::FaceUnclear { why }
+    }
+
+    /// Both sides could be the face: the second one rises a little.
+    pub(super) fn rising([upper, rising]: [FaceSide; 2]) -> Self {
+        let why = format!(
+            "the side towards {rising} of the file rises a little to its rim, the one towards {upper} does not, and both fit"
+        );
+        Self::FaceUnclear { why }
+    }
+
+    /// Both sides could be the face: the second one is much smoother. The deviations are theirs \[m\].
+    pub(super) fn smoother([upper, smoother]: [FaceSide; 2], deviations_m: [f64; 2]) -> Self {
+        let [rough, smooth] = deviations_m.map(millimetres);
+        let why = format!(
+            "the side towards {upper} of the file is {rough} off its profile, the one towards {smoother} {smooth}, so that the first one has a \
+             foot or a dent, and both fit"
+        );
+        Self::FaceUnclear { why }
+    }
 }

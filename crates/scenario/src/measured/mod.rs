@@ -1,6 +1,6 @@
 //! Plate from measurements: a mesh of its surface, such as a scan or a drawing, or points touched on its face with a probe.
 //!
-//! The face is the side that rises towards its rim; of a flat plate the one that looks most along the file's z. It ends at the lip, where it
+//! The face is the side that is stated, otherwise the one that rises towards its rim; of a flat plate the one that looks along the file's z. It ends at the lip, where it
 //! falls outwards by more than 45°, or at the greatest radius. Its profile is fitted to the vertices. The deviation is measured between the
 //! vertices, too, and is an upper bound; of points it is that at the points, and nothing is known between them. The pole is put so that the
 //! face is as far above its profile as below it: a dent of 1 mm is a deviation of 0.5 mm.
@@ -13,6 +13,7 @@
 //! | --- | --- |
 //! | unit of the file, points as text | `unit` |
 //! | equal corners joined; sides of a mesh, its face | `mesh` |
+//! | side that is the face | `side` |
 //! | axis | `axis`, `algebra` |
 //! | knots of the profile | `knots` |
 //! | heights on a grid: holes, picture | `face` |
@@ -28,11 +29,13 @@ mod face;
 mod knots;
 mod mesh;
 mod points;
+mod side;
 mod unit;
 
 pub use crate::measured::error::{MeasuredError, Place};
 pub use crate::measured::face::Relief;
 pub use crate::measured::points::{LEAST_POINTS, from_points};
+pub use crate::measured::side::FaceSide;
 pub use crate::measured::unit::{Unit, probe_points};
 
 use crate::measured::axis::{Fitted, Frame};
@@ -40,6 +43,7 @@ use crate::measured::body::{Body, Extremes, Ruler};
 use crate::measured::face::{Heights, check_slope, relief};
 use crate::measured::knots::{Profile, rings};
 use crate::measured::mesh::{Mesh, SECTORS};
+use crate::measured::side::{FLAT, Side};
 use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::trig::atan2;
@@ -61,8 +65,8 @@ const NOISE_M: f64 = 1e-5;
 /// Width of the rim in which facets that fall steeply belong to the lip \[m\].
 const LIP_M: f64 = 3e-3;
 
-/// Greatest difference of both sides' rises for which the plate is flat, as a share of the rim's radius.
-const FLAT: f64 = 0.01;
+/// Difference of deviations, beyond twice the lesser one, from which on the smoother side of a flat plate fits better \[m\].
+const CLEARLY_M: f64 = 2e-4;
 
 /// Number of rings in which a face is compared with its mean height.
 const ROUND_RINGS: usize = 72;
@@ -151,11 +155,16 @@ impl File {
 }
 
 /// Returns the plate of a mesh. The order of the triangles does not matter. Without a unit it is the one in which the diameter is from 145 mm
-/// to 365 mm.
+/// to 365 mm. Without a side the face is the one that rises to its rim, and of a flat plate the one towards the file's +z.
 ///
 /// # Errors
-/// [`MeasuredError`]: a mesh that is no round plate, has holes in its face, or deviates by more than [`MOST_DEVIATION_M`].
-pub fn from_mesh(triangles: &[[Point3<f64>; 3]], unit: Option<Unit>) -> Result<MeasuredPlate, MeasuredError> {
+/// [`MeasuredError`]: a mesh that is no round plate, has holes in its face, deviates by more than [`MOST_DEVIATION_M`], or does not tell which
+/// side is the face.
+pub fn from_mesh(
+    triangles: &[[Point3<f64>; 3]],
+    unit: Option<Unit>,
+    face: Option<FaceSide>,
+) -> Result<MeasuredPlate, MeasuredError> {
     let mut mesh = Mesh::new(triangles)?;
     let moments = mesh.moments();
     let axes = moments.spread.map(|(_, axis)| axis);
@@ -174,33 +183,69 @@ pub fn from_mesh(triangles: &[[Point3<f64>; 3]], unit: Option<Unit>) -> Result<M
     let mut refused = None;
     // Of a tall cup, the axis is the direction in which it is longest.
     for (axis, reach) in [0, 2].map(|k| axes[k]).into_iter().zip(reaches) {
-        let rim_m = reach * length_m;
         let frames = [1.0, -1.0].map(|side| Frame::new(&(axis * side), moments.middle * length_m));
-        let [rise_m, fall_m] = [0, 1].map(|k| mesh.rise_m(&frames[k], rim_m));
-        let is_flat = (rise_m - fall_m).abs() < FLAT * rim_m;
-        let first = if is_flat { axis.z >= 0.0 } else { rise_m > fall_m };
-        let order = if first { [0, 1] } else { [1, 0] };
-        let mut found: Option<MeasuredPlate> = None;
-        for k in order.into_iter().take(if is_flat { 2 } else { 1 }) {
-            match of_face(&mesh, &file, frames[k], rim_m) {
-                // Both sides of a flat plate may be its face, but not the one with a foot.
-                Ok(plate)
-                    if found
-                        .as_ref()
-                        .is_some_and(|first| first.deviation_m < 2.0 * plate.deviation_m) => {}
-                Ok(plate) => found = Some(plate),
-                Err(why) if refused.is_none() || matches!(why, MeasuredError::Steep { .. }) => refused = Some(why),
-                Err(_) => {}
+        match of_side(&mesh, &file, frames, reach * length_m, face) {
+            Ok(plate) => return Ok(plate),
+            Err(why) => {
+                let is_round = !matches!(why, MeasuredError::NotRound { .. });
+                if refused.is_none() || matches!(why, MeasuredError::Steep { .. }) {
+                    refused = Some(why);
+                }
+                if is_round {
+                    break;
+                }
             }
-        }
-        if let Some(plate) = found {
-            return Ok(plate);
-        }
-        if !matches!(refused, Some(MeasuredError::NotRound { .. })) {
-            break;
         }
     }
     Err(refused.unwrap_or(MeasuredError::Empty))
+}
+
+/// Returns the plate of the side that is the face, of the two whose axes are z of the frames, roughly.
+fn of_side(
+    mesh: &Mesh,
+    file: &File,
+    frames: [Frame; 2],
+    rim_m: f64,
+    stated: Option<FaceSide>,
+) -> Result<MeasuredPlate, MeasuredError> {
+    let [rise_m, fall_m] = [0, 1].map(|k| mesh.rise_m(&frames[k], rim_m));
+    let found = |k: usize| of_face(mesh, file, frames[k], rim_m);
+    let side = |k: usize| FaceSide::of(&frames[k].axis());
+    let (k, is_sure) = match Side::of(stated, &frames[0].axis(), rise_m - fall_m, rim_m) {
+        Side::Stated(k) => return found(k),
+        Side::Rising(k) => {
+            // A high ring near the rim, on which a flat plate stands, seems to be a rim.
+            let is_upper = frames[1 - k].axis().z > 0.0;
+            let is_flat = |plate: &MeasuredPlate| plate.surface.height_m(plate.surface.rim_m()) > -FLAT * rim_m;
+            return found(k).or_else(|why| match found(1 - k) {
+                Ok(plate) if is_upper && is_flat(&plate) => Ok(plate),
+                _ => Err(why),
+            });
+        }
+        Side::Across(off_deg) => return Err(MeasuredError::across(stated, off_deg)),
+        // That it is no plate is told first.
+        Side::Level => {
+            found(0).or_else(|_| found(1))?;
+            return Err(MeasuredError::level([side(0), side(1)]));
+        }
+        Side::Upper(k) => (k, true),
+        Side::UpperIfAlone(k) => (k, false),
+    };
+    let sides = [side(k), side(1 - k)];
+    // A side with a foot ring rises, too, but its profile does not fit well.
+    let is_rougher = |a: &MeasuredPlate, b: &MeasuredPlate| a.deviation_m > 2.0 * b.deviation_m + CLEARLY_M;
+    match (found(k), found(1 - k)) {
+        (Ok(plate), Ok(other)) if !is_sure && !is_rougher(&other, &plate) => Err(MeasuredError::rising(sides)),
+        (Ok(plate), Ok(other)) if is_rougher(&plate, &other) => {
+            Err(MeasuredError::smoother(sides, [plate.deviation_m, other.deviation_m]))
+        }
+        (Err(why), Ok(_)) => Err(MeasuredError::OtherSide {
+            why: Box::new(why),
+            tried: sides[0],
+            other: sides[1],
+        }),
+        (answer, _) => answer,
+    }
 }
 
 /// Returns the plate whose face looks along z of a frame, roughly.

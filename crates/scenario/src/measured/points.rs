@@ -5,8 +5,9 @@ use crate::measured::axis::{Cloud, Fitted, Frame};
 use crate::measured::body::{Extremes, Ruler};
 use crate::measured::face::{check_slope, outermost, relief};
 use crate::measured::knots::{Profile, rings};
+use crate::measured::side::Side;
 use crate::measured::{
-    FIRST_KNOTS, FLAT, File, MOST_DEVIATION_M, MeasuredError, MeasuredPlate, Place, Unit, is_coordinate,
+    FIRST_KNOTS, FaceSide, File, MOST_DEVIATION_M, MeasuredError, MeasuredPlate, Place, Unit, is_coordinate,
     out_of_round_m, smooth_enough, sparing,
 };
 use nalgebra::{Point3, Vector3};
@@ -42,7 +43,11 @@ const AZIMUTH_GAP: f64 = 1.75;
 ///
 /// # Errors
 /// [`MeasuredError`]: too few points, points that fix no axis or no profile, whose outermost ones are on no circle, or that deviate by more than [`MOST_DEVIATION_M`](crate::measured::MOST_DEVIATION_M).
-pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<MeasuredPlate, MeasuredError> {
+pub fn from_points(
+    points: &[Point3<f64>],
+    unit: Option<Unit>,
+    face: Option<FaceSide>,
+) -> Result<MeasuredPlate, MeasuredError> {
     if points.len() < LEAST_POINTS {
         let (found, least) = (points.len(), LEAST_POINTS);
         return Err(MeasuredError::Few { found, least });
@@ -71,7 +76,8 @@ pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<Measure
         .map(|point| (point.coords - moments.middle) * length_m)
         .collect();
     sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
-    let mut frame = side_of_points(&sorted, &axis, reach * length_m);
+    let first = side_of_points(&sorted, &axis, reach * length_m, face)?;
+    let mut frame = first;
     // A ring of the profile weighs as much as any other.
     let weight = |point: &Vector3<f64>| frame.local(point).xy().norm().max(0.05 * reach * length_m);
     let cloud: Cloud = sorted.iter().map(|point| (*point, weight(point))).collect();
@@ -88,7 +94,7 @@ pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<Measure
     let rim;
     if profile.steepness() < FLAT_SLOPE || is_unsure(unsure_m) {
         // The rim alone fixes the centre of a flat face.
-        frame = side_of_points(&sorted, &axis, reach * length_m);
+        frame = first;
         rim = outermost(sorted.iter().copied(), &frame, POINT_SECTORS);
         fitted.rim = &rim;
         profile = Profile::level(reach * length_m, count);
@@ -140,8 +146,14 @@ pub fn from_points(points: &[Point3<f64>], unit: Option<Unit>) -> Result<Measure
     smooth_enough(plate)
 }
 
-/// Returns the frame whose z is an axis or against it, so that points rise outwards; level ones look along the file's z.
-fn side_of_points(points: &[Vector3<f64>], axis: &Vector3<f64>, reach_m: f64) -> Frame {
+/// Returns the frame whose z is an axis or against it, towards the side that was touched: the one stated, or that to which points rise outwards;
+/// level ones look along the file's z.
+fn side_of_points(
+    points: &[Vector3<f64>],
+    axis: &Vector3<f64>,
+    reach_m: f64,
+    stated: Option<FaceSide>,
+) -> Result<Frame, MeasuredError> {
     let frame = Frame::new(axis, Vector3::zeros());
     let all: Vec<_> = points
         .iter()
@@ -157,12 +169,14 @@ fn side_of_points(points: &[Vector3<f64>], axis: &Vector3<f64>, reach_m: f64) ->
         ]
     });
     let rise_m = product / spread.max(f64::MIN_POSITIVE) * reach_m * reach_m;
-    let is_turned = if rise_m.abs() < FLAT * reach_m {
-        axis.z < 0.0
-    } else {
-        rise_m < 0.0
+    let sides = [*axis, -axis].map(|axis| FaceSide::of(&axis));
+    let side = match Side::of(stated, axis, 2.0 * rise_m, reach_m) {
+        Side::Stated(k) | Side::Rising(k) | Side::Upper(k) => k,
+        Side::Across(off_deg) => return Err(MeasuredError::across(stated, off_deg)),
+        Side::Level => return Err(MeasuredError::level(sides)),
+        Side::UpperIfAlone(k) => return Err(MeasuredError::rising([sides[k], sides[1 - k]])),
     };
-    Frame::new(&if is_turned { -axis } else { *axis }, Vector3::zeros())
+    Ok(Frame::new(&if side == 1 { -axis } else { *axis }, Vector3::zeros()))
 }
 
 /// Refuses points whose outermost ones are not on one circle, or not all round.

@@ -4,7 +4,7 @@
 
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::load::{MAX_BYTES, unread};
-use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
+use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
 use crate::resolve::mount::place_words;
 use crate::resolve::placement::ShapeKeys;
 use crate::scenario::Scenario;
@@ -34,7 +34,12 @@ const MOST: f64 = 1e5;
 const FARTHEST_M: f64 = 10.0;
 
 /// Keys of `[layout]` that state a measured shape.
-const OF_LAYOUT: [&str; 3] = ["layout.plate_mesh", "layout.plate_points", "layout.plate_unit"];
+const OF_LAYOUT: [&str; 4] = [
+    "layout.plate_mesh",
+    "layout.plate_points",
+    "layout.plate_unit",
+    "layout.plate_face",
+];
 
 /// Columns of a table of plates.
 const NAME: [&str; 1] = ["name"];
@@ -240,6 +245,7 @@ impl Scenario {
             layout.plate_mesh.take(),
             layout.plate_points.take(),
             layout.plate_unit.take(),
+            layout.plate_face.take(),
         );
         let plate = self.measure(stated, OF_LAYOUT, &mut files);
         let of_layout = plate.map_err(refused)?.map(|(index, plate)| {
@@ -252,7 +258,7 @@ impl Scenario {
         for (k, row) in read.plate.iter_mut().enumerate() {
             // A section without a shape of its own takes that of the layout.
             let has_own = row.has_shape();
-            let stated = (row.mesh.take(), row.points.take(), row.unit.take());
+            let stated = (row.mesh.take(), row.points.take(), row.unit.take(), row.face.take());
             let keys = OF_LAYOUT.map(|key| ShapeKeys(Some(k)).called(key));
             let plate = self
                 .measure(stated, keys.each_ref().map(String::as_str), &mut files)
@@ -299,8 +305,8 @@ impl Scenario {
     /// Measures the plate of a mesh or of points, if one of them is stated; adds it to the files, with its index.
     fn measure(
         &self,
-        (mesh, points, unit): (Option<PathBuf>, Option<PathBuf>, Option<Unit>),
-        [of_mesh, of_points, of_unit]: [&str; 3],
+        (mesh, points, unit, face): (Option<PathBuf>, Option<PathBuf>, Option<Unit>, Option<FaceSide>),
+        [of_mesh, of_points, of_unit, of_side]: [&str; 4],
         files: &mut ReadFiles,
     ) -> Result<Option<(usize, MeasuredPlate)>, Problem> {
         let is_probed = mesh.is_none();
@@ -311,6 +317,7 @@ impl Scenario {
         let misfit = |key: &str, path: &Path, error: MeasuredError| {
             let hint = match error {
                 MeasuredError::Unit { .. } => format!(" ({of_unit})"),
+                MeasuredError::OtherSide { .. } | MeasuredError::FaceUnclear { .. } => format!(" ({of_side})"),
                 _ => String::new(),
             };
             refused(key, path, format!("{error}{hint}"))
@@ -324,7 +331,7 @@ impl Scenario {
                 // Collada states its unit, and comes in metres.
                 let is_collada = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("dae"));
                 let unit = unit.or(is_collada.then_some(Unit::Metre));
-                let plate = self.solids.plate(&triangles, unit);
+                let plate = self.solids.plate(&triangles, unit, face);
                 let plate = plate.map_err(|error| misfit(of_mesh, &path, error))?;
                 (path, plate)
             }
@@ -332,7 +339,7 @@ impl Scenario {
                 let text = self.text_of(&path, of_points, MOST_TABLE_BYTES)?;
                 let touched = measured::probe_points(&text);
                 let (touched, stated) = touched.map_err(|error| refused(of_points, &path, error.to_string()))?;
-                let plate = measured::from_points(&touched, stated.or(unit));
+                let plate = measured::from_points(&touched, stated.or(unit), face);
                 let plate = plate.map_err(|error| misfit(of_points, &path, error))?;
                 (path, plate)
             }

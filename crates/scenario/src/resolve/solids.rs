@@ -1,7 +1,7 @@
 //! Meshes as convex bodies and as plates, cut and fitted once: a scenario is resolved again and again, for every seed of a sweep and every move on a page.
 
 use crate::error::BodyFault;
-use crate::measured::{self, MeasuredError, MeasuredPlate, Unit};
+use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
 use nalgebra::Point3;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::{MeshSource, MeshSplitter};
@@ -96,17 +96,19 @@ impl Solids {
         Ok(hulls)
     }
 
-    /// The plate of a mesh, in the unit stated.
+    /// The plate of a mesh, in the unit and with the face stated.
     pub(crate) fn plate(
         &self,
         triangles: &[[Point3<f64>; 3]],
         unit: Option<Unit>,
+        face: Option<FaceSide>,
     ) -> Result<MeasuredPlate, MeasuredError> {
-        let id = id(triangles, unit.map_or("", Unit::name));
+        let stated = format!("{}{}", unit.map_or("", Unit::name), face.map_or("", FaceSide::name));
+        let id = id(triangles, &stated);
         if let Some(plate) = self.plates.found(&id) {
             return Ok(plate);
         }
-        let plate = measured::from_mesh(triangles, unit)?;
+        let plate = measured::from_mesh(triangles, unit, face)?;
         self.plates.keep(id, plate.clone());
         Ok(plate)
     }

@@ -4,7 +4,7 @@
 
 use crate::error::{Problem, conflict};
 use crate::load::serialize_lossy;
-use crate::measured::Unit;
+use crate::measured::{FaceSide, Unit};
 use crate::sections::body_shape::pose;
 use crate::sections::robot::OriginLink;
 use platewash_keys::Section;
@@ -54,6 +54,11 @@ pub struct LayoutSection {
     #[key(domain = Word(&["m", "cm", "mm", "inch"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_unit: Option<Unit>,
+    /// Direction of the file in which the washed face of the mesh or the points looks. Without it, the side that rises to its rim; of a flat plate
+    /// the one towards +z.
+    #[key(domain = Word(&["+x", "-x", "+y", "-y", "+z", "-z"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate_face: Option<FaceSide>,
     /// Kind of soil on the plates: a name in wash.soil_file.
     #[key(domain = Text)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -201,11 +206,13 @@ impl LayoutSection {
                 None => Ok(()),
             };
         }
-        if self.plate_unit.is_some() {
-            return conflict(
-                "layout.plate_unit",
-                "is the unit of a mesh or of points, and there are none",
-            );
+        for (key, is_stated, what) in [
+            ("layout.plate_unit", self.plate_unit.is_some(), "unit"),
+            ("layout.plate_face", self.plate_face.is_some(), "face"),
+        ] {
+            if is_stated {
+                return conflict(key, format!("is the {what} of a mesh or of points, and there are none"));
+            }
         }
         if let (Some(profile), Some(_)) = (self.plate_profile, &self.plate_knots) {
             return conflict(
@@ -286,6 +293,10 @@ pub struct PlateSection {
     #[key(domain = Word(&["m", "cm", "mm", "inch"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
+    /// Direction of the file in which the washed face of the mesh or the points looks, as `layout.plate_face`.
+    #[key(domain = Word(&["+x", "-x", "+y", "-y", "+z", "-z"]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face: Option<FaceSide>,
     /// Name of this kind, where the plates are those of layout.plate_file: the section states a kind and no plate.
     #[key(domain = Text)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -340,6 +351,7 @@ impl PlateSection {
             own.plate_mesh.clone_from(&self.mesh);
             own.plate_points.clone_from(&self.points);
             own.plate_unit = self.unit;
+            own.plate_face = self.face;
         }
         own.plate_soil = self.soil.clone().or(own.plate_soil);
         own.plate_foot_m = self.foot_m.or(own.plate_foot_m);
