@@ -489,7 +489,9 @@ fn touched(truth: &Surface, rings: usize, sigma: f64, rng: &mut Pcg64) -> Vec<Po
             } else {
                 share + 0.02 * rng.random_range(-1.0..1.0)
             };
-        let phi = TAU * ((k % around) as f64 + rng.random_range(-0.3..0.3) + 0.5 * (ring % 2) as f64) / around as f64;
+        // Along the rim the places are even.
+        let aside = rng.random_range(-0.3..0.3) * if ring + 1 == rings { 0.5 } else { 1.0 };
+        let phi = TAU * ((k % around) as f64 + aside + 0.5 * (ring % 2) as f64) / around as f64;
         truth.point(rho, phi) + noise(rng, sigma)
     };
     (0..around * rings).map(point).collect()
@@ -812,11 +814,13 @@ fn a_rim_that_is_not_round_all_round_is_refused() {
     let square = |phi: f64| 0.1 / phi.cos().abs().max(phi.sin().abs());
     let oval = |phi: f64| 0.11 / (1.0 + 0.2 * phi.cos().powi(2)).sqrt();
     let round = |_: f64| 0.12;
+    let hexagon = |phi: f64| 0.1 / (phi.rem_euclid(TAU / 6.0) - TAU / 12.0).cos();
     for (name, points) in [
         ("square", of_rim(&square, 16)),
         ("corners", of_rim(&square, 8)),
         ("oval", of_rim(&oval, 24)),
-        ("few", of_rim(&round, 5)),
+        ("few", of_rim(&round, 7)),
+        ("hexagon", of_rim(&hexagon, 12)),
     ] {
         let why = from_points(&points, Some(Unit::Metre), None).unwrap_err();
         let is_told = matches!(

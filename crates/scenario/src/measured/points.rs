@@ -29,7 +29,7 @@ const POINT_SECTORS: usize = 12;
 
 /// Number of sectors whose outermost points tell the radius of the rim, and greatest difference of the azimuths of points on it \[rad\].
 const RIM_SECTORS: usize = 8;
-const RIM_GAP: f64 = 1.05;
+const RIM_GAP: f64 = 0.875;
 
 /// Greatest number of searches for knots and axis, and movement of the frame below which they are found \[m\].
 const MOST_SEARCHES: usize = 6;
