@@ -56,6 +56,20 @@ test("a file that has changed under changes of the page's own is asked about; ke
   assert.deepEqual([disk.conflict, disk.known, disk.unsaved], [null, { disk: "h3", saved: "mine" }, false]);
 });
 
+test("an answer under way does not ask again about what was kept apart meanwhile", async () => {
+  const { disk, page, answer } = newDisk();
+  page.text = "mine";
+  void disk.look();
+  await answer(changed);
+  void disk.look();
+  disk.keep();
+  await answer(changed);
+  assert.equal(conflictOf(disk), null);
+  void disk.look();
+  await answer({ kind: "disk", disk: "h3", text: "newer", words: null });
+  assert.equal(conflictOf(disk)?.text, "newer");
+});
+
 test("taking the file's text is a step and leaves nothing unsaved", async () => {
   const { disk, page, answer } = newDisk();
   page.text = "mine";

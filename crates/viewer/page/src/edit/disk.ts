@@ -132,7 +132,8 @@ export class Disk {
   }
 
   #seen(line: DiskLine, asked: string | null): void {
-    if (line.disk === asked) return;
+    // What was kept apart while the answer was under way is not asked about again.
+    if (line.disk === asked || line.disk === this.#kept) return;
     if (line.disk === null || line.text === null) {
       const words = line.words ?? (line.disk === null ? "The file is no longer there." : "The file has changed on disk and cannot be read as text.");
       this.#open({ words, text: null, disk: line.disk, saving: false });
