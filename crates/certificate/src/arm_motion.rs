@@ -243,7 +243,9 @@ fn joint_checks(arm: &RobotModel, pieces: &[Piece], rules: &MotionRules) -> Vec<
     }
     if is_limited {
         match jump(pieces, &accelerations, rules.rests_outside) {
-            Some(jump) => checks.extend(stated.map(|_| jump)),
+            Some(jump) if stated.is_some() => checks.push(jump),
+            // Where speeds jump, the description's limits can be broken, not kept.
+            Some(_) => checks.extend(Some(acceleration).filter(|check| check.status == Status::Violated)),
             None => checks.push(acceleration),
         }
     }

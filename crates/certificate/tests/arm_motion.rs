@@ -329,3 +329,23 @@ fn a_disabled_pair_that_meets_is_named() {
     }
     assert_eq!(disabled("reason=\"Default\"").disabled_meeting, []);
 }
+
+/// Where one piece has no speeds, the acceleration limits of a description can be broken in another one; they are not kept there.
+#[test]
+fn described_accelerations_are_judged_beside_a_jump() {
+    let text = IRB120_URDF.replace("effort=\"0\"", "effort=\"0\" acceleration=\"2\"");
+    let arm = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    let alone = Workcell::without_tool(&arm, Pose::identity(), Vec::new()).unwrap();
+    let zero = JointVector::zeros();
+    for (angle, status) in [(0.1, None), (0.8, Some(Status::Violated))] {
+        let [a, b, c] = [0.0, angle, angle + 0.1].map(joint_1);
+        let pieces = vec![
+            MotionPiece::cubic([0.0, 1.0], [a, b], [zero; 2]),
+            MotionPiece::line([1.0, 2.0], [b, c]),
+        ];
+        let motion = PiecewiseMotion::new(pieces).unwrap();
+        let proof = judged(&motion, &alone, &arm, &rules());
+        let check = proof.check(Requirement::JointAcceleration);
+        assert_eq!(check.map(|check| check.status), status, "{angle}");
+    }
+}

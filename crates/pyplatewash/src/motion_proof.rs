@@ -29,7 +29,8 @@ const CLEARANCE_M: f64 = 0.005;
 /// list of dictionaries with the keys of `[[obstacle]]`, or a dictionary of all three sections; nothing else is there. They are in the frame
 /// of the world, in which the arm's root link stands at `mount`, a pose of shape (4, 4), by default at its origin. `tool` is a `Tool`.
 /// `acceleration_limits`, shape (6,) [rad/s²], are judged where they are given: the arm rests before and behind straight lines, and with
-/// speeds it brakes behind the last point at these limits, which is judged, too.
+/// speeds it brakes behind the last point at these limits, which is judged, too. Limits that the arm's description states count, too, the lesser
+/// one of a joint; where speeds jump they are not judged, which `notes` says.
 ///
 /// Returns a record: `proved`, `verdict` (`"proved"`, `"broken"`, `"not_proved"`), `headline`, `rules` (each with `requirement`, `status`,
 /// `measure`, and the `worst` moment with `time_s`, `point`, `share`, `q_rad`), `clearance` pair by pair, `excluded` pairs, `assumptions`,

@@ -164,3 +164,28 @@ fn an_arm_at_the_origin_is_noted() {
         "{said}"
     );
 }
+
+/// A key of touched places or of a mesh is not dropped where there are none.
+#[test]
+fn keys_of_files_that_are_not_there_are_refused() {
+    let load_text = |text: &str| Scenario::parse(text, "mine").map_err(|error| error.to_string());
+    let plate =
+        |keys: &str| format!("[tool]\nlength_m = 0.15\n[[plate]]\nat_m = [0.4, 0, 0.05]\n{keys}[wash]\nheight_m = 0\n");
+    for (keys, words) in [
+        ("unit = \"mm\"\n", "plate[0].unit"),
+        ("face = \"-z\"\n", "plate[0].face"),
+    ] {
+        let found = load_text(&plate(keys)).unwrap_err();
+        assert!(
+            found.contains(words) && found.contains("of a mesh or of points"),
+            "{found}"
+        );
+    }
+    let listed = format!("[tool]\nlength_m = 0.15\n[layout]\n{LISTED}touched_from = \"base\"\n[wash]\nheight_m = 0\n");
+    let found = load_text(&listed).unwrap_err();
+    assert!(found.contains("layout.touched_from"), "{found}");
+    let folder = folder(RAISED, "", &format!("{TOUCHED}touched_from = \"base\"\n"));
+    std::fs::write(folder.path().join("plates.csv"), "name,x_m,y_m,z_m\none,0.3,0.3,0.03\n").unwrap();
+    let found = places(&folder).unwrap_err();
+    assert!(found.contains("touched_from") && found.contains("no column"), "{found}");
+}

@@ -193,13 +193,14 @@ impl Tool {
     /// # Errors
     /// [`ToolFrameError::NoMount`].
     pub fn on(self, robot: &RobotModel) -> Result<Self, ToolFrameError> {
-        let link = match &self.mounted_on {
-            Some(stated) => stated.clone(),
-            None => robot.find_tool_mount()?.to_string(),
-        };
+        let found = robot.find_tool_mount().map(|mount| mount.to_string());
         // A tool0 that is not along axis 6 is no default.
-        let is_default = link == ToolFrame::Tool0.name() && robot.find_tool_mount().is_ok();
-        let tool = self.mounted(Some(link).filter(|_| !is_default));
+        let is_default = |link: &String| link == ToolFrame::Tool0.name() && found.is_ok();
+        let link = match self.mounted_on.clone() {
+            Some(stated) => stated,
+            None => found.clone()?,
+        };
+        let tool = self.mounted(Some(link).filter(|link| !is_default(link)));
         tool.check_mount(robot)?;
         Ok(tool)
     }

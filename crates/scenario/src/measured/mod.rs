@@ -217,10 +217,8 @@ fn of_side(
             // A high ring near the rim, on which a flat plate stands, seems to be a rim.
             let is_upper = frames[1 - k].axis().z > 0.0;
             let is_flat = |plate: &MeasuredPlate| plate.surface.height_m(plate.surface.rim_m()) > -FLAT * rim_m;
-            return found(k).or_else(|why| match found(1 - k) {
-                Ok(plate) if is_upper && is_flat(&plate) => Ok(plate),
-                _ => Err(why),
-            });
+            let other = || found(1 - k).ok().filter(is_flat);
+            return found(k).or_else(|why| is_upper.then(other).flatten().ok_or(why));
         }
         Side::Across(off_deg) => return Err(MeasuredError::across(stated, off_deg)),
         // That it is no plate is told first.

@@ -1,6 +1,7 @@
 //! The side of a measured plate that is washed: stated, or unmistakable.
 
 use nalgebra::Vector3;
+use platewash_kinematics::trig::atan2;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -104,10 +105,7 @@ impl Side {
             let cosine = face.direction().dot(axis) / axis.norm();
             return match cosine.abs() >= STATED {
                 true => Self::Stated(usize::from(cosine < 0.0)),
-                false => Self::Across(
-                    platewash_kinematics::trig::atan2((1.0 - cosine * cosine).max(0.0).sqrt(), cosine.abs())
-                        .to_degrees(),
-                ),
+                false => Self::Across(atan2((1.0 - cosine * cosine).max(0.0).sqrt(), cosine.abs()).to_degrees()),
             };
         }
         let (rising, upper) = (usize::from(rise_m < 0.0), usize::from(axis.z < 0.0));

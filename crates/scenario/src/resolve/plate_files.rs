@@ -151,9 +151,24 @@ impl Scenario {
                 "both say where the plates are: leave one out",
             );
         }
+        if layout.touched_from.is_some() && layout.plate_file.is_none() {
+            return conflict(
+                "layout.touched_from",
+                "is of the touched places of layout.plate_file, and there is none",
+            );
+        }
         let rows = || self.plate.iter().enumerate();
         for (index, row) in rows() {
             let at = |name: &str| format!("plate[{index}].{name}");
+            let is_measured = row.mesh.is_some() || row.points.is_some();
+            for (key, is_stated) in [("unit", row.unit.is_some()), ("face", row.face.is_some())] {
+                if is_stated && !is_measured {
+                    conflict(
+                        at(key),
+                        format!("is the {key} of a mesh or of points, and there are none"),
+                    )?;
+                }
+            }
             match (&row.kind, &layout.plate_file) {
                 (Some(_), None) => conflict(
                     at("kind"),
@@ -277,6 +292,7 @@ impl Scenario {
             files.of_section.push(of_layout);
         }
         if let Some(path) = read.layout.plate_file.take() {
+            read.layout.touched_from = None;
             files.have_places = true;
             let kinds = std::mem::take(&mut read.plate);
             let of_kinds = std::mem::take(&mut files.of_section);
@@ -404,12 +420,18 @@ impl Scenario {
                 });
             }
         };
+        let at_head = |reason: String| TableError {
+            line: 1,
+            column: None,
+            reason,
+        };
         let touched = match is_touched {
-            true => Some(self.touched_frames().map_err(|reason| TableError {
-                line: 1,
-                column: None,
-                reason,
-            })?),
+            true => Some(self.touched_frames().map_err(at_head)?),
+            false if self.layout.touched_from.is_some() => {
+                return Err(at_head(
+                    "layout.touched_from is of touched places, and no column states any".to_owned(),
+                ));
+            }
             false => None,
         };
         let mut names: Vec<String> = Vec::new();
