@@ -580,7 +580,8 @@ fn assumptions(
         all.push(match (described, rules.acceleration_rad_s2) {
             (None, _) => words.to_owned(),
             (Some(_), None) => {
-                "Speed and acceleration limits are those of the description; accelerations of other joints are not judged.".to_owned()
+                "Speed limits are those of the description, and so are acceleration limits where they are judged; other accelerations are not."
+                    .to_owned()
             }
             (Some(_), Some(_)) => {
                 "Speed limits are those of the description; acceleration limits are the lesser of those stated and the description's."

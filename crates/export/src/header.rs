@@ -7,6 +7,7 @@ use crate::judgement::{Case, ProgramJudgement};
 use crate::maker_joints;
 use crate::points::Source;
 use crate::settings::ExportSettings;
+use crate::tool_frame;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
 use platewash_kinematics::tool_mount::ToolMount;
@@ -132,8 +133,12 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
         ),
     ];
     lines.extend(world.tool.mounted_on.as_deref().map(ToolMount::of).map(|mount| {
+        let flange = match tool_frame::check_mount(&world.tool, source.arm) {
+            Ok(()) => "the controller's flange is assumed to be there, its z along that axis",
+            Err(_) => "the controller's flange is not there, or looks another way",
+        };
         format!(
-            "tool: mounted on link {} along its {}; the controller's flange is assumed to be there, its z along that axis",
+            "tool: mounted on link {} along its {}; {flange}",
             quoted(mount.link),
             mount.axis
         )

@@ -19,10 +19,15 @@ use std::fmt;
 /// Number of digits of a hash that are shown.
 const HASH_DIGITS: usize = 12;
 
-/// Assumptions that hold for every job.
-const ASSUMPTIONS: [&str; 3] = [
-    "the arm matches its description and follows the planned motion exactly",
+/// Assumption about accelerations, of an arm whose description limits none, and of another.
+const REACHED: [&str; 2] = [
     "the joints and the tip reach the stated accelerations; no published values are known",
+    "the joints and the tip reach the stated accelerations",
+];
+
+/// Assumptions that hold for every job.
+const ASSUMPTIONS: [&str; 2] = [
+    "the arm matches its description and follows the planned motion exactly",
     "the collision shapes enclose the arm, the tool and the obstacles",
 ];
 
@@ -113,7 +118,7 @@ impl VerdictBasis {
             described_accelerations: described_accelerations(job, arm),
             home_rad: job.home_rad,
             waived_pairs: exclusions.waived,
-            assumptions: assumptions(job)
+            assumptions: assumptions(job, arm)
                 .into_iter()
                 .map(str::to_owned)
                 .chain(unchecked(arm))
@@ -153,9 +158,11 @@ impl VerdictBasis {
 }
 
 /// Returns the assumptions about a job.
-fn assumptions(job: &JobTerms) -> Vec<&'static str> {
+fn assumptions(job: &JobTerms, arm: &RobotModel) -> Vec<&'static str> {
     let flat = job.plates.iter().all(|plate| plate.surface.is_flat());
     let mut all = Vec::from(ASSUMPTIONS);
+    let is_limited = arm.limits().acceleration.iter().any(Option::is_some);
+    all.insert(1, REACHED[usize::from(is_limited)]);
     all.push(if flat { FLAT } else { CURVED });
     all.push(match (&job.requirements.contact, flat) {
         (Some(_), _) => FOUNDATION,
