@@ -5,6 +5,7 @@ use platewash_certificate::{
     ArmMotionProof, Check, Measure, MotionRules, PairBound, ProveError, Requirement, Status, Timing, prove_arm_motion,
 };
 use platewash_export::trajectory::{ExactTime, Interpolation, PointMotion};
+use platewash_kinematics::urdf::FollowerLink;
 use platewash_kinematics::words::{decimals_down, distinct_decimals, rounded};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
@@ -188,8 +189,8 @@ fn accelerations(arm: &RobotModel, given: Option<&JointVector>) -> JointVector {
     arm.limits().within_acceleration(&given)
 }
 
-/// Returns what the description states and this proof does not use: limits of accelerations where speeds jump, and whatever
-/// [`RobotModel::unused_statements`] names.
+/// Returns what the description states and this proof does not use: limits of accelerations where speeds jump, whatever
+/// [`RobotModel::unused_statements`] names, and links that are left out.
 fn notes_on_description(motion: &PointMotion, arm: &RobotModel, proof: &ArmMotionProof) -> Vec<String> {
     let is_limited = arm.limits().acceleration.iter().any(Option::is_some);
     let is_judged = motion.start.is_none() || proof.check(Requirement::JointAcceleration).is_some();
@@ -204,7 +205,8 @@ fn notes_on_description(motion: &PointMotion, arm: &RobotModel, proof: &ArmMotio
             many - 1
         ),
     });
-    jumps.into_iter().chain(named).collect()
+    let left_out = FollowerLink::clause(arm.left_out_links());
+    jumps.into_iter().chain(named).chain(left_out).collect()
 }
 
 impl MotionReport {

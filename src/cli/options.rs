@@ -2,13 +2,13 @@
 
 use super::description::{self, Description};
 use super::failure::internal;
-use super::numbers::seed;
+use super::numbers::{seed, within};
 use super::output::Progress;
-use anyhow::{Error, Result, bail};
+use anyhow::{Error, Result, anyhow, bail};
 use clap::error::{ContextKind, ContextValue};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, value_parser};
-use platewash::kinematics::urdf::Files;
+use platewash::kinematics::urdf::{Files, FixedJoints};
 use platewash::planner::{PlanError, Watch};
 use platewash::scenario::{Note, Program, ReducedClearanceSection, RobotSection, SHIPPED, ScenarioError, form};
 use platewash::workcell::words::printable;
@@ -58,6 +58,9 @@ pub struct Options {
     /// Links whose meshes count as a few convex parts that enclose them, not as their convex hulls
     #[arg(long, global = true, value_name = "LINK,…", value_delimiter = ',')]
     pub split_links: Vec<String>,
+    /// Joint that is not of the arm, such as a gripper's or a rail's, and the position at which it is held still [rad or m] (may be repeated)
+    #[arg(long, global = true, value_name = "JOINT=VALUE", value_parser = fixed_joint, allow_hyphen_values = true)]
+    pub fix: Vec<(String, f64)>,
     /// Link after joint 6 that carries the tool, and its axis along which the tool leaves it (z if left out) [default: tool0, or what the description tells]
     #[arg(long, global = true, value_name = "LINK[:AXIS]")]
     pub tool_mount: Option<String>,
@@ -104,8 +107,17 @@ impl Options {
             .map_err(internal)
     }
 
+    /// The joints that are held still.
+    pub fn fixed(&self) -> FixedJoints {
+        self.fix.iter().cloned().collect()
+    }
+
     /// Finds the description of an arm that is given by name, and expands a .xacro file.
     pub fn find_description(&mut self) -> Result<()> {
+        let is_again = |k: &usize| self.fix[..*k].iter().any(|(joint, _)| *joint == self.fix[*k].0);
+        if let Some(k) = (0..self.fix.len()).find(is_again) {
+            bail!("--fix: joint '{}' is stated twice", self.fix[k].0.escape_debug());
+        }
         self.files = installed_files();
         let mut description = match (&self.arm, &self.urdf) {
             (Some(name), _) => description::find(name)?,
@@ -167,6 +179,7 @@ impl Options {
                 (scenario.robot.start_deg, scenario.robot.home_deg) = (None, None);
             }
         }
+        scenario.robot.fixed.extend(self.fixed());
         if let Some(link) = &self.tool_mount {
             scenario.tool.mounted_on = Some(link.clone());
         }
@@ -183,6 +196,7 @@ impl Options {
             package_path: self.package_path.clone(),
             visual_shapes: self.visual_shapes,
             split_links: self.split_links.clone(),
+            fixed: self.fixed(),
             ..section
         }
     }
@@ -310,6 +324,13 @@ impl Options {
     }
 }
 
+/// A joint and its position.
+fn fixed_joint(text: &str) -> Result<(String, f64)> {
+    let expected = "must be a joint's name, an equals sign and a number, as in finger_joint=0.02";
+    let (name, at) = text.rsplit_once('=').ok_or_else(|| anyhow!("{expected}"))?;
+    Ok((name.to_owned(), within(at, -1e3..=1e3, expected)?))
+}
+
 /// The line of a scenario's links to split, as a file states it.
 fn split_text(scenario: &Scenario) -> String {
     match &scenario.robot.split_links[..] {
@@ -389,7 +410,7 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "study",
-        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links fix tool_mount",
         "the study file states its scenarios and seeds; leave it out",
     ),
     (
@@ -399,12 +420,12 @@ const REFUSED: [(&str, &str, &str); 8] = [
     ),
     (
         "scenario",
-        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount out",
+        "scenario seed urdf arm xacro_arg package_path srdf visual_shapes split_links fix tool_mount out",
         "scenario prints a shipped scenario as it is, `platewash scenario NAME`; leave it out",
     ),
     (
         "reproduce",
-        "scenario urdf arm xacro_arg package_path srdf visual_shapes split_links tool_mount",
+        "scenario urdf arm xacro_arg package_path srdf visual_shapes split_links fix tool_mount",
         "reproduce measures the paper's own scenarios and arm; leave it out",
     ),
 ];

@@ -11,9 +11,9 @@ use clap::{Args, ValueEnum};
 use platewash::certificate::ProveError;
 use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
+use platewash::kinematics::urdf::FixedJoints;
 use platewash::kinematics::urdf::file::read_text;
-use platewash::kinematics::urdf::{FixedJoints, UrdfError};
-use platewash::scenario::{ArmError, MeshPlaces, Note, ObstacleText, OriginLink, RobotSection, load_arm_with_fixed};
+use platewash::scenario::{MeshPlaces, Note, ObstacleText, OriginLink, RobotSection, load_arm_with_fixed};
 use platewash::viewer::page::html;
 use platewash::viewer::view::{ArmMotion, View};
 use platewash::workcell::workcell::Workcell;
@@ -45,10 +45,6 @@ pub struct ProveMotionArguments {
     /// these two differ
     #[arg(long, value_name = "LINK", value_parser = origin_link, requires = "mount")]
     mount_link: Option<OriginLink>,
-    /// Joint that does not move, and its position [rad or m]: one that the trajectory leaves out, or a further one of description or
-    /// trajectory, such as a gripper's (may be repeated)
-    #[arg(long, value_name = "JOINT=VALUE", value_parser = fixed_joint, allow_hyphen_values = true)]
-    fix: Vec<(String, f64)>,
     /// Clearance that every pair of bodies must keep [m], from 0 to 1; with 0 they must not touch
     #[arg(long, value_name = "M", default_value = "0.005", value_parser = clearance, allow_negative_numbers = true)]
     clearance: f64,
@@ -144,30 +140,14 @@ fn origin_link(text: &str) -> Result<OriginLink> {
     known.ok_or_else(|| anyhow!("must be root or base"))
 }
 
-/// A joint and its position.
-fn fixed_joint(text: &str) -> Result<(String, f64)> {
-    let expected = "must be a joint's name, an equals sign and a number, as in finger_joint=0.02";
-    let (name, at) = text.split_once('=').ok_or_else(|| anyhow!("{expected}"))?;
-    Ok((name.to_owned(), within(at, -1e3..=1e3, expected)?))
-}
-
 /// The arm with the joints that do not move.
 fn arm(options: &Options, fixed: &FixedJoints) -> Result<RobotModel> {
-    let section = options.robot_section(RobotSection::default());
-    let arm = load_arm_with_fixed(&section, &options.files, fixed).map_err(|error| {
-        use UrdfError::{AxisCount, Branch, JointKind, Mimic};
-        let could_be_fixed = matches!(
-            &error,
-            ArmError::Urdf {
-                error: AxisCount { .. } | Branch { .. } | JointKind { .. } | Mimic { .. },
-                ..
-            }
-        );
-        match could_be_fixed {
-            true => anyhow!("{error}; joints that do not move can be fixed: --fix JOINT=VALUE"),
-            false => Failure::from(error).into(),
-        }
-    })?;
+    // Others than the description's are the trajectory's.
+    let section = RobotSection {
+        fixed: FixedJoints::new(),
+        ..options.robot_section(RobotSection::default())
+    };
+    let arm = load_arm_with_fixed(&section, &options.files, fixed).map_err(Failure::from)?;
     options.warn(&Note::of_arm(&arm));
     Ok(arm)
 }
@@ -272,7 +252,7 @@ impl fmt::Display for ReportList {
 
 /// Judges the trajectories of an arm among obstacles.
 pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCode> {
-    let fixed: FixedJoints = arguments.fix.iter().cloned().collect();
+    let fixed = options.fixed();
     let arm = arm(options, &fixed)?;
     let cell = workcell(options, arguments, &arm)?;
     let path = &arguments.trajectory;

@@ -9,7 +9,7 @@ use clap::Args;
 use platewash::kinematics::controller_base::ControllerBase;
 use platewash::kinematics::ik::analytic::AnalyticArm;
 use platewash::kinematics::tool_mount::ToolMount;
-use platewash::kinematics::urdf::UnusedStatement;
+use platewash::kinematics::urdf::{FixedJoints, FollowerLink, UnusedStatement};
 use platewash::kinematics::words::{decimals_down, decimals_up};
 use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
@@ -44,6 +44,12 @@ struct Answer {
     /// Statements of the description that are not used.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unused_statements: Vec<UnusedStatement>,
+    /// Joints that are held still, with their positions \[rad, or m for a prismatic joint\].
+    #[serde(skip_serializing_if = "FixedJoints::is_empty")]
+    fixed_joints: FixedJoints,
+    /// Links that are left out, as joints carry them that follow an axis.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out_links: Vec<FollowerLink>,
     links: Vec<LinkRow>,
     tool_mount: Option<ToolMountRow>,
     /// Reason that no link is known to carry the tool.
@@ -180,6 +186,8 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
             .within_acceleration(&scenario.limits.joint_acceleration_rad_s2.into())
             .into(),
         unused_statements: robot.unused_statements().to_vec(),
+        fixed_joints: robot.fixed_joints().clone(),
+        left_out_links: robot.left_out_links().to_vec(),
         links: robot.links().iter().map(|link| LinkRow::new(&robot, link)).collect(),
         no_tool_mount: tool_mount.as_ref().err().cloned(),
         tool_mount: tool_mount
@@ -378,7 +386,7 @@ impl Answer {
         }
     }
 
-    /// Lines on soft limits, jerk and friction that the description states, and on what of it is not used.
+    /// Lines on joints that do not move, links that are left out, soft limits, jerk and friction that the description states, and on what of it is not used.
     fn stated_text(&self) -> String {
         let of = |what: &dyn Fn(&JointRow) -> Option<String>| {
             let told = self
@@ -397,7 +405,14 @@ impl Answer {
             let [viscous, coulomb] = joint.friction?;
             Some(format!("{viscous} N·m·s/rad and {coulomb} N·m"))
         });
+        let held = self.fixed_joints.iter().map(|(joint, at)| format!("{joint} at {at}"));
+        let left_out = self.left_out_links.iter().map(ToString::to_string);
         let lines = [
+            ("held still: ", held.collect::<Vec<_>>().join(", ")),
+            (
+                "links left out, as joints carry them that follow an axis: ",
+                left_out.collect::<Vec<_>>().join(", "),
+            ),
             ("position limits of the safety controller: ", soft),
             ("jerk limits, which nothing keeps: ", jerk),
             ("friction, used by simulations (plant.*): ", friction),
@@ -411,7 +426,7 @@ impl Answer {
             .collect();
         match unused.is_empty() {
             true => lines,
-            false => format!("{lines}stated, and not used:\n{unused}"),
+            false => format!("{lines}stated, and not used or not complete:\n{unused}"),
         }
     }
 

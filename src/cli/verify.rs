@@ -138,6 +138,10 @@ fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(PlanC
     let options = Options {
         scenario: Some(name.to_owned()),
         seed: options.seed.or(Some(plan.job.seed)),
+        fix: match &options.urdf {
+            Some(_) if options.fix.is_empty() => plan.job.workcell.arm.fixed.clone().into_iter().collect(),
+            _ => options.fix.clone(),
+        },
         ..options.clone()
     };
     let scenario = options.scenario()?;

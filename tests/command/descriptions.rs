@@ -110,7 +110,7 @@ fn soft_limits_are_kept_and_unused_statements_are_named() {
     for words in [
         "position limits of the safety controller: joint_1 (both), joint_2 (both)",
         "jerk limits, which nothing keeps: joint_1 80 rad/s³",
-        "stated, and not used:\n  joint 'joint_1', limit: jerk=\"80\" (line ",
+        "stated, and not used or not complete:\n  joint 'joint_1', limit: jerk=\"80\" (line ",
     ] {
         assert!(said.contains(words), "{words}: {said}");
     }

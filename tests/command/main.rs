@@ -18,6 +18,7 @@ mod export;
 mod figures;
 mod files;
 mod golden;
+mod held_joints;
 mod hostile_names;
 mod ignored;
 mod infeasible;

@@ -292,7 +292,7 @@ fn joints_that_do_not_move_are_fixed() {
     );
     let all = ["--urdf", &arm, "--fix", "slide=0.05"];
     prove(dir, &[&[&file[..]], &all[..2]].concat())
-        .refused(2, &["arm.urdf", "'slide' is prismatic", "--fix JOINT=VALUE"]);
+        .refused(2, &["arm.urdf", "'slide' is prismatic", "--fix slide=VALUE"]);
     prove(dir, &[&[&file[..]], &all[..]].concat()).refused(2, &["path.csv:1", "\"wrist_3_joint\" is missing"]);
     prove(dir, &[&file, "--urdf", &arm, "--fix", "slide=0.2"])
         .refused(2, &["'slide' is fixed at 0.2, beyond its limits 0 … 0.1"]);

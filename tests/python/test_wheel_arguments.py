@@ -36,7 +36,7 @@ GOOD: dict[str, Any] = {
     "polyline": [[0.0, 0.0], [0.1, 0.0]], "centre": [0.0, 0.0], "radius_m": 0.1, "sponge_radius_m": 0.02, "cell_m": 0.01, "cells": 9, "start": [0.3, 0.0, 0.1],
     "end": [0.0, 0.3, 0.1], "points": 5, "height_m": 0.25, "waypoints": np.eye(3), "samples": 20, "interpolation": "c2_spline", "scenario": "paper-appendix",
     "layout": pw.place_plates("paper-appendix"), "layouts": 1, "draws": 1, "arguments": ["--version"], "name_or_file": "kitchen", "source": "here", "table": {"layout": {"region": "text"}},
-    "key": "wash", "path": "plan.json", "urdf": "arm.urdf", "srdf": "arm.srdf", "package_path": ["."], "folder": ".", "visual_shapes": False, "split_links": [], "memo": {}, "iterations": 3, "method": "dls",
+    "key": "wash", "path": "plan.json", "urdf": "arm.urdf", "srdf": "arm.srdf", "package_path": ["."], "folder": ".", "visual_shapes": False, "split_links": [], "fixed": {}, "memo": {}, "iterations": 3, "method": "dls",
     "position_error_m": 0.0, "orientation_error_rad": 0.0, "chord_error_m": 1e-3, "turns": 3.0, "start_angle_rad": 0.0, "trim_rad": 0.0, "closing_ring": True, "length_m": 0.1,
     "sponge_height_m": 0.02, "sponge_compression_m": 0.005, "sponge_stiffness_pa": (11e3, 44e3), "mass_kg": 0.3, "com_m": 0.05, "inertia_kg_m2": (1.0, 0.0, 0.0, 1.0, 0.0, 1.0), "x_m": 0.3, "y_m": 0.0, "z_m": 0.03,
     "thickness_m": 0.02, "position_tolerance_m": 1e-6, "orientation_tolerance_rad": 1e-6, "max_iterations": 60, "max_qp_iterations": 30, "step_bound_rad": 0.7,

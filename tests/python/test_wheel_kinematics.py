@@ -274,3 +274,37 @@ def test_copies_and_pickles_are_equal(robot: pw.Robot) -> None:
         assert thing != 3 and not thing == "x"
         assert type(thing).__name__ in repr(thing)
     assert hash(pickle.loads(pickle.dumps(robot))) == hash(robot)
+
+
+GRIPPER = """<link name="left"/><link name="right"/>
+<joint name="finger" type="prismatic"><parent link="flange"/><child link="left"/><axis xyz="0 1 0"/><limit lower="0" upper="0.05" velocity="1"/></joint>
+<joint name="other" type="prismatic"><parent link="flange"/><child link="right"/><axis xyz="0 1 0"/><mimic joint="finger" multiplier="-1"/></joint>
+<link name="cylinder"/><joint name="balancer" type="continuous"><parent link="link_1"/><child link="cylinder"/><mimic joint="joint_2" multiplier="-0.25"/></joint>
+</robot>"""
+
+
+def test_joints_that_are_not_of_the_arm_are_held_still(robot: pw.Robot, tmp_path: Path) -> None:
+    text = robot.urdf.replace("</robot>", GRIPPER)
+    path = tmp_path / "arm.urdf"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(pw.UrdfError, match="joint 'finger' is prismatic"):
+        pw.Robot.from_urdf(text)
+    arm = pw.Robot.from_urdf(text, fixed={"finger": 0.02})
+    with pytest.warns(UserWarning, match="links that are not judged, as joints carry them that follow an axis: 'cylinder'"):
+        assert arm == pw.Robot.load(path, fixed={"finger": 0.02})
+    assert arm.fixed_joints == {"finger": 0.02, "other": -0.02}
+    assert arm.left_out_links == ["cylinder"]
+    assert "cylinder" not in arm.link_names
+    q = np.full(6, 0.1)
+    apart = np.linalg.inv(arm.fk(q, "right")) @ arm.fk(q, "left")
+    np.testing.assert_allclose(apart[:3, 3], [0.0, 0.04, 0.0], atol=1e-12)
+    copy = pickle.loads(pickle.dumps(arm))
+    assert copy == arm
+    assert copy.fixed_joints == arm.fixed_joints
+    assert arm != pw.Robot.from_urdf(text, fixed={"finger": 0.01})
+    for wrong, words in [({"joint_1": 0.0, "finger": 0.0}, "joint_1.*one of the six axes"), ({"finger": 0.06}, "beyond its limits"), ({"finger": 0.0, "thumb": 0.0}, "no joint of that name")]:
+        with pytest.raises(pw.UrdfError, match=words):
+            pw.Robot.from_urdf(text, fixed=wrong)
+    for bad in ["finger", {"finger": "0"}, {1: 0.0}, [("finger", 0.0)]]:
+        with pytest.raises(TypeError, match="fixed"):
+            pw.Robot.from_urdf(text, fixed=bad)  # type: ignore[arg-type]

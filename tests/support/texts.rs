@@ -97,6 +97,12 @@ fn value_of(domain: Domain) -> BoxedStrategy<Value> {
         Domain::Names => prop::collection::vec("[a-z_\"'\\\\é]{1,6}", 0..4)
             .prop_map(Value::from)
             .boxed(),
+        Domain::Positions(least, most) => {
+            let name = "[a-z_.\"'\\\\é]{1,6}";
+            prop::collection::btree_map(name, number(least, most, false), 0..4)
+                .prop_map(|all| Value::Object(all.into_iter().collect()))
+                .boxed()
+        }
         Domain::Word(words) => prop::sample::select(words).prop_map(Value::from).boxed(),
         Domain::Bool => any::<bool>().prop_map(Value::from).boxed(),
         Domain::Integer(least, most) => prop_oneof![least..=most, least..=most.min(least + 60)]

@@ -19,6 +19,7 @@ fn told(name: &str, change: impl Fn(&mut VerdictBasis)) -> String {
         requirements: job.requirements,
         limits: job.limits,
         described_accelerations: Vec::new(),
+        left_out_links: Vec::new(),
         home_rad: job.home_rad,
         waived_pairs: Vec::new(),
         soils: Vec::new(),

@@ -257,6 +257,7 @@ fn id(scenario: &Scenario) -> String {
         &robot.package_path,
         robot.visual_shapes,
         &robot.split_links,
+        &robot.fixed,
     );
     let shown = scenario.limits.joint_acceleration_rad_s2;
     sha256_hex(format!("{named:?} {written:?} {shown:?}").as_bytes())

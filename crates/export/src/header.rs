@@ -132,6 +132,12 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             mm(sponge.compression_m)
         ),
     ];
+    if !world.arm.fixed.is_empty() {
+        lines.push(format!(
+            "held still: {} (rad, or m where it slides): this program does not move them, and they must be there before it runs",
+            world.arm.fixed_words()
+        ));
+    }
     lines.extend(world.tool.mounted_on.as_deref().map(ToolMount::of).map(|mount| {
         let flange = match tool_frame::check_mount(&world.tool, source.arm) {
             Ok(()) => "the controller's flange is assumed to be there, its z along that axis",

@@ -21,6 +21,7 @@
 //! | the built-in arm | [`irb120`] |
 //! | joint limits and margins | [`limits`] |
 //! | shapes: collision and looks | [`geometry`] |
+//! | inertias that no body has | [`inertia`] |
 //! | tool frames by name | [`tool_frame`] |
 //! | the link and axis that carry a tool, stated or found | [`tool_mount`] |
 //! | the frame from which the controller counts | [`controller_base`] |
@@ -54,6 +55,7 @@ pub mod fingerprint;
 pub mod geometry;
 pub mod halton;
 pub mod ik;
+pub mod inertia;
 pub mod irb120;
 mod lanes;
 pub mod limits;

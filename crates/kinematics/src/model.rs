@@ -20,7 +20,7 @@ use crate::limits::{JointFriction, JointLimits};
 use crate::rotation::{Columns, RigidTransform};
 use crate::srdf::DisabledPairs;
 use crate::trig::{atan2, sin_cos_vector};
-use crate::urdf::{FixedJoints, UnusedStatement};
+use crate::urdf::{FixedJoints, FollowerLink, UnusedStatement};
 use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
@@ -59,6 +59,7 @@ pub struct RobotModel {
     pub(crate) limits: JointLimits,
     pub(crate) friction: JointFriction,
     pub(crate) unused: Vec<UnusedStatement>,
+    pub(crate) left_out: Vec<FollowerLink>,
     pub(crate) folded: [RigidTransform; AXES],
     pub(crate) links: Vec<Link>,
     pub(crate) last_link: Frame,
@@ -77,7 +78,8 @@ impl RobotModel {
     /// # Errors
     /// [`SrdfError::UnknownLink`] if the list names a link that this arm does not have.
     pub fn with_disabled_pairs(mut self, disabled: DisabledPairs) -> Result<Self, SrdfError> {
-        disabled.check_links(self.links.iter().map(|l| l.name.as_str()))?;
+        let left_out = self.left_out.iter().map(|left_out| left_out.link.as_str());
+        disabled.check_links(self.links.iter().map(|l| l.name.as_str()).chain(left_out))?;
         self.disabled = Some(disabled);
         Ok(self)
     }
@@ -119,10 +121,29 @@ impl RobotModel {
         &self.friction
     }
 
-    /// Statements of the description that are not used, other than those that cannot matter (`docs/urdf.md`), in the order of the file.
+    /// Links of the description that are left out, as joints carry them that follow an axis (`mimic`): no clearance of them is known.
+    #[must_use]
+    pub fn left_out_links(&self) -> &[FollowerLink] {
+        &self.left_out
+    }
+
+    /// Statements of the description that are not used or not complete, other than those that cannot matter (`docs/urdf.md`), in the order
+    /// of the file.
     #[must_use]
     pub fn unused_statements(&self) -> &[UnusedStatement] {
         &self.unused
+    }
+
+    /// The first of these statements in words, from "what is not used" on, and how many more there are; `None` without any.
+    #[must_use]
+    pub fn unused_words(&self) -> Option<String> {
+        let listed: Vec<_> = self.unused.iter().take(LISTED).map(ToString::to_string).collect();
+        let more = match self.unused.len().saturating_sub(LISTED) {
+            0 => String::new(),
+            more => format!("; and {more} more, which `platewash robot` lists"),
+        };
+        let listed = listed.join("; ");
+        (!listed.is_empty()).then(|| format!("what is not used or not complete: {listed}{more}"))
     }
 
     /// Every link of the description, ordered from the root outwards.
@@ -269,6 +290,9 @@ impl RobotModel {
         &self.folded
     }
 }
+
+/// Number of unused statements that a note lists.
+const LISTED: usize = 3;
 
 /// Square of the sine below which two axes count as parallel.
 const PARALLEL: f64 = 1e-9;

@@ -340,6 +340,38 @@ fn reads_meshes_by_relative_and_absolute_paths() {
     }
 }
 
+/// A name is taken as it is where there is such a file, otherwise as an address.
+#[test]
+fn reads_percent_signs_of_names_as_in_addresses() {
+    let folder = TempDir::new().unwrap();
+    let write = |name: &str, size: f32| {
+        let scaled: Vec<_> = tetrahedron().iter().map(|t| t.map(|p| p.map(|c| c * size))).collect();
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, ascii_stl("", &scaled)).unwrap();
+    };
+    write("arm/my part.stl", 1.0);
+    write("arm/tür.stl", 2.0);
+    write("arm/50%25.stl", 3.0);
+    write("arm/50%.stl", 4.0);
+    let source = MeshSource::new(&[folder.path().to_owned()], Some(folder.path()));
+    for (name, size) in [
+        ("package://arm/my%20part.stl", 1.0),
+        ("file://arm/my%20part.stl", 1.0),
+        ("arm/my part.stl", 1.0),
+        ("arm/t%C3%BCr.stl", 2.0),
+        ("arm/50%25.stl", 3.0),
+        ("arm/50%.stl", 4.0),
+    ] {
+        let robot = RobotModel::from_urdf(&with_mesh(&format!("filename=\"{name}\"")), &source).unwrap();
+        assert_points(&vertices(&robot), &CORNERS, [size; 3]);
+    }
+    let error = RobotModel::from_urdf(&with_mesh("filename=\"arm/no%20part.stl\""), &source)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("mesh 'arm/no%20part.stl' not found"), "{error}");
+}
+
 // ---- what is refused ----
 
 #[test]

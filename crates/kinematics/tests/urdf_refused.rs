@@ -58,10 +58,10 @@ fn rejects_a_missing_velocity() {
     let limit = r#"<limit lower="-1.91986" upper="1.91986" effort="0"/>"#;
     assert_refused!(
         with_limit_2(limit),
-        UrdfError::Syntax { .. },
+        UrdfError::Velocity { .. },
         "joint 'joint_2'",
-        "line 431",
-        "velocity"
+        "speed limit",
+        "found none"
     );
 }
 
@@ -354,9 +354,13 @@ fn rejects_other_kinds_of_joint() {
 }
 
 #[test]
-fn rejects_mimic_joints() {
+fn rejects_axes_that_move_each_other() {
     let text = with_joint("joint_3", "<axis", "<mimic joint=\"joint_2\" multiplier=\"-1\"/><axis");
-    assert_refused!(text, UrdfError::Mimic { .. }, "'joint_3'", "'joint_2'");
+    assert_refused!(text, UrdfError::Coupled { .. }, "'joint_3'", "'joint_2'", "'joint_4'");
+    for leader in ["joint_3", "nowhere", "joint_6-flange"] {
+        let text = with_joint("joint_3", "<axis", &format!("<mimic joint=\"{leader}\"/><axis"));
+        assert_refused!(text, UrdfError::NoLeader { .. }, "'joint_3'", leader);
+    }
 }
 
 #[test]
@@ -377,7 +381,6 @@ fn rejects_elements_without_required_parts() {
             "<joint> without a name",
             "name",
         ),
-        (edited(&[("<mass value=\"0.137\"/>", "")]), "link 'link_6'", "mass"),
         (
             edited(&[("<sphere radius=\"0.0255\"/>", "<sphere/>")]),
             "link 'link_6'",

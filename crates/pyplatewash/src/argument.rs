@@ -14,8 +14,9 @@ use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBool, PyBytes, PyComplex, PyFloat, PyInt, PyString, PyType};
+use pyo3::types::{PyBool, PyBytes, PyComplex, PyFloat, PyInt, PyMapping, PyString, PyType};
 use pyo3::{PyClass, intern};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Largest number of characters of a value that a message shows.
@@ -147,6 +148,25 @@ pub fn names(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Strin
         Some(value) if value.is_instance_of::<PyString>() => Err(wrong_type(name, value, needed)),
         Some(value) => each(name, value, needed, |name, item| text(name, item, "a name")),
     }
+}
+
+/// A mapping of names to numbers, empty if left out.
+///
+/// # Errors
+/// `InputTypeError` for what is no mapping of texts to numbers, `InputError` for a number that is not finite.
+pub fn positions(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<BTreeMap<String, f64>> {
+    let Some(value) = value else {
+        return Ok(BTreeMap::new());
+    };
+    let needed = "a dict of names with numbers";
+    let mapping = value.cast::<PyMapping>().map_err(|_| wrong_type(name, value, needed))?;
+    each(name, mapping.items()?.as_any(), needed, |_, item| {
+        let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let key = text(name, &key, "a name")?;
+        let value = number(&format!("{name}['{}']", key.escape_debug()), &value)?;
+        Ok((key, value))
+    })
+    .map(|pairs| pairs.into_iter().collect())
 }
 
 /// The items of a sequence, each read by `read` under its own name.

@@ -120,12 +120,14 @@ impl Scenario {
         }
         self.check_tool()?;
         let robot = &self.robot;
-        let is_described = robot.srdf.is_some() || !robot.package_path.is_empty() || !robot.split_links.is_empty();
-        if robot.urdf.is_none() && is_described {
-            return conflict(
-                "robot.urdf",
-                "robot.srdf, robot.package_path and robot.split_links need a robot.urdf",
-            );
+        let of_description = [
+            ("srdf", robot.srdf.is_some()),
+            ("package_path", !robot.package_path.is_empty()),
+            ("split_links", !robot.split_links.is_empty()),
+            ("fixed", !robot.fixed.is_empty()),
+        ];
+        if let (None, Some((key, _))) = (&robot.urdf, of_description.iter().find(|(_, is_stated)| *is_stated)) {
+            return conflict("robot.urdf", format!("robot.{key} needs a robot.urdf"));
         }
         if self.job.program == Program::Paper && self.job.order == OrderRule::Fastest {
             return conflict(

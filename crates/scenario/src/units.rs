@@ -1,6 +1,8 @@
 //! Notes, not errors: values that were probably meant in another unit, a home that is left open, links that nothing checks.
 
 use crate::scenario::Scenario;
+use platewash_kinematics::inertia::ImplausibleInertia;
+use platewash_kinematics::urdf::FollowerLink;
 use platewash_kinematics::words::{decimals_up, rounded};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::words::quoted;
@@ -60,6 +62,29 @@ pub enum Note {
         robot: String,
         /// The links.
         links: Vec<String>,
+    },
+    /// Statements of an arm's description that are not used or not complete.
+    UnusedStatements {
+        /// Name of the arm.
+        robot: String,
+        /// The first ones in words.
+        words: String,
+    },
+    /// Links that are left out, as joints carry them that follow an axis: nothing is judged of them.
+    LeftOutLinks {
+        /// Name of the arm.
+        robot: String,
+        /// Clause that names the links.
+        words: String,
+    },
+    /// Inertias that no body of the link's mass and size has.
+    ImplausibleInertias {
+        /// Name of the arm.
+        robot: String,
+        /// The first of them.
+        first: ImplausibleInertia,
+        /// Number of further ones.
+        more: usize,
     },
     /// A plate that was measured.
     MeasuredPlate {
@@ -132,7 +157,18 @@ impl Note {
             root: base.root.to_owned(),
             base: base.to_string(),
         });
-        long.into_iter().chain(bare).chain(visual).chain(base).collect()
+        let words = robot.unused_words();
+        let unused = words.map(|words| Self::UnusedStatements { robot: name(), words });
+        let words = FollowerLink::clause(robot.left_out_links());
+        let left_out = words.map(|words| Self::LeftOutLinks { robot: name(), words });
+        let mut inertias = robot.implausible_inertias();
+        let inertias = inertias.next().map(|first| Self::ImplausibleInertias {
+            robot: name(),
+            first,
+            more: inertias.count(),
+        });
+        let all = [long, bare, visual, base, unused, left_out, inertias];
+        all.into_iter().flatten().collect()
     }
 }
 
@@ -171,6 +207,24 @@ impl fmt::Display for Note {
                 f,
                 "robot {robot}: the controller counts from {base}; places here count from the world, poses of the arm from link '{root}'"
             ),
+            Self::UnusedStatements { robot, words } => write!(f, "robot {robot}: the description states {words}"),
+            Self::LeftOutLinks { robot, words } => write!(f, "robot {robot}: {words}"),
+            Self::ImplausibleInertias { robot, first, more } => {
+                let [least, most] = first.possible_kg_m2.map(|moment| rounded(moment, DIGITS));
+                write!(
+                    f,
+                    "robot {robot}: link '{}' of {} kg, within {} m of its centre of mass, has a moment of inertia of {} kg·m²; bodies of \
+                     that mass and size have {least} to {most}{}",
+                    first.link,
+                    first.mass_kg,
+                    rounded(first.radius_m, DIGITS),
+                    rounded(first.found_kg_m2, DIGITS),
+                    match more {
+                        0 => String::new(),
+                        more => format!("; {more} more links have implausible ones, too"),
+                    }
+                )
+            }
             Self::MeasuredPlate {
                 file,
                 unit,

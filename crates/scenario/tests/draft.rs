@@ -302,3 +302,60 @@ fn keys_of_sections_that_are_not_there_are_refused() {
     let nested = refused("[[plate]]\n[plate.at_m]\nx = 1\n", "plate[0].at_m", json!([0, 0, 0]));
     assert!(matches!(nested, EditError::Blocked { line: 2, .. }), "{nested}");
 }
+
+/// Joints that are held still are a table: in braces, with a header of its own, or with dots.
+#[test]
+fn positions_of_joints_are_a_table() {
+    let all = json!({"rail": 0.3, "tip/finger 2": -2.0});
+    for text in [
+        "[robot]\nurdf = \"arm.urdf\"\nfixed = { rail = 0.3, \"tip/finger 2\" = -2 }\n",
+        "[robot]\nurdf = \"arm.urdf\"\n[robot.fixed]\nrail = 0.3\n\"tip/finger 2\" = -2\n",
+        "robot.urdf = \"arm.urdf\"\nrobot.fixed.rail = 0.3\nrobot.fixed.\"tip/finger 2\" = -2\n",
+    ] {
+        let draft = Draft::new(&format!("{text}[layout]\nregion = \"text\"\n")).unwrap();
+        let fixed = &draft.stated()["robot.fixed"];
+        assert_eq!(fixed.to_string(), r#"{"rail":0.3,"tip/finger 2":-2}"#, "{text}");
+        let scenario = draft.scenario("case", None).unwrap();
+        assert_eq!(json!(scenario.robot.fixed), all);
+    }
+    let mut draft = Draft::new("[robot]\nurdf = \"arm.urdf\"  # mine\n").unwrap();
+    for (value, line) in [
+        (json!({"rail": 0.3}), "fixed = { rail = 0.3 }\n"),
+        (
+            json!({"rail": 0.25, "tip/finger 2": 1.0}),
+            "fixed = { rail = 0.25, \"tip/finger 2\" = 1.0 }\n",
+        ),
+        (json!({}), "fixed = {}\n"),
+    ] {
+        draft.set("robot.fixed", Some(&value)).unwrap();
+        assert_eq!(draft.text(), format!("[robot]\nurdf = \"arm.urdf\"  # mine\n{line}"));
+    }
+    draft.set("robot.fixed", None).unwrap();
+    assert_eq!(draft.text(), "[robot]\nurdf = \"arm.urdf\"  # mine\n");
+    for (wrong, found) in [
+        ("[\"rail\"]", "[\"rail\"]"),
+        ("{ rail = \"far\" }", "a section"),
+        ("{ rail = nan }", "a section"),
+        ("{ rail = 1001.0 }", "a section"),
+        ("{ \"\" = 1 }", "a section"),
+        ("{ rail = { at = 1 } }", "a section"),
+        ("0.3", "0.3"),
+    ] {
+        let text = format!("[robot]\nurdf = \"arm.urdf\"\nfixed = {wrong}\n[layout]\nregion = \"text\"\n");
+        let error = Draft::new(&text)
+            .unwrap()
+            .scenario("case", None)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("line 3: robot.fixed") && error.contains("a table of numbers") && error.contains(found),
+            "{error}"
+        );
+    }
+    let error = Draft::new("[robot]\nfixed = { rail = 1 }\n[layout]\nregion = \"text\"\n")
+        .unwrap()
+        .scenario("case", None)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("robot.fixed needs a robot.urdf"), "{error}");
+}

@@ -18,8 +18,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Most arms that are kept.
 const MOST_ARMS: usize = 64;
 
-/// Source of an arm: URDF, SRDF, folders of its meshes, whether visuals are shapes, links that are split.
-type ArmSource = (Option<PathBuf>, Option<PathBuf>, Vec<PathBuf>, bool, Vec<String>);
+/// Source of an arm: URDF, SRDF, folders of its meshes, whether visuals are shapes, links that are split, joints that are held still.
+type ArmSource = (
+    Option<PathBuf>,
+    Option<PathBuf>,
+    Vec<PathBuf>,
+    bool,
+    Vec<String>,
+    String,
+);
 
 /// A scenario's layout, planned and proved, with an arm that was loaded for it.
 ///
@@ -140,6 +147,7 @@ impl Resolver {
             robot.package_path.clone(),
             robot.visual_shapes,
             robot.split_links.clone(),
+            format!("{:?}", robot.fixed),
         );
         let locked = || self.arms.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(arm) = locked().get(&source) {

@@ -10,6 +10,8 @@ pub use crate::obstacle::{Obstacle, ObstacleShape};
 use crate::clearance::{self, ClearanceError};
 use crate::pose;
 use crate::tool::Tool;
+use crate::words::quoted;
+use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -46,7 +48,7 @@ impl Workcell {
 }
 
 /// Identity of an arm by its description.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArmId {
     /// Name in the URDF.
@@ -55,6 +57,9 @@ pub struct ArmId {
     pub urdf_sha256: String,
     /// SHA-256 of the SRDF, if one was given.
     pub srdf_sha256: Option<String>,
+    /// Joints of the description that are held still, with their positions \[rad, or m for a prismatic joint\].
+    #[serde(default, skip_serializing_if = "FixedJoints::is_empty")]
+    pub fixed: FixedJoints,
 }
 
 /// Pair of bodies that need not keep clear of each other.
@@ -106,6 +111,16 @@ pub enum ExclusionReason {
 }
 
 impl ArmId {
+    /// The joints that are held still in words, such as `"rail" at 0.3`; empty without any.
+    #[must_use]
+    pub fn fixed_words(&self) -> String {
+        let words = self
+            .fixed
+            .iter()
+            .map(|(joint, at)| format!("{} at {at}", quoted(joint)));
+        words.collect::<Vec<_>>().join(", ")
+    }
+
     /// Returns the identity of an arm.
     #[must_use]
     pub fn of(robot: &RobotModel) -> Self {
@@ -113,6 +128,7 @@ impl ArmId {
             name: robot.name().to_owned(),
             urdf_sha256: robot.sha256().to_owned(),
             srdf_sha256: robot.srdf_sha256().map(str::to_owned),
+            fixed: robot.fixed_joints().clone(),
         }
     }
 }

@@ -61,9 +61,10 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
         ),
     };
     let judged = format!(
-        "{judged}{}{}",
+        "{judged}{}{}{}",
         laxer_text(certificate),
-        certificate.rests_on.without_floor()
+        basis.without_floor(),
+        basis.without_links()
     );
     let judged = match &basis.recovery {
         Some(recovery) if basis.dry_run.is_none() => {

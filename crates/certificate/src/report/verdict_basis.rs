@@ -6,6 +6,7 @@ use nalgebra::{Point3, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::trig::atan2;
+use platewash_kinematics::urdf::FollowerLink;
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, PlanKind, Recovery, Requirements, Soil};
@@ -85,6 +86,9 @@ pub struct VerdictBasis {
     /// Numbers of the joints whose acceleration limit is that of the arm's description, from 1; the others are assumed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub described_accelerations: Vec<usize>,
+    /// Links of the arm's description that are left out, as joints carry them that follow an axis: nothing is judged of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out_links: Vec<FollowerLink>,
     /// Joint positions at the start and at the end \[rad\].
     pub home_rad: [JointVector; 2],
     /// Pairs that only the job excludes. They were judged, and are waived where they do not keep clear.
@@ -116,6 +120,7 @@ impl VerdictBasis {
             requirements: job.requirements,
             limits: job.limits,
             described_accelerations: described_accelerations(job, arm),
+            left_out_links: arm.left_out_links().to_vec(),
             home_rad: job.home_rad,
             waived_pairs: exclusions.waived,
             assumptions: assumptions(job, arm)
@@ -123,7 +128,10 @@ impl VerdictBasis {
                 .map(str::to_owned)
                 .chain(unchecked(arm))
                 .chain(hulls(arm))
-                .chain(unused(arm))
+                .chain(
+                    arm.unused_words()
+                        .map(|words| format!("the arm's description states {words}")),
+                )
                 .chain(controller_base(arm))
                 .collect(),
             dry_run: job.dry_run.clone(),
@@ -236,25 +244,6 @@ fn listed(numbers: &[usize]) -> String {
     numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// Statements of a description that a note lists.
-const LISTED: usize = 3;
-
-/// Returns a note about what the arm's description states and nothing uses, if there is anything.
-fn unused(arm: &RobotModel) -> Option<String> {
-    let all = arm.unused_statements();
-    let listed: Vec<_> = all.iter().take(LISTED).map(ToString::to_string).collect();
-    let more = match all.len().saturating_sub(LISTED) {
-        0 => String::new(),
-        more => format!("; and {more} more, which `platewash robot` lists"),
-    };
-    (!all.is_empty()).then(|| {
-        format!(
-            "the arm's description states what is not used: {}{more}",
-            listed.join("; ")
-        )
-    })
-}
-
 /// Returns a note about the frame from which the controller counts, if it is not that of the root link.
 fn controller_base(arm: &RobotModel) -> Option<String> {
     let base = arm.controller_base()?;
@@ -275,6 +264,12 @@ impl VerdictBasis {
             true => "",
             false => "; the job has no floor: nothing was checked against one",
         }
+    }
+
+    /// Returns the end of the first line for an arm with links that are left out; empty for one without.
+    #[must_use]
+    pub fn without_links(&self) -> String {
+        FollowerLink::clause(&self.left_out_links).map_or_else(String::new, |clause| format!("; {clause}"))
     }
 
     /// Returns the basis in words: a name and its text for each line.
@@ -309,6 +304,10 @@ impl VerdictBasis {
         lines.extend(self.assumptions.iter().map(|what| ("assumed", printable(what))));
         let (once, never) = self.left_out();
         lines.push(("not checked", grouped(&never)));
+        if !self.left_out_links.is_empty() {
+            let links: Vec<_> = self.left_out_links.iter().map(ToString::to_string).collect();
+            lines.push(("links left out", links.join(", ")));
+        }
         if !once.is_empty() {
             lines.push(("checked once", grouped(&once)));
         }
@@ -389,8 +388,12 @@ fn arm(world: &Workcell) -> String {
     } else {
         format!("at ({}) m", list(at.iter().copied()))
     };
+    let held = match arm.fixed.is_empty() {
+        true => String::new(),
+        false => format!("; held still: {}", arm.fixed_words()),
+    };
     format!(
-        "{}, description {}, {srdf}; mounted {place}{}",
+        "{}, description {}, {srdf}; mounted {place}{}{held}",
         quoted(&arm.name),
         short(&arm.urdf_sha256),
         turned(&world.mount)

@@ -21,10 +21,15 @@ use platewash_workcell::workcell::{ArmId, ObstacleShape};
 pub(crate) fn arm(subject: &Subject<'_>) -> Check {
     let (stated, given) = (&subject.job.workcell.arm, ArmId::of(subject.robot));
     let srdf = |id: &ArmId| id.srdf_sha256.as_ref().map_or("none".to_owned(), |hash| quoted(hash));
+    let fixed = |id: &ArmId| match id.fixed.is_empty() {
+        true => "none".to_owned(),
+        false => id.fixed_words(),
+    };
     let fields = [
         ("name", quoted(&stated.name), quoted(&given.name)),
         ("urdf_sha256", quoted(&stated.urdf_sha256), quoted(&given.urdf_sha256)),
         ("srdf_sha256", srdf(stated), srdf(&given)),
+        ("fixed", fixed(stated), fixed(&given)),
     ];
     let wrong = fields.into_iter().filter(|(_, stated, given)| stated != given);
     let wrong =

@@ -2,6 +2,7 @@
 //!
 //! `urdf-rs` reports the error but not its position: this file finds the element.
 
+use crate::AXES;
 use crate::urdf::scan::line_at;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
@@ -66,17 +67,35 @@ pub enum UrdfError {
     #[error("URDF must have exactly one root link; found {}", list(.found))]
     Roots { found: Vec<String> },
     /// The number of axes is not six.
-    #[error("six revolute or continuous joints are needed; found {}: {}", .found.len(), list(.found))]
+    #[error(
+        "six revolute or continuous joints are needed; found {}: {}{}", .found.len(), list(.found),
+        if .found.len() > AXES { "; hold those still that are not of the arm (--fix JOINT=VALUE, robot.fixed)" } else { "" }
+    )]
     AxisCount { found: Vec<String> },
     /// The moving joints are not in series.
-    #[error("the six axes must be in series; joint '{joint}' does not move what joint '{previous}' moves")]
+    #[error(
+        "the six axes must be in series; joint '{joint}' does not move what joint '{previous}' moves: hold those still that are not of the arm \
+         (--fix JOINT=VALUE, robot.fixed)"
+    )]
     Branch { joint: String, previous: String },
     /// A joint has a type that this project does not handle.
-    #[error("joint '{joint}' is {kind}; only revolute, continuous and fixed joints are handled")]
+    #[error(
+        "joint '{joint}' is {kind}; axes must be revolute or continuous{}",
+        if .kind == "prismatic" { format!(": hold it still where it is not of the arm (--fix {joint}=VALUE, robot.fixed)") } else { String::new() }
+    )]
     JointKind { joint: String, kind: String },
-    /// A joint mimics another one.
-    #[error("joint '{joint}' mimics joint '{follows}'; independent axes are needed")]
-    Mimic { joint: String, follows: String },
+    /// A joint mimics another one that does not move, or itself.
+    #[error("joint '{joint}' mimics joint '{follows}', which is not a joint that moves by itself")]
+    NoLeader { joint: String, follows: String },
+    /// A joint that mimics an axis carries another axis.
+    #[error(
+        "joint '{joint}' mimics joint '{follows}' and carries joint '{carries}': arms whose axes move each other are not handled"
+    )]
+    Coupled {
+        joint: String,
+        follows: String,
+        carries: String,
+    },
     /// A joint is fixed where it cannot be.
     #[error("joint '{joint}' is fixed at {position}, beyond its limits {lower} … {upper}")]
     FixedBeyond {
@@ -86,8 +105,16 @@ pub enum UrdfError {
         upper: f64,
     },
     /// A joint is fixed that follows another one.
-    #[error("joint '{joint}' is fixed, and mimics joint '{follows}'; fix that one")]
+    #[error("joint '{joint}' is fixed, and mimics joint '{follows}'; fix that one, or none where that one is an axis")]
     FixedFollower { joint: String, follows: String },
+    /// A joint that is to be held still is not held.
+    #[error("joint '{}' cannot be held still (--fix, robot.fixed): {reason}; leave it out", .joint.escape_debug())]
+    NotHeld { joint: String, reason: String },
+    /// A joint is fixed elsewhere than where the one that it follows brings it.
+    #[error(
+        "joint '{joint}' is fixed elsewhere than at {found}, where the joint that it mimics brings it; leave it out"
+    )]
+    FixedFollowerElsewhere { joint: String, found: f64 },
     /// An axis is zero or not finite.
     #[error("joint '{joint}': axis must be a finite vector other than zero; found {found:?}")]
     Axis { joint: String, found: [f64; 3] },
@@ -112,7 +139,7 @@ pub enum UrdfError {
         limit_rad: f64,
     },
     /// A speed limit is not positive and finite.
-    #[error("joint '{joint}': speed limit must be positive and finite [rad/s]; found {found}")]
+    #[error("joint '{joint}': speed limit must be positive and finite [rad/s]; found {}", if *.found == 0.0 { "none, or 0".to_owned() } else { .found.to_string() })]
     Velocity { joint: String, found: f64 },
     /// A torque limit is negative.
     #[error("joint '{joint}': effort must not be negative [N·m]; found {found} (0 means unknown)")]
@@ -209,7 +236,7 @@ pub(crate) fn find(text: &str) -> Option<String> {
         if let Some((start, name)) = child.take() {
             let alone = format!("{root}{}</robot>", text.get(start..end)?);
             if urdf_rs::read_from_string(&alone).is_err() {
-                let line = line_at(text, start as u64);
+                let line = line_at(text, start);
                 return Some(format!("{name} (line {line})"));
             }
         }

@@ -3,7 +3,7 @@
 use crate::rotation::RigidTransform;
 use crate::trig::sin_cos;
 use crate::urdf::error::UrdfError;
-use crate::{AXES, urdf::unit_axis};
+use crate::{AXES, RobotModel, urdf::unit_axis};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use urdf_rs::{Joint, JointType, Robot};
@@ -18,8 +18,8 @@ pub(crate) struct Fixed {
     pub displacements: BTreeMap<String, RigidTransform>,
 }
 
-/// Fixes joints at stated positions, with the joints that mimic them, the outermost first, as long as more than six joints move. A joint
-/// that is left moving is one of the six axes. Names that the description does not have are ignored.
+/// Fixes joints at stated positions, with the joints that mimic them, the outermost first, as long as more than six joints move that mimic
+/// none. A joint that is left moving is one of the six axes. Names that the description does not have are ignored.
 ///
 /// # Errors
 /// [`UrdfError`] for a position that is not finite or beyond the joint's limits, for a joint that follows another one, and for an axis
@@ -33,28 +33,54 @@ pub(crate) fn fix(robot: &mut Robot, stated: &FixedJoints) -> Result<Fixed, Urdf
         let Some(&position) = stated.get(&joint.name).filter(|_| joint.joint_type != JointType::Fixed) else {
             continue;
         };
-        let moving = robot.joints.iter().filter(|joint| joint.joint_type != JointType::Fixed);
-        if moving.count() <= AXES {
+        let is_independent = |joint: &&Joint| joint.joint_type != JointType::Fixed && joint.mimic.is_none();
+        if robot.joints.iter().filter(is_independent).count() <= AXES {
             break;
         }
         check(joint, position)?;
-        let leader = joint.name.clone();
-        for joint in &mut robot.joints {
-            let position = match &joint.mimic {
-                Some(mimic) if mimic.joint == leader => {
-                    mimic.multiplier.unwrap_or(1.0) * position + mimic.offset.unwrap_or(0.0)
+        let mut stopped = vec![(joint.name.clone(), position)];
+        while let Some((name, position)) = stopped.pop() {
+            for joint in &mut robot.joints {
+                if joint.name == name {
+                    fixed.displacements.insert(name.clone(), displacement(joint, position)?);
+                    fixed.positions.insert(name.clone(), position);
+                    joint.joint_type = JointType::Fixed;
+                    joint.mimic = None;
+                } else if let Some(mimic) = joint.mimic.as_ref().filter(|mimic| mimic.joint == name) {
+                    let follows = mimic.multiplier.unwrap_or(1.0) * position + mimic.offset.unwrap_or(0.0);
+                    stopped.push((joint.name.clone(), follows));
                 }
-                _ if joint.name == leader => position,
-                _ => continue,
-            };
-            let displacement = displacement(joint, position)?;
-            fixed.positions.insert(joint.name.clone(), position);
-            fixed.displacements.insert(joint.name.clone(), displacement);
-            joint.joint_type = JointType::Fixed;
-            joint.mimic = None;
+            }
         }
     }
-    Ok(fixed)
+    let differs = |(joint, at): (&String, &f64)| fixed.positions.get(joint).is_some_and(|found| found != at);
+    match stated.iter().find(|(joint, at)| differs((joint, at))) {
+        Some((joint, _)) => Err(UrdfError::FixedFollowerElsewhere {
+            joint: joint.clone(),
+            found: fixed.positions[joint],
+        }),
+        None => Ok(fixed),
+    }
+}
+
+impl RobotModel {
+    /// Checks that joints are held still as they were stated to be: [`RobotModel::from_urdf_with_fixed`] ignores names that it does not need.
+    ///
+    /// # Errors
+    /// [`UrdfError::NotHeld`] for one of the six axes, a joint that follows one of them, and a name of no joint that moves.
+    pub fn check_held(&self, stated: &FixedJoints) -> Result<(), UrdfError> {
+        let Some(joint) = stated.keys().find(|joint| !self.fixed_joints().contains_key(*joint)) else {
+            return Ok(());
+        };
+        let follower = self.left_out_links().iter().find(|link| link.joint == *joint);
+        let reason = match follower {
+            Some(link) => format!("it follows '{}', and what it carries is left out", link.leader),
+            None if self.joints().iter().any(|axis| axis.name == *joint) => "it is one of the six axes".to_owned(),
+            None => "the description has no joint of that name that moves".to_owned(),
+        };
+        let joint = joint.clone();
+        Err(UrdfError::NotHeld { joint, reason })
+    }
 }
 
 /// Number of joints between a joint and the root; at most that of all, if they form a ring.

@@ -10,6 +10,7 @@ use crate::urdf::files::Files;
 use crate::urdf::tree::{LARGEST_LENGTH_M, length};
 use crate::urdf::triangles;
 use nalgebra::Point3;
+use percent_encoding::percent_decode_str;
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -220,7 +221,15 @@ impl MeshSource {
         Ok(file)
     }
 
+    /// Finds a file by its name, or by the name with the characters that its percent signs stand for, as in addresses.
     fn find(&self, file: &str) -> Result<PathBuf, MeshError> {
+        self.find_as(file).or_else(|missing| {
+            let decoded = percent_decode_str(file).decode_utf8_lossy();
+            self.find_as(&decoded).map_err(|_| missing)
+        })
+    }
+
+    fn find_as(&self, file: &str) -> Result<PathBuf, MeshError> {
         if self.files.are_none() {
             // Reading it says why it is not there.
             return Ok(file.into());

@@ -1,17 +1,22 @@
 //! URDF text to [`RobotModel`]: everything a lenient parser lets through is caught here, by name.
 //!
 //! The stages: `scan` bounds size and depth and finds cut files before any recursive parser sees them;
-//! `statements` goes through all elements and names those that are not used; `urdf-rs` reads the elements (where it refuses one, `error` finds which); `tree` checks the structure, orders the six
-//! joints and checks their limits; `fixed` holds other joints still; `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
+//! `statements` goes through all elements, names those that are not used, and leaves them out of the text (`edits`), as it does with those
+//! that are not complete (`gaps`); `urdf-rs` reads the others (where it refuses one, `error` finds which); `fixed` holds joints still that
+//! are not of the arm; `followers` takes out what follows an axis; `tree` checks the structure, orders the six joints and checks their limits;
+//! `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
 //! their vertices) and visual geometry (reading the `triangles` of meshes), which is left out by name where it cannot be read. Every file is read through `file`.
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
 mod collada;
+mod edits;
 mod error;
 pub mod file;
 mod files;
 mod fixed;
+mod followers;
+mod gaps;
 mod mesh;
 mod scan;
 pub(crate) mod shapes;
@@ -22,6 +27,7 @@ mod triangles;
 pub use crate::urdf::error::UrdfError;
 pub use crate::urdf::files::{Files, HeldFiles};
 pub use crate::urdf::fixed::FixedJoints;
+pub use crate::urdf::followers::FollowerLink;
 pub use crate::urdf::mesh::{MeshError, MeshSource, MeshSplitter};
 pub use crate::urdf::scan::MAX_BYTES;
 pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
@@ -70,9 +76,11 @@ impl RobotModel {
 fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
     let stated = statements::read(text)?;
-    let mut robot = urdf_rs::read_from_string(text).map_err(|e| syntax(text, &e))?;
+    let used = &stated.used_text;
+    let mut robot = urdf_rs::read_from_string(used).map_err(|e| syntax(used, &e))?;
     sizes(&robot)?;
     let fixed = fixed::fix(&mut robot, fixed)?;
+    let left_out = followers::take_out(&mut robot)?;
     let tree = Tree::build(&robot)?;
     let limits = tree::limits(&tree, &stated.rates)?;
     let joints = tree.axes.map(|joint| Joint {
@@ -102,6 +110,7 @@ fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotMod
         limits,
         friction,
         unused: stated.unused,
+        left_out,
         folded,
         links,
         last_link,
@@ -165,8 +174,11 @@ fn syntax(text: &str, error: &urdf_rs::UrdfError) -> UrdfError {
     UrdfError::Syntax {
         at: error::find(text).unwrap_or_else(|| "an unknown place".to_owned()),
         detail: match message {
-            "invalid float literal" => "a value is not a number".to_owned(),
-            other => message_in_words("", other),
+            "invalid float literal" | "cannot parse float from empty string" => "a value is not a number".to_owned(),
+            other => match other.strip_prefix("Wrong vector element count, ") {
+                Some(counts) => format!("a vector has the wrong count of numbers: {counts}"),
+                None => message_in_words("", other),
+            },
         },
     }
 }

@@ -27,7 +27,7 @@ pub(crate) fn check(text: &str) -> Result<(), UrdfError> {
     let mut scan = Scan::new(text);
     loop {
         let event = reader.read_event();
-        scan.position = reader.buffer_position();
+        scan.position = usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX);
         match event {
             Ok(Event::Eof) => return scan.end(),
             Ok(event) => scan.take(&event)?,
@@ -36,17 +36,19 @@ pub(crate) fn check(text: &str) -> Result<(), UrdfError> {
     }
 }
 
-/// Line of a byte position, counted from 1.
-pub(crate) fn line_at(text: &str, position: u64) -> usize {
-    let end = usize::try_from(position).unwrap_or(text.len()).min(text.len());
-    1 + text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
+/// Line of an offset in bytes, counted from 1.
+pub(crate) fn line_at(text: &str, offset: usize) -> usize {
+    1 + text.as_bytes()[..offset.min(text.len())]
+        .iter()
+        .filter(|b| **b == b'\n')
+        .count()
 }
 
 /// State of the scan.
 struct Scan<'a> {
     text: &'a str,
     /// Number of bytes read.
-    position: u64,
+    position: usize,
     /// Names of the elements that are not closed yet.
     open: Vec<String>,
     root_seen: bool,

@@ -1,21 +1,26 @@
-//! All elements and attributes of a description, one after the other: rates that `urdf-rs` reads of some versions only, and what is not used.
+//! All elements and attributes of a description, one after the other: rates that `urdf-rs` reads of some versions only, what is not used, and
+//! what is not complete.
 //!
-//! What cannot matter is listed in `docs/urdf.md`. Everything else that is not used is an [`UnusedStatement`].
+//! What cannot matter is listed in `docs/urdf.md`. Everything else that is not used is an [`UnusedStatement`]. `urdf-rs` gets a text without
+//! either, in which incomplete elements are left out or completed, so that they do not stop it: see `gaps`.
 
+use crate::urdf::edits::Edits;
 use crate::urdf::error::UrdfError;
+use crate::urdf::gaps::{self, Gap};
 use crate::urdf::scan::line_at;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
-/// Element, attribute or text of a description that is not used.
+/// Element, attribute or text of a description that is not used, or an element that is not complete.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct UnusedStatement {
     /// Place: the joint or link by name and the elements in it, such as `joint 'elbow', limit`; empty for a child of `<robot>`.
     pub place: String,
-    /// The statement: `jerk="5"`, or `<transmission>`.
+    /// The statement: `jerk="5"`, `<stiffness>` or `<inertial> without mass`.
     pub statement: String,
     /// Line, counted from 1.
     pub line: usize,
@@ -46,6 +51,8 @@ pub(crate) struct Statements {
     pub rates: BTreeMap<String, Rates>,
     /// Statements that are not used, in the order of the file.
     pub unused: Vec<UnusedStatement>,
+    /// The text with what is used alone, complete, on the same lines.
+    pub used_text: String,
 }
 
 /// Elements that are used, by their path below `<robot>`, with the attributes that are used.
@@ -93,6 +100,8 @@ const USED: [(&str, &[&str]); 35] = [
 
 const LIMIT: &str = "joint/limit";
 
+const COLLISION_GEOMETRY: &str = "link/collision/geometry";
+
 /// Elements, with all in them, and attributes that cannot matter: names of shapes, textures, where an encoder finds its zero, gains
 /// of a safety controller, the words of
 /// simulators about looks and sensors, and motors behind joints. `docs/urdf.md` gives the reasons.
@@ -115,12 +124,13 @@ const CANNOT_MATTER: [&str; 12] = [
 const DRIVERS: &str = "ros2_control";
 
 /// Elements of a fixed joint that are never used.
-const OF_MOVING_JOINTS: [&str; 5] = ["axis", "limit", "dynamics", "safety_controller", "calibration"];
+const OF_MOVING_JOINTS: [&str; 6] = ["axis", "limit", "dynamics", "safety_controller", "calibration", "mimic"];
 
 /// Returns all statements of a text that is known to be well-formed.
 ///
 /// # Errors
-/// [`UrdfError::Rate`] for an acceleration, deceleration or jerk that is no number, or below 0.
+/// [`UrdfError::Rate`] for an acceleration, deceleration or jerk that is no number, or below 0, [`UrdfError::Syntax`] for a collision shape
+/// that is not complete.
 pub(crate) fn read(text: &str) -> Result<Statements, UrdfError> {
     let mut walk = Walk {
         text,
@@ -128,24 +138,33 @@ pub(crate) fn read(text: &str) -> Result<Statements, UrdfError> {
         skipped: 0,
         version: (1, 0),
         found: Statements::default(),
+        edits: Edits::default(),
     };
     let mut reader = Reader::from_str(text);
     loop {
+        let start = offset(reader.buffer_position());
         let event = reader.read_event();
-        let position = reader.buffer_position();
+        let end = offset(reader.buffer_position());
         match event {
-            Ok(Event::Start(tag)) => walk.enter(&tag, position)?,
+            Ok(Event::Start(tag)) => walk.enter(&tag, start..end)?,
             Ok(Event::Empty(tag)) => {
-                walk.enter(&tag, position)?;
-                walk.leave();
+                walk.enter(&tag, start..end)?;
+                walk.leave(end)?;
             }
-            Ok(Event::End(_)) => walk.leave(),
-            Ok(Event::Text(text)) => walk.text(&String::from_utf8_lossy(&text), position),
-            Ok(Event::CData(text)) => walk.text(&String::from_utf8_lossy(&text), position),
-            Ok(Event::Eof) | Err(_) => return Ok(walk.found),
+            Ok(Event::End(_)) => walk.leave(end)?,
+            Ok(Event::Text(text)) => walk.text(&String::from_utf8_lossy(&text), start..end),
+            Ok(Event::CData(text)) => walk.text(&String::from_utf8_lossy(&text), start..end),
+            Ok(Event::Eof) | Err(_) => break,
             Ok(_) => {}
         }
     }
+    walk.found.unused.sort_by_key(|unused| unused.line);
+    walk.found.used_text = walk.edits.applied_to(text);
+    Ok(walk.found)
+}
+
+fn offset(position: u64) -> usize {
+    usize::try_from(position).unwrap_or(usize::MAX)
 }
 
 /// An element that is not closed yet.
@@ -155,6 +174,14 @@ struct Element {
     name: String,
     /// The attribute `type`.
     kind: String,
+    /// Offsets of its start and of what it holds.
+    start: usize,
+    contents: usize,
+    /// True if it is left out of the text that is used.
+    is_left_out: bool,
+    /// Elements in it that are used, and those that are not.
+    used: Vec<String>,
+    left_out: Vec<String>,
 }
 
 struct Walk<'a> {
@@ -165,10 +192,11 @@ struct Walk<'a> {
     /// Major and minor number of the format, 1.0 where none is stated.
     version: (u32, u32),
     found: Statements,
+    edits: Edits,
 }
 
 impl Walk<'_> {
-    fn enter(&mut self, tag: &BytesStart<'_>, position: u64) -> Result<(), UrdfError> {
+    fn enter(&mut self, tag: &BytesStart<'_>, span: Range<usize>) -> Result<(), UrdfError> {
         let attributes: Vec<_> = tag
             .attributes()
             .flatten()
@@ -185,11 +213,17 @@ impl Walk<'_> {
                 .find(|(name, _)| name == key)
                 .map(|(_, value)| value.clone())
         };
-        let tag = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
+        let position = span.end;
+        let tag_name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         self.open.push(Element {
             name: get("name").unwrap_or_default(),
             kind: get("type").unwrap_or_default(),
-            tag,
+            tag: tag_name,
+            start: span.start,
+            contents: span.end,
+            is_left_out: false,
+            used: Vec::new(),
+            left_out: Vec::new(),
         });
         if self.skipped > 0 {
             self.skipped += 1;
@@ -204,6 +238,7 @@ impl Walk<'_> {
                 let statement = format!("<param name=\"{}\">", param.name);
                 self.note(self.open.len() - 1, statement, position);
             }
+            self.leave_out();
             return Ok(());
         }
         let path = self.path();
@@ -213,18 +248,17 @@ impl Walk<'_> {
         {
             self.version = (major, minor);
         }
-        let Some((_, used)) = USED.iter().find(|(known, _)| *known == path) else {
+        let used = USED.iter().find(|(known, _)| *known == path).map(|(_, used)| used);
+        let can_matter = !self.cannot_matter(&path);
+        let Some(used) = used.filter(|_| can_matter) else {
             self.skipped = 1;
-            if !self.cannot_matter(&path) {
+            self.leave_out();
+            if can_matter {
                 let element = self.open.last().map(|element| format!("<{}>", element.tag));
                 self.note(self.open.len() - 1, element.unwrap_or_default(), position);
             }
             return Ok(());
         };
-        if self.cannot_matter(&path) {
-            self.skipped = 1;
-            return Ok(());
-        }
         for (key, value) in &attributes {
             let is_used = match (path.as_str(), key.as_str()) {
                 (_, "xmlns") => true,
@@ -239,19 +273,96 @@ impl Walk<'_> {
                 self.note(self.open.len(), format!("{key}=\"{value}\""), position);
             }
         }
+        if path == "joint/safety_controller" {
+            let gains = tag.attributes().flatten().filter(|a| a.key.as_ref().starts_with(b"k_"));
+            gains.for_each(|gain| self.edits.blank_attribute(self.text, &gain));
+        }
+        match gaps::in_attributes(&path, &attributes) {
+            Some(Gap::Completed(with, statement)) => {
+                // Behind the opening bracket and the name.
+                self.edits.insert(span.start + 1 + tag.name().as_ref().len(), with);
+                if let Some(statement) = statement {
+                    self.note(self.open.len() - 1, statement, position);
+                }
+            }
+            Some(Gap::LeftOut(statement)) => {
+                self.leave_out();
+                self.note(self.open.len() - 1, statement, position);
+            }
+            None => {}
+        }
         Ok(())
     }
 
-    fn leave(&mut self) {
-        self.open.pop();
-        self.skipped = self.skipped.saturating_sub(1);
+    /// Marks the innermost element as one that is left out of the text that is used.
+    fn leave_out(&mut self) {
+        if let Some(element) = self.open.last_mut() {
+            element.is_left_out = true;
+        }
     }
 
-    fn text(&mut self, text: &str, position: u64) {
+    fn leave(&mut self, end: usize) -> Result<(), UrdfError> {
+        if self.skipped == 0 {
+            self.check_parts()?;
+        }
+        self.skipped = self.skipped.saturating_sub(1);
+        let Some(element) = self.open.pop() else { return Ok(()) };
+        if element.is_left_out {
+            self.edits.blank(element.start..end);
+        }
+        if let Some(parent) = self.open.last_mut() {
+            if element.tag == "inertial" && parent.used.iter().any(|tag| tag == "visual") && !element.is_left_out {
+                // `urdf-rs` takes no other element between two visuals.
+                self.edits.insert(parent.contents, &self.text[element.start..end]);
+                self.edits.blank(element.start..end);
+            }
+            match element.is_left_out {
+                true => parent.left_out.push(element.tag),
+                false => parent.used.push(element.tag),
+            }
+        }
+        Ok(())
+    }
+
+    /// Leaves out the innermost element, which ends here, if it lacks a part that it needs.
+    ///
+    /// # Errors
+    /// [`UrdfError::Syntax`] for a collision shape that is not used: what it is meant to enclose would count as free space.
+    fn check_parts(&mut self) -> Result<(), UrdfError> {
+        let path = self.path();
+        let Some(element) = self.open.last_mut().filter(|element| !element.is_left_out) else {
+            return Ok(());
+        };
+        let Some(lacks) = gaps::in_parts(&path, &element.used, &element.left_out) else {
+            return Ok(());
+        };
+        element.is_left_out = true;
+        let (start, statement) = (element.start, format!("<{}> without {lacks}", element.tag));
+        match element.left_out.first() {
+            Some(shape) if path == COLLISION_GEOMETRY => Err(UrdfError::Syntax {
+                detail: format!(
+                    "collision shape <{shape}> is unknown or not complete; expected box (size), cylinder (radius, length), capsule (radius, \
+                     length), sphere (radius) or mesh (filename)"
+                ),
+                at: format!("{} (line {})", self.place(2), line_at(self.text, start)),
+            }),
+            // That part is named.
+            Some(_) => Ok(()),
+            None => {
+                self.note(self.open.len() - 1, statement, start);
+                Ok(())
+            }
+        }
+    }
+
+    fn text(&mut self, text: &str, span: Range<usize>) {
         let text = text.trim_matches(['\u{feff}', ' ', '\t', '\r', '\n']);
-        let is_looked_at = self.skipped == 0 && self.open.get(1).is_none_or(|element| element.tag != DRIVERS);
-        if is_looked_at && !self.open.is_empty() && !text.is_empty() {
-            self.note(self.open.len(), format!("the text \"{text}\""), position);
+        if self.open.is_empty() || text.is_empty() {
+            return;
+        }
+        self.edits.blank(span.clone());
+        if self.skipped == 0 && self.open.get(1).is_none_or(|element| element.tag != DRIVERS) {
+            self.note(self.open.len(), format!("the text \"{text}\""), span.end);
         }
     }
 
@@ -272,7 +383,7 @@ impl Walk<'_> {
     }
 
     /// Takes the limit of a rate of a joint. Returns false for one that is not kept: a jerk, and 0.
-    fn rate(&mut self, key: &str, value: &str, position: u64) -> Result<bool, UrdfError> {
+    fn rate(&mut self, key: &str, value: &str, position: usize) -> Result<bool, UrdfError> {
         let joint = self.open.get(1).map(|element| element.name.clone()).unwrap_or_default();
         let Some(limit) = number(value).filter(|limit| *limit >= 0.0) else {
             return Err(UrdfError::Rate {
@@ -297,17 +408,22 @@ impl Walk<'_> {
     }
 
     /// Names a statement in the outermost elements, as many as stated.
-    fn note(&mut self, depth: usize, statement: String, position: u64) {
+    fn note(&mut self, depth: usize, statement: String, offset: usize) {
+        self.found.unused.push(UnusedStatement {
+            place: self.place(depth),
+            statement: statement.escape_debug().to_string().replace("\\\"", "\""),
+            line: line_at(self.text, offset),
+        });
+    }
+
+    /// The outermost elements below `<robot>` in words, as many as stated with it.
+    fn place(&self, depth: usize) -> String {
         let words = |(k, element): (usize, &Element)| match (k, element.name.as_str()) {
             (0, name) if !name.is_empty() => format!("{} '{}'", element.tag, name.escape_debug()),
             _ => element.tag.clone(),
         };
         let place = self.open[..depth].iter().skip(1).enumerate().map(words);
-        self.found.unused.push(UnusedStatement {
-            place: place.collect::<Vec<_>>().join(", "),
-            statement: statement.escape_debug().to_string().replace("\\\"", "\""),
-            line: line_at(self.text, position),
-        });
+        place.collect::<Vec<_>>().join(", ")
     }
 }
 

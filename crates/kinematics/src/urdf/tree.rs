@@ -69,12 +69,6 @@ fn check_names<'a>(kind: &'static str, names: impl Iterator<Item = &'a str>) -> 
 }
 
 fn check_kind(joint: &urdf_rs::Joint) -> Result<(), UrdfError> {
-    if let Some(mimic) = &joint.mimic {
-        return Err(UrdfError::Mimic {
-            joint: joint.name.clone(),
-            follows: mimic.joint.clone(),
-        });
-    }
     match joint.joint_type {
         JointType::Revolute | JointType::Continuous | JointType::Fixed => Ok(()),
         ref other => Err(UrdfError::JointKind {

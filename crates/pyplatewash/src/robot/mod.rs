@@ -13,7 +13,7 @@ use crate::robot::source::{Description, Source};
 use crate::value::warn;
 use crate::{arrays, errors};
 use numpy::PyArrayDyn;
-use platewash::kinematics::urdf::Files;
+use platewash::kinematics::urdf::{Files, FixedJoints};
 use platewash::scenario::{MeshPlaces, Note, RobotSection};
 use platewash::{Axes, Frame, IkSolver, RobotModel, Scenario, ToolFrame};
 use pyo3::prelude::*;
@@ -140,12 +140,13 @@ impl Robot {
     /// `srdf` is SRDF text with the pairs of links that need no collision check. `package_path` is a folder, or a list of them, in which
     /// `package://` meshes are looked up, `folder` is the one that relative mesh names start from. With `visual_shapes`, links without
     /// collision shapes take their visuals as such, meshes as convex hulls. The meshes of `split_links`, a list of names, count as a few convex
-    /// parts that enclose them, not as their hulls.
+    /// parts that enclose them, not as their hulls. `fixed` holds joints still that are not of the arm, such as those of a gripper or a rail: a
+    /// dict of their names with positions (rad, or m for a prismatic joint).
     ///
     /// Raises UrdfError, naming the joint or link at fault.
     #[classmethod]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
-    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None, visual_shapes=None, split_links=None), text_signature = "(text, *, srdf=None, package_path=None, folder=None, visual_shapes=False, split_links=None)")]
+    #[pyo3(signature = (text, *, srdf=None, package_path=None, folder=None, visual_shapes=None, split_links=None, fixed=None), text_signature = "(text, *, srdf=None, package_path=None, folder=None, visual_shapes=False, split_links=None, fixed=None)")]
     fn from_urdf(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
@@ -155,6 +156,7 @@ impl Robot {
         folder: Option<&Bound<'_, PyAny>>,
         visual_shapes: Option<&Bound<'_, PyAny>>,
         split_links: Option<&Bound<'_, PyAny>>,
+        fixed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let source = Source::Described(Box::new(Description {
             urdf: argument::text("text", text, "URDF text")?,
@@ -163,17 +165,21 @@ impl Robot {
             folder: folder.map(|folder| argument::path("folder", folder)).transpose()?,
             visual_shapes: argument::flag_or_false("visual_shapes", visual_shapes)?,
             split_links: argument::names("split_links", split_links)?,
+            fixed: argument::positions("fixed", fixed)?,
         }));
         Ok(Self::new(Arc::new(source.load(py)?), source))
     }
 
     /// An arm from an expanded URDF file, with an SRDF file if given; meshes are looked up beside it and in `package_path`, a
     /// folder or a list of them. With `visual_shapes`, links without collision shapes take their visuals as such, meshes as convex hulls.
-    /// The meshes of `split_links`, a list of names, count as a few convex parts that enclose them, not as their hulls.
+    /// The meshes of `split_links`, a list of names, count as a few convex parts that enclose them, not as their hulls. `fixed` holds joints
+    /// still that are not of the arm, such as those of a gripper or a rail: a dict of their names with positions (rad, or m for a prismatic
+    /// joint).
     ///
     /// Raises UrdfError, naming the joint or link at fault; for a file that cannot be read it is a FileError, too.
     #[classmethod]
-    #[pyo3(signature = (urdf, *, srdf=None, package_path=None, visual_shapes=None, split_links=None), text_signature = "(urdf, *, srdf=None, package_path=None, visual_shapes=False, split_links=None)")]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    #[pyo3(signature = (urdf, *, srdf=None, package_path=None, visual_shapes=None, split_links=None, fixed=None), text_signature = "(urdf, *, srdf=None, package_path=None, visual_shapes=False, split_links=None, fixed=None)")]
     fn load(
         _class: &Bound<'_, PyType>,
         py: Python<'_>,
@@ -182,6 +188,7 @@ impl Robot {
         package_path: Option<&Bound<'_, PyAny>>,
         visual_shapes: Option<&Bound<'_, PyAny>>,
         split_links: Option<&Bound<'_, PyAny>>,
+        fixed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let section = RobotSection {
             urdf: Some(argument::path("urdf", urdf)?),
@@ -189,6 +196,7 @@ impl Robot {
             package_path: argument::paths("package_path", package_path)?,
             visual_shapes: argument::flag_or_false("visual_shapes", visual_shapes)?,
             split_links: argument::names("split_links", split_links)?,
+            fixed: argument::positions("fixed", fixed)?,
             ..RobotSection::default()
         };
         let source = Source::files(py, &section, &Files::default())?;
@@ -231,6 +239,18 @@ impl Robot {
     #[getter]
     fn link_names(&self) -> Vec<&str> {
         self.model.links().iter().map(|l| l.name.as_str()).collect()
+    }
+
+    /// Positions of the joints of the description that are held still, by name [rad, or m for a prismatic joint].
+    #[getter]
+    fn fixed_joints(&self) -> FixedJoints {
+        self.model.fixed_joints().clone()
+    }
+
+    /// Names of the links that are left out, as joints carry them that follow an axis: no clearance of them is known.
+    #[getter]
+    fn left_out_links(&self) -> Vec<&str> {
+        self.model.left_out_links().iter().map(|l| l.link.as_str()).collect()
     }
 
     /// Lowest joint positions, shape (6,) [rad]; -inf for a continuous joint.
@@ -406,7 +426,18 @@ impl Robot {
         folder: Option<&Bound<'_, PyAny>>,
         visual_shapes: Option<&Bound<'_, PyAny>>,
         split_links: Option<&Bound<'_, PyAny>>,
+        fixed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        Self::from_urdf(class, py, text, srdf, package_path, folder, visual_shapes, split_links)
+        Self::from_urdf(
+            class,
+            py,
+            text,
+            srdf,
+            package_path,
+            folder,
+            visual_shapes,
+            split_links,
+            fixed,
+        )
     }
 }

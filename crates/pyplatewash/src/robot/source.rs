@@ -4,7 +4,7 @@ use crate::errors::{self, FileKind};
 use platewash::RobotModel;
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
-use platewash::kinematics::urdf::{Files, MAX_BYTES, MeshSource};
+use platewash::kinematics::urdf::{Files, FixedJoints, MAX_BYTES, MeshSource};
 use platewash::scenario::{RobotSection, Solids};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -35,6 +35,8 @@ pub struct Description {
     pub visual_shapes: bool,
     /// Links that count as convex parts that enclose their meshes.
     pub split_links: Vec<String>,
+    /// Joints that are held still, with their positions.
+    pub fixed: FixedJoints,
 }
 
 impl Source {
@@ -62,6 +64,7 @@ impl Source {
             folder,
             visual_shapes: section.visual_shapes,
             split_links: section.split_links.clone(),
+            fixed: section.fixed.clone(),
         })))
     }
 
@@ -103,7 +106,9 @@ impl Source {
             .reading(&files)
             .with_visual_shapes(description.visual_shapes)
             .with_split_links(&description.split_links, Arc::new(Solids::default()));
-        let robot = RobotModel::from_urdf(&description.urdf, &meshes).map_err(|e| wrong(&e))?;
+        let robot = RobotModel::from_urdf_with_fixed(&description.urdf, &meshes, &description.fixed);
+        let robot = robot.map_err(|e| wrong(&e))?;
+        robot.check_held(&description.fixed).map_err(|e| wrong(&e))?;
         let Some(srdf) = &description.srdf else {
             return Ok(robot);
         };
@@ -130,6 +135,7 @@ impl Source {
                     &d.folder,
                     d.visual_shapes,
                     &d.split_links,
+                    &d.fixed,
                 );
                 Ok((class.getattr("_restore")?, arguments.into_pyobject(py)?))
             }

@@ -105,7 +105,7 @@ fn set(document: &mut DocumentMut, target: &Target, value: &Json) -> Result<(), 
     let head = is_first.then(|| take_head(document));
     match section(document, target)? {
         Some(Item::Table(table)) => match table.get_mut(name) {
-            Some(Item::Value(Value::InlineTable(_))) => Err(Stop::Blocked),
+            Some(Item::Value(Value::InlineTable(_))) if !is_table(domain) => Err(Stop::Blocked),
             Some(Item::Value(old)) => replace(old, value, domain),
             Some(_) => Err(Stop::Blocked),
             None => {
@@ -114,7 +114,7 @@ fn set(document: &mut DocumentMut, target: &Target, value: &Json) -> Result<(), 
             }
         },
         Some(Item::Value(Value::InlineTable(table))) => match (is_on_one_line(table), table.get_mut(name)) {
-            (_, Some(Value::InlineTable(_))) => Err(Stop::Blocked),
+            (_, Some(Value::InlineTable(_))) if !is_table(domain) => Err(Stop::Blocked),
             (_, Some(old)) => replace(old, value, domain),
             (false, None) => Err(Stop::Unplaced),
             (true, None) => {
@@ -128,20 +128,22 @@ fn set(document: &mut DocumentMut, target: &Target, value: &Json) -> Result<(), 
 }
 
 fn remove(document: &mut DocumentMut, target: &Target) -> Result<(), Stop> {
-    let name = target.name();
+    let (name, domain) = (target.name(), target.key.domain);
     let lead = match section(document, target)? {
         None => return Err(Stop::Same),
         Some(Item::Table(table)) => match table.get(name) {
             None => return Err(Stop::Same),
-            Some(Item::Value(value)) if !value.is_inline_table() => match (table.is_dotted(), target.section()) {
-                (true, Some(section)) => remove_key(document.as_table_mut(), &[section, name]),
-                _ => remove_key(table, &[name]),
-            },
+            Some(Item::Value(value)) if is_table(domain) || !value.is_inline_table() => {
+                match (table.is_dotted(), target.section()) {
+                    (true, Some(section)) => remove_key(document.as_table_mut(), &[section, name]),
+                    _ => remove_key(table, &[name]),
+                }
+            }
             Some(_) => return Err(Stop::Blocked),
         },
         Some(Item::Value(Value::InlineTable(table))) => match table.get(name) {
             None => return Err(Stop::Same),
-            Some(Value::InlineTable(_)) => return Err(Stop::Blocked),
+            Some(Value::InlineTable(_)) if !is_table(domain) => return Err(Stop::Blocked),
             Some(_) if !is_on_one_line(table) => return Err(Stop::Unplaced),
             Some(_) => {
                 table.remove(name);
@@ -153,6 +155,11 @@ fn remove(document: &mut DocumentMut, target: &Target) -> Result<(), Stop> {
     };
     keep_lead(document, target, &lead);
     Ok(())
+}
+
+/// True where a key's value is a table.
+fn is_table(domain: Domain) -> bool {
+    matches!(domain, Domain::Positions(..))
 }
 
 /// Checks that braces have no lines and no comments of their own, which could not be kept.
@@ -379,6 +386,9 @@ pub(crate) fn json(value: &Value) -> Json {
 pub(crate) fn same(a: &Json, b: &Json) -> bool {
     match (a, b) {
         (Json::Number(a), Json::Number(b)) => a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits),
+        (Json::Object(a), Json::Object(b)) => {
+            a.len() == b.len() && a.iter().all(|(name, a)| b.get(name).is_some_and(|b| same(a, b)))
+        }
         (Json::Array(a), Json::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
         (Json::Null, _) | (_, Json::Null) => false,
         _ => a == b,

@@ -117,7 +117,11 @@ fn stated(text: &str) -> Option<BTreeMap<String, Value>> {
         let mut names = key.path.split('.');
         let first = table.get_ref().get(names.next()?)?.get_ref();
         let value = names.try_fold(first, |value, name| Some(value.as_table()?.get(name)?.get_ref()))?;
-        Some((key.path.to_owned(), json_or_words(value)))
+        let stated = match value {
+            DeValue::Table(_) if !matches!(key.domain, Domain::Positions(..)) => Value::String(describe(value)),
+            value => json_or_words(value),
+        };
+        Some((key.path.to_owned(), stated))
     };
     Some(KEYS.iter().filter_map(found).collect())
 }

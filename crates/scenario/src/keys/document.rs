@@ -133,6 +133,7 @@ fn form_domain(domain: Domain) -> FormDomain {
         Domain::Path => bare("path"),
         // Names are typed as paths are.
         Domain::Paths | Domain::Names => bare("paths"),
+        Domain::Positions(least, most) => between("positions", least, most),
         Domain::Bool => bare("bool"),
         Domain::Word(words) => FormDomain {
             words: Some(words),

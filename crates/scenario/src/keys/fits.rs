@@ -42,6 +42,11 @@ fn fits(domain: Domain, value: &Value) -> bool {
         Domain::Names => value
             .as_array()
             .is_some_and(|all| all.iter().all(|name| fits(Domain::Text, name))),
+        Domain::Positions(least, most) => value.as_object().is_some_and(|all| {
+            let is_name = |name: &str| !name.trim().is_empty() && !name.contains(is_hidden);
+            let is_within = |v: &Value| v.as_f64().is_some_and(|v| (least..=most).contains(&v));
+            all.iter().all(|(name, v)| is_name(name) && is_within(v))
+        }),
         Domain::Word(words) => value.as_str().is_some_and(|s| words.contains(&s)),
         Domain::Bool => value.is_boolean(),
         Domain::Integer(least, most) => value.as_i64().is_some_and(|v| (least..=most).contains(&v)),

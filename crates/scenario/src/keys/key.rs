@@ -2,7 +2,7 @@
 
 use Domain::{
     Bool, Integer, Joints, JointsAbove, Knots, Names, Number, NumberAbove, Pair, PairAbove, Path, Paths, Plates,
-    Points, Range, Scale, Text, Triple, TripleAbove, Word,
+    Points, Positions, Range, Scale, Text, Triple, TripleAbove, Word,
 };
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::surface::MOST_KNOTS;
@@ -18,6 +18,8 @@ pub enum Domain {
     Paths,
     /// A list of names, each a [`Domain::Text`].
     Names,
+    /// A table of numbers by name, each name a [`Domain::Text`] and each number within the range.
+    Positions(f64, f64),
     /// One of some words.
     Word(&'static [&'static str]),
     /// `true` or `false`.
@@ -85,6 +87,9 @@ impl Domain {
             Path => "a path".to_owned(),
             Paths => "a list of folders".to_owned(),
             Names => format!("a list of names, each {}", Text.describe()),
+            Positions(least, most) => {
+                format!("a table of numbers from {least} to {most} by name, {{ name = number, … }}")
+            }
             Word(words) => {
                 let quoted: Vec<_> = words.iter().map(|w| format!("\"{w}\"")).collect();
                 quoted.join(" or ")

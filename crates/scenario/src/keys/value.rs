@@ -12,8 +12,8 @@ use toml::de::DeValue;
 /// Elements of a list that are named.
 const FEW: usize = 8;
 
-/// A value of a file as JSON. Values that JSON does not have (NaN, infinity, dates, sections) are null, as are whole numbers of
-/// more than 64 bits: no key takes them.
+/// A value of a file as JSON. Values that JSON does not have (NaN, infinity, dates) are null, as are whole numbers of more than 64 bits
+/// and sections of other values than numbers: no key takes them.
 pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
     match value {
         DeValue::String(text) => Value::String(text.clone().into_owned()),
@@ -24,7 +24,17 @@ pub(crate) fn json_of(value: &DeValue<'_>) -> Value {
         }
         DeValue::Boolean(boolean) => Value::Bool(*boolean),
         DeValue::Array(array) => Value::Array(array.iter().map(|v| json_of(v.get_ref())).collect()),
-        DeValue::Datetime(_) | DeValue::Table(_) => Value::Null,
+        DeValue::Table(table) => {
+            let numbers: serde_json::Map<_, _> = table
+                .iter()
+                .map(|(name, value)| (name.get_ref().to_string(), json_of(value.get_ref())))
+                .collect();
+            match numbers.values().all(Value::is_number) {
+                true => Value::Object(numbers),
+                false => Value::Null,
+            }
+        }
+        DeValue::Datetime(_) => Value::Null,
     }
 }
 
@@ -66,9 +76,26 @@ pub(crate) fn on_one_line(value: &Value) -> String {
             let elements: Vec<_> = elements.iter().map(on_one_line).collect();
             format!("[{}]", elements.join(", "))
         }
+        Value::Object(table) if table.is_empty() => "{}".to_owned(),
+        Value::Object(table) => {
+            let pairs: Vec<_> = table
+                .iter()
+                .map(|(name, value)| format!("{} = {}", key_text(name), on_one_line(value)))
+                .collect();
+            format!("{{ {} }}", pairs.join(", "))
+        }
         Value::String(text) => string(text),
         Value::Number(value) => number(value),
         other => other.to_string(),
+    }
+}
+
+/// A name as a key of TOML: bare where it can be.
+fn key_text(name: &str) -> String {
+    let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-');
+    match !name.is_empty() && name.bytes().all(is_bare) {
+        true => name.to_owned(),
+        false => string(name),
     }
 }
 

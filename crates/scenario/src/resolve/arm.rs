@@ -87,8 +87,14 @@ fn load_description(
         .reading(files)
         .with_visual_shapes(section.visual_shapes)
         .with_split_links(&section.split_links, Arc::new(solids.clone()));
-    let robot = RobotModel::from_urdf_with_fixed(&read(urdf, files)?, &meshes, fixed);
-    let robot = robot.map_err(|error| ArmError::Urdf { file, error })?;
+    let held: FixedJoints = fixed
+        .iter()
+        .chain(&section.fixed)
+        .map(|(joint, at)| (joint.clone(), *at))
+        .collect();
+    let robot = RobotModel::from_urdf_with_fixed(&read(urdf, files)?, &meshes, &held);
+    let checked = robot.and_then(|robot| robot.check_held(&section.fixed).map(|()| robot));
+    let robot = checked.map_err(|error| ArmError::Urdf { file, error })?;
     let Some(path) = &section.srdf else {
         return Ok(robot);
     };

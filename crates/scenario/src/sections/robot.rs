@@ -3,6 +3,7 @@
 use crate::load;
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
+use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{Pose, RobotModel, ToolFrame};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -37,6 +38,11 @@ pub struct RobotSection {
     #[key(domain = Names)]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub split_links: Vec<String>,
+    /// Joints of the description that are not of the arm, such as those of a gripper or a rail, and the positions at which they are held
+    /// still; what follows them (`mimic`) stands where they bring it.
+    #[key(unit = "rad or m", domain = Positions(-1000.0, 1000.0))]
+    #[serde(skip_serializing_if = "FixedJoints::is_empty")]
+    pub fixed: FixedJoints,
     /// Frame in which tool poses are stated and returned; nothing else changes.
     #[key(domain = Word(&["flange", "tool0", "matlab_tool0"]), default = ToolFrame::Tool0)]
     pub tool_frame: ToolFrame,

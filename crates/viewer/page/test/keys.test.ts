@@ -30,6 +30,14 @@ test("values out of their domain are invalid", () => {
   for (const text of ["", "1", "1, 2, 3", "1, 11", "1, NaN", "1e999, 0"]) assert.equal(read({ kind: "points", least: -10, most: 10 }, text), "wrong", text);
 });
 
+test("positions of joints are names with a number each", () => {
+  const domain: Domain = { kind: "positions", least: -1000, most: 1000 };
+  assert.deepEqual(read(domain, "rail = 0.3, tip/finger=-2e-3"), { rail: 0.3, "tip/finger": -0.002 });
+  assert.deepEqual(read(domain, ""), {});
+  for (const text of ["rail", "= 1", "rail = ", "rail = x", "rail = 1001", "rail = 1, rail = 2", "a\u0007 = 1"]) assert.equal(read(domain, text), "wrong", text);
+  assert.equal(valueText({ rail: 0.3, finger: -0.002 }), "rail = 0.3, finger = -0.002");
+});
+
 test("values are shown as they are read", () => {
   for (const value of [0.1 + 0.2, 1e-12, -0.0001, 5e-324, 123456789.123]) assert.equal(readNumber(valueText(value)), value);
   assert.equal(valueText([[0.1, 2], [3, 4]]), "[0.1, 2], [3, 4]");

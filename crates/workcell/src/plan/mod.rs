@@ -290,7 +290,13 @@ impl Plan {
             ("provenance.scenario", &self.provenance.scenario),
             ("job.workcell.arm.name", &world.arm.name),
         ];
-        let mut all = alone.into_iter().chain(mount).chain(bodies).chain(obstacles);
+        let fixed = world.arm.fixed.keys().map(|joint| ("job.workcell.arm.fixed", joint));
+        let mut all = alone
+            .into_iter()
+            .chain(fixed)
+            .chain(mount)
+            .chain(bodies)
+            .chain(obstacles);
         match all.find(|(_, name)| name.contains(is_hidden)) {
             None => Ok(()),
             Some((key, name)) => Err(PlanFileError::HiddenCharacter {

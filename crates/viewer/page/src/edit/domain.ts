@@ -23,6 +23,7 @@ export function numberText(value: number): string {
 /** What a control shows for a value. */
 export function valueText(value: Value): string {
   if (Array.isArray(value)) return value.map((one: Value) => (Array.isArray(one) ? `[${valueText(one)}]` : valueText(one))).join(", ");
+  if (typeof value === "object") return Object.entries(value as Record<string, number>).map(([name, one]) => `${name} = ${numberText(one)}`).join(", ");
   return typeof value === "number" ? numberText(value) : String(value);
 }
 
@@ -68,7 +69,22 @@ export function readValue({ domain }: Pick<Key, "domain">, text: string): Read {
     case "triple_above":
     case "points":
       return list(numbers(text), domain);
+    case "positions":
+      return positions(text, domain);
   }
+}
+
+/** Names with a number each, such as "rail = 0.3, finger = 0". */
+function positions(text: string, domain: Extract<Domain, { least: number }>): Read {
+  const found: Record<string, number> = {};
+  for (const part of text.split(/[,\n]/).filter((part) => part.trim() !== "")) {
+    const at = part.lastIndexOf("=");
+    const name = part.slice(0, Math.max(at, 0)).trim();
+    const value = readNumber(part.slice(at + 1));
+    if (name === "" || isControl(name) || value === null || !within(value, domain) || Object.hasOwn(found, name)) return WRONG;
+    found[name] = value;
+  }
+  return { value: found };
 }
 
 function scalar(value: number | null, domain: Extract<Domain, { least: number }>): Read {

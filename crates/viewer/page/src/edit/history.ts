@@ -11,7 +11,7 @@ export interface Version {
 
 /** Whether two values are the same, to the bit. */
 export function sameValue(a: Value | null, b: Value | null): boolean {
-  if (!Array.isArray(a) || !Array.isArray(b)) return Object.is(a, b);
+  if (!Array.isArray(a) || !Array.isArray(b)) return Object.is(a, b) || (typeof a === "object" && JSON.stringify(a) === JSON.stringify(b));
   return a.length === b.length && a.every((value, k) => sameValue(value as Value, b[k] as Value));
 }
 

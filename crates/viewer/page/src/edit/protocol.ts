@@ -8,13 +8,13 @@
 import type { Arm, Certificate, Motion, View } from "../view.ts";
 
 /** A value of a scenario's key, as TOML has it. */
-export type Value = string | number | boolean | readonly Value[];
+export type Value = string | number | boolean | readonly Value[] | Readonly<{ [name: string]: number }>;
 
 /** What a key's value may be. */
 export type Domain =
   | { kind: "text" | "path" | "paths" | "bool" }
   | { kind: "word"; words: string[] }
-  | { kind: "integer" | "number" | "number_above" | "range" | "joints" | "joints_above" | "pair" | "pair_above" | "triple" | "triple_above" | "points"; least: number; most: number };
+  | { kind: "integer" | "number" | "number_above" | "range" | "joints" | "joints_above" | "pair" | "pair_above" | "triple" | "triple_above" | "points" | "positions"; least: number; most: number };
 
 /** A row of the table of keys. */
 export interface Key {
