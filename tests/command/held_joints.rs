@@ -329,3 +329,37 @@ fn what_follows_an_axis_is_named_in_the_verdict() {
         .stdout;
     assert!(proved.lines().next().unwrap().contains(clause), "{proved}");
 }
+
+/// Positions of joints can be an axis of a study, or a key of its rows.
+#[test]
+fn a_study_varies_positions_that_are_held() {
+    let folder = folder();
+    let dir = folder.path();
+    let arm = with(dir, IRB120, &gripper());
+    let cell = std::fs::read_to_string(one_plate(dir)).unwrap();
+    let cell = cell.replacen("[robot]\n", &format!("[robot]\nurdf = {arm:?}\n"), 1);
+    std::fs::write(dir.join("cell.toml"), cell).unwrap();
+    let head = "format = \"platewash-study/1\"\nname = \"s\"\nscenario = \"cell.toml\"\nplans = \"all\"\n";
+    let axis = "[[axis]]\nkey = \"robot.fixed\"\nvalues = [{ finger = 0.02 }, { finger = 0.03 }, { thumb = 0.03 }]\n";
+    let listed = "[[rows]]\nrobot.fixed.finger = 0.02\n[[rows]]\nrobot.fixed = { finger = 0.03 }\n[[rows]]\n[rows.robot.fixed]\nthumb = 0.03\n";
+    for (name, rows) in [("axis", axis), ("listed", listed)] {
+        std::fs::write(dir.join("study.toml"), format!("{head}{rows}")).unwrap();
+        platewash(dir, &["study", "run", "study.toml", "--out", name, "-q"]);
+        let rows = std::fs::read_to_string(dir.join(name).join("rows.jsonl")).unwrap();
+        let mut rows: Vec<Value> = rows.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        rows.sort_by_key(|row| row["index"].as_u64());
+        let outcomes: Vec<_> = rows.iter().map(|row| row["outcome"].as_str().unwrap()).collect();
+        assert_eq!(outcomes, ["proved", "proved", "error"], "{name}: {rows:?}");
+        let held: Vec<_> = rows.iter().map(|row| row["axes"]["robot.fixed"].to_string()).collect();
+        assert_eq!(
+            held,
+            [r#"{"finger":0.02}"#, r#"{"finger":0.03}"#, r#"{"thumb":0.03}"#],
+            "{name}"
+        );
+        let row = platewash(dir, &["study", "scenario", name, "--row", "1"]).done().stdout;
+        assert!(row.contains("fixed = { finger = 0.03 }"), "{row}");
+    }
+    let wrong = format!("{head}[[axis]]\nkey = \"robot.fixed\"\nvalues = [{{ finger = \"far\" }}]\n");
+    std::fs::write(dir.join("study.toml"), wrong).unwrap();
+    platewash(dir, &["study", "run", "study.toml"]).refused(2, &["robot.fixed", "tables of numbers"]);
+}

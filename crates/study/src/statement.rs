@@ -5,6 +5,7 @@ use crate::error::StudyError;
 use crate::row::PlanChoice;
 use crate::study::{Base, MOST_ROWS, Study};
 use platewash_kinematics::words::message_in_words;
+use platewash_scenario::keys::KEYS;
 use platewash_scenario::{Draft, Program, SHIPPED, ScenarioError, check_seed, source};
 use serde::Deserialize;
 use serde_json::Value;
@@ -268,7 +269,7 @@ impl Source<'_> {
         let (mut listed, mut seen) = (Vec::new(), BTreeSet::new());
         for row in stated {
             let wrong = |problem: &str| self.error_at(Some(row.span()), problem);
-            let row = flat(row.get_ref()).map_err(|problem| wrong(&problem))?;
+            let row = flat(row.get_ref(), "").map_err(|problem| wrong(&problem))?;
             let first: &BTreeMap<_, _> = listed.first().unwrap_or(&row);
             if row.is_empty() || !row.keys().eq(first.keys()) {
                 return Err(wrong("rows: every row states the same keys, at least one"));
@@ -352,30 +353,37 @@ fn check_value(bases: &[Base], key: &str, value: &Value, place: usize) -> Result
 }
 
 /// A row's keys with their sections before them.
-fn flat(row: &toml::Table) -> Result<BTreeMap<String, Value>, String> {
+fn flat(row: &toml::Table, prefix: &str) -> Result<BTreeMap<String, Value>, String> {
     let mut all = BTreeMap::new();
     for (name, value) in row {
-        if let toml::Value::Table(section) = value {
-            let section = flat(section)?.into_iter();
-            all.extend(section.map(|(key, value)| (format!("{name}.{key}"), value)));
-        } else {
-            let value = json(value).map_err(|problem| format!("{name}: {problem}"))?;
-            all.insert(name.clone(), value);
+        let path = format!("{prefix}{name}");
+        let is_key = KEYS.iter().any(|key| key.path == path);
+        match value {
+            toml::Value::Table(section) if !is_key => all.extend(flat(section, &format!("{path}."))?),
+            value => {
+                let value = json(value).map_err(|problem| format!("{name}: {problem}"))?;
+                all.insert(path, value);
+            }
         }
     }
     Ok(all)
 }
 
 fn json(value: &toml::Value) -> Result<Value, String> {
+    let is_number = |value: &toml::Value| value.is_integer() || value.is_float();
     Ok(match value {
         toml::Value::String(text) => Value::from(text.as_str()),
         toml::Value::Integer(v) => Value::from(*v),
         toml::Value::Float(v) if v.is_finite() => Value::from(*v),
         toml::Value::Boolean(v) => Value::from(*v),
         toml::Value::Array(values) => values.iter().map(json).collect::<Result<_, _>>()?,
+        toml::Value::Table(table) if table.values().all(is_number) => {
+            let pairs = table.iter().map(|(name, value)| Ok((name.clone(), json(value)?)));
+            Value::Object(pairs.collect::<Result<_, String>>()?)
+        }
         other => {
             return Err(format!(
-                "must be finite numbers, texts, true, false or lists of them; found {other}"
+                "must be finite numbers, texts, true, false, lists of them or tables of numbers; found {other}"
             ));
         }
     })
