@@ -361,5 +361,5 @@ fn a_study_varies_positions_that_are_held() {
     }
     let wrong = format!("{head}[[axis]]\nkey = \"robot.fixed\"\nvalues = [{{ finger = \"far\" }}]\n");
     std::fs::write(dir.join("study.toml"), wrong).unwrap();
-    platewash(dir, &["study", "run", "study.toml"]).refused(2, &["robot.fixed", "tables of numbers"]);
+    platewash(dir, &["study", "run", "study.toml", "--out", "wrong"]).refused(2, &["robot.fixed", "tables of numbers"]);
 }
