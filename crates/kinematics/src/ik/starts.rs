@@ -57,7 +57,7 @@ fn scaled(robot: &RobotModel, k: u32) -> JointVector {
     JointVector::from_fn(|joint, _| {
         let [lower, upper] = robot.limits().sampling_range(joint);
         let within_a_turn = [lower.max(-PI), upper.min(PI)];
-        let [lower, upper] = if within_a_turn[0] < within_a_turn[1] {
+        let [lower, upper] = if within_a_turn[0] < within_a_turn[1] && !robot.limits().is_wide(joint) {
             within_a_turn
         } else {
             [lower, upper]
