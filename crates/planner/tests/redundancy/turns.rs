@@ -9,9 +9,9 @@ use platewash_workcell::fixtures::kitchen_tool;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// The IRB 120 with joints of ±100 rad.
-pub fn wide_arm() -> RobotModel {
-    let text = crate::wide::between(IRB120_URDF, [-100.0, 100.0]);
+/// The IRB 120 with joints between two limits \[rad\].
+pub fn arm_between(limits: [f64; 2]) -> RobotModel {
+    let text = crate::wide::between(IRB120_URDF, limits);
     let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
     let disabled = RobotModel::irb120().unwrap().disabled_pairs().unwrap().clone();
     robot.with_disabled_pairs(disabled).unwrap()
@@ -27,7 +27,7 @@ proptest! {
     ) {
         let path = path(curve(RADIUS_M), 15.0);
         let by = JointVector::from(turns.map(f64::from)) * TAU;
-        with_arm(&wide_arm(), &kitchen_tool(), &[plate_at(rho, azimuth)], |world| {
+        with_arm(&arm_between([-100.0, 100.0]), &kitchen_tool(), &[plate_at(rho, azimuth)], |world| {
             let [(here_blocked, here), (there_blocked, there)] = [HOME, HOME + by].map(|near| {
                 let task = world.task_near(&path, &near);
                 (is_blocked(&task).unwrap(), washing(&task))

@@ -8,7 +8,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 use platewash_workcell::job::{JobTerms, WashJob};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
-use std::f64::consts::FRAC_PI_6;
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 fn home(terms: &JobTerms) -> Result<SuggestedHome, PlanError> {
     suggest_home(kitchen().arm(), terms, &CancelToken::new())
@@ -64,4 +64,37 @@ fn returns_no_home_where_nothing_is_clear() {
     assert!(matches!(refused, PlanError::NoHome { .. }));
     let said = refused.to_string();
     assert!(said.contains(" and block, in 4000 of them"), "{said}");
+}
+
+/// The same home for joints of ±1 turn and of ±16, and, up to whole turns, where 0 is the end of the joints or far beyond it: but for the two
+/// ways to bend the wrist, which are alike.
+#[test]
+fn the_home_does_not_depend_on_how_far_the_joints_turn() {
+    let terms = kitchen().terms().clone();
+    let home = |limits: [f64; 2]| {
+        let robot = crate::redundancy::turns::arm_between(limits);
+        suggest_home(&robot, &terms, &CancelToken::new()).unwrap()
+    };
+    let once = home([-TAU, TAU]);
+    assert_eq!(home([-100.0, 100.0]).q_deg, once.q_deg);
+    for limits in [[0.0, 100.0], [-100.0, -85.0], [-7.0, 90.0]] {
+        let found = home(limits);
+        assert_eq!(found.clear, once.clear, "{limits:?}");
+        let off = |joint: usize| (found.q_deg[joint] - once.q_deg[joint]).rem_euclid(360.0);
+        assert_eq!([0, 1, 2].map(off), [0.0; 3], "{limits:?}");
+        assert!(found.margin_rad > 0.5 * PI, "{found:?}");
+    }
+}
+
+/// Where the tool points down nowhere, the home is not turns away: plates out of reach.
+#[test]
+fn a_home_anywhere_is_within_a_turn_of_0() {
+    let mut terms = kitchen().terms().clone();
+    terms.plates = vec![kitchen_plate([0.3, 0.0]).moved_to([30.0, 0.0])];
+    let found = suggest_home(
+        &crate::redundancy::turns::arm_between([-100.0, 100.0]),
+        &terms,
+        &CancelToken::new(),
+    );
+    assert!(found.unwrap().q_deg.iter().all(|deg| deg.abs() <= 180.0));
 }
