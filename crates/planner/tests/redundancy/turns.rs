@@ -11,8 +11,16 @@ use std::f64::consts::TAU;
 
 /// The IRB 120 with joints between two limits \[rad\].
 pub fn arm_between(limits: [f64; 2]) -> RobotModel {
-    let text = crate::wide::between(IRB120_URDF, limits);
-    let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+    arm(&crate::wide::between(IRB120_URDF, limits))
+}
+
+/// The IRB 120 with joints without limits.
+pub fn continuous_arm() -> RobotModel {
+    arm(&IRB120_URDF.replace("type=\"revolute\"", "type=\"continuous\""))
+}
+
+fn arm(urdf: &str) -> RobotModel {
+    let robot = RobotModel::from_urdf(urdf, &MeshSource::none()).unwrap();
     let disabled = RobotModel::irb120().unwrap().disabled_pairs().unwrap().clone();
     robot.with_disabled_pairs(disabled).unwrap()
 }
