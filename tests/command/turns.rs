@@ -3,8 +3,8 @@
 use super::*;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 
-/// Plans and proves one plate of the kitchen with an arm of these limits \[rad\], verifies the plan, and returns the report.
-fn run(dir: &Path, limits: Option<[f64; 2]>, homes: &str) -> Value {
+/// Plans and proves one plate of the kitchen, or more, with an arm of these limits \[rad\], verifies the plan, and returns the report.
+fn run(dir: &Path, limits: Option<[f64; 2]>, homes: &str, count: &str) -> Value {
     let urdf = match limits {
         Some(limits) => wide::between(IRB120_URDF, limits),
         None => IRB120_URDF.replace("type=\"revolute\"", "type=\"continuous\""),
@@ -13,7 +13,7 @@ fn run(dir: &Path, limits: Option<[f64; 2]>, homes: &str) -> Value {
     std::fs::write(dir.join("arm.srdf"), IRB120_SRDF).unwrap();
     let arm = ["urdf = \"arm.urdf\"\nsrdf = \"arm.srdf\"", homes].join("\n");
     let changes = [
-        ("count = 4", "count = 1"),
+        ("count = 4", count),
         ("model = \"irb120\"", arm.as_str()),
         ("start_deg = [0, 0, 0, 0, 90, 0]", ""),
     ];
@@ -43,7 +43,7 @@ fn run(dir: &Path, limits: Option<[f64; 2]>, homes: &str) -> Value {
 fn arms_of_many_turns_wash_as_those_of_one_turn() {
     let folder = folder();
     let dir = folder.path();
-    let cycle_s = |limits, homes: &str| run(dir, limits, homes)["duration_s"].as_f64().unwrap();
+    let cycle_s = |limits, homes: &str| run(dir, limits, homes, "count = 1")["duration_s"].as_f64().unwrap();
     let wide = Some([-100.0, 100.0]);
     let once_s = cycle_s(Some([-6.3, 6.3]), "start_deg = [0, 0, 0, 0, 90, 0]");
     for (limits, homes) in [
@@ -77,6 +77,18 @@ fn arms_of_many_turns_wash_as_those_of_one_turn() {
 fn the_home_of_an_arm_of_many_turns_is_found() {
     let folder = folder();
     let dir = folder.path();
-    let [once, often] = [6.3, 100.0].map(|limit| run(dir, Some([-limit, limit]), ""));
+    let [once, often] = [6.3, 100.0].map(|limit| run(dir, Some([-limit, limit]), "", "count = 1"));
     assert_eq!(once["duration_s"], often["duration_s"]);
+}
+
+/// Plates lie to both sides of a home at which joint 1 cannot turn to one of them: it washes a turn away from there.
+#[test]
+fn plates_beyond_the_limit_at_home_are_washed_a_turn_away() {
+    let folder = folder();
+    for (limits, start_deg) in [
+        ([0.0, 100.0], "start_deg = [0, 360, 360, 360, 450, 360]"),
+        ([-100.0, 100.0], "start_deg = [5725, 0, 0, 0, 90, 0]"),
+    ] {
+        run(folder.path(), Some(limits), start_deg, "count = 4");
+    }
 }

@@ -143,8 +143,18 @@ impl JointLimits {
         ]
     }
 
+    /// Returns a position of a joint, moved by the fewest whole turns to where it is half a turn or more from both limits \[rad\]; `None` where
+    /// there is no such place.
+    #[must_use]
+    pub fn turned_inside(&self, joint: usize, position: f64) -> Option<f64> {
+        let (lower, upper) = (self.lower[joint] + PI - position, self.upper[joint] - PI - position);
+        let [least, most] = [(lower / TAU).ceil(), (upper / TAU).floor()];
+        (least <= most).then(|| position + TAU * 0.0_f64.clamp(least, most))
+    }
+
     /// True if a joint turns further than [`WIDE_RAD`], or without limits.
-    pub(crate) fn is_wide(&self, joint: usize) -> bool {
+    #[must_use]
+    pub fn is_wide(&self, joint: usize) -> bool {
         self.upper[joint] - self.lower[joint] > WIDE_RAD
     }
 }

@@ -75,6 +75,23 @@ fn a_joint_of_many_turns_is_sampled_over_one_turn() {
     assert_eq!(range(-6.0, 6.0, [5.0; 2]), [-6.0, 6.0]);
 }
 
+#[test]
+fn a_position_near_a_limit_is_turned_inside() {
+    let turned = |lower: f64, upper: f64, position: f64| {
+        let mut limits = limits();
+        (limits.lower[0], limits.upper[0]) = (lower, upper);
+        limits.turned_inside(0, position)
+    };
+    assert_eq!(turned(-100.0, 100.0, 99.0), Some(99.0 - TAU));
+    assert_eq!(turned(-100.0, 100.0, -99.0), Some(-99.0 + TAU));
+    assert_eq!(turned(-100.0, 100.0, 95.0), Some(95.0));
+    assert_eq!(turned(0.0, 100.0, 0.0), Some(TAU));
+    assert_eq!(turned(-100.0, -90.0, 0.0), Some(-15.0 * TAU));
+    assert_eq!(turned(f64::NEG_INFINITY, f64::INFINITY, 7e3), Some(7e3));
+    assert_eq!(turned(-3.0, 3.0, 0.0), None);
+    assert_eq!(turned(-3.0, 4.0, 2.0), None);
+}
+
 proptest! {
     /// Between the limits, with both positions in it, and every angle; beyond what lies between them no more than a turn.
     #[test]

@@ -5,13 +5,13 @@ use crate::scene::{Contact, Scene, Stretch, Width};
 use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
 use platewash_kinematics::model::manipulability;
-use platewash_kinematics::{AXES, Axes, JointLimits, JointVector, RobotModel, halton};
+use platewash_kinematics::{AXES, Axes, JointVector, RobotModel, halton};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_6, PI, TAU};
+use std::f64::consts::FRAC_PI_6;
 
 /// Places of the tip that are tried, where all branches are known; fewer where each is a search.
 const PLACES: u32 = 256;
@@ -170,19 +170,6 @@ fn best_home(search: &Search<'_>) -> Result<SuggestedHome, PlanError> {
     })
 }
 
-/// The configuration nearest to 0 within limits \[rad\], up to whole turns: a joint that turns so far has half a turn on either side.
-fn near_zero(limits: &JointLimits) -> JointVector {
-    JointVector::from_fn(|joint, _| {
-        let (lower, upper) = (limits.lower[joint], limits.upper[joint]);
-        let [least, most] = [((lower + PI) / TAU).ceil(), ((upper - PI) / TAU).floor()];
-        if least <= most {
-            TAU * 0.0_f64.clamp(least, most)
-        } else {
-            0.0_f64.clamp(lower, upper)
-        }
-    })
-}
-
 /// Two directions across another one.
 fn spanning(out: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let least = if out.x.abs() < out.y.abs() {
@@ -209,7 +196,11 @@ impl Search<'_> {
         } else {
             SEARCHED_PLACES
         };
-        let near = near_zero(scene.robot.limits());
+        let limits = scene.robot.limits();
+        let near = JointVector::from_fn(|joint, _| {
+            let whole_turns = limits.turned_inside(joint, 0.0);
+            whole_turns.unwrap_or(0.0_f64.clamp(limits.lower[joint], limits.upper[joint]))
+        });
         let at = |k: u32| {
             scene.check_cancelled()?;
             let target = scene.tip_rigid(&Contact::on_normal(self.place(k), self.outward_direction()), 0.0);

@@ -1,10 +1,10 @@
 //! Joints of many turns: those that no motion needs are not looked at, and nothing is lost by it.
 
 use crate::redundancy::tests::*;
-use crate::scene::{Start, merge_starts};
+use crate::scene::{Stance, Start, merge_starts};
 use platewash_kinematics::ik::analytic::{AnalyticArm, Elbow, Label, Shoulder};
 use platewash_kinematics::{Frame, JointLimits, JointVector};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// The branches of the IRB 120 with other limits.
 fn inverse<'a>(robot: &RobotModel, tip: Frame, limits: &'a JointLimits) -> Inverse<'a> {
@@ -66,4 +66,26 @@ proptest! {
         prop_assert_eq!(starts.len(), of_many.len());
         prop_assert!(of_many.iter().all(|start| (start.q - near).amax() <= PI + 1e-9));
     }
+}
+
+/// Where joint 5 is near 0 the wrist is singular, and near whole turns as well.
+#[test]
+fn the_wrist_keeps_away_from_whole_turns_too() {
+    within(&kitchen_tool(), &[plate_at(0.4, 0.0)], |world| {
+        let stance = Stance {
+            wrist_rad: Some(0.05),
+            ..world.scene.stance
+        };
+        let scene = world.scene.clone().with_stance(stance);
+        let path = path(curve(RADIUS_M), 15.0);
+        let task = Task::new(&scene, &path, CLEARANCE_M, &HOME).unwrap();
+        let at = |joint_5: f64| JointVector::new(0.0, 0.0, 0.0, 0.0, joint_5, 0.0);
+        for turns in [-15.0, -1.0, 0.0, 1.0, 12.0] {
+            let by = TAU * turns;
+            let kept = [-3.0, -0.1, -0.04, 0.04, 0.1, 3.0].map(|q| task.check_wrist(&at(by + q)).is_ok());
+            assert_eq!(kept, [true, true, false, false, true, true], "{turns}");
+            let same_side = |a: f64, b: f64| task.check_side(&at(by + a), &at(by + b)).is_ok();
+            assert!(same_side(0.1, 0.2) && same_side(-0.2, -0.1) && !same_side(-0.1, 0.1) && !same_side(0.1, -0.1));
+        }
+    });
 }
