@@ -91,10 +91,8 @@ mod tests {
                 .map(|(q, _)| (q[5] - from) / (2.0 * PI))
                 .collect();
             let [least, most] = [f64::min, f64::max].map(|of| shares.iter().copied().reduce(of).unwrap());
-            assert!(
-                0.0 <= least && least < 0.02 && 0.98 < most && most <= 1.0,
-                "{limits}: {least} {most}"
-            );
+            let all_round = (0.0..0.02).contains(&least) && (0.98..=1.0).contains(&most);
+            assert!(all_round, "{limits}: {least} {most}");
         }
     }
 }

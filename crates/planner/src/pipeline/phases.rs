@@ -71,7 +71,7 @@ pub fn plan_in_order(
 
 /// Plans near home; failing that, where joints of many turns are near a limit at home, some turns away from it.
 fn planned(job: &WashJob, pipeline: Pipeline<'_>) -> Result<PlannedJob, PlanError> {
-    let inside = pipeline.from_turns_inside();
+    let inside = pipeline.turned_inside();
     match (planned_there(job, pipeline), inside) {
         (Err(error), Some(inside)) if !matches!(error, PlanError::Cancelled(_)) => match planned_there(job, inside) {
             Err(other) if !matches!(other, PlanError::Cancelled(_)) => Err(error),

@@ -157,7 +157,7 @@ impl<'a> Pipeline<'a> {
 
     /// The same pipeline from turns away from home, without explanations: joints of many turns that are near a limit at home are moved by whole
     /// turns to where they can turn both ways. `None` where that moves none.
-    pub fn from_turns_inside(&self) -> Option<Self> {
+    pub fn turned_inside(&self) -> Option<Self> {
         let limits = self.robot.limits();
         let inside = |joint: usize| {
             limits
