@@ -38,6 +38,7 @@ mod simulate;
 mod study;
 mod suggest;
 mod tool_mount;
+mod turns;
 mod units;
 mod verbs;
 mod verify;
@@ -45,6 +46,8 @@ mod view;
 
 #[path = "../support/linkage.rs"]
 mod linkage;
+#[path = "../support/wide.rs"]
+mod wide;
 
 use serde_json::Value;
 use std::ffi::OsStr;

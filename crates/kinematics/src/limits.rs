@@ -3,7 +3,12 @@
 use crate::words::angles_told_apart;
 use crate::{AXES, JointVector};
 use serde::Serialize;
+use std::f64::consts::{PI, TAU};
 use std::fmt;
+
+/// Distance between the limits of a joint up to which all of it is sampled \[rad\]: joint 6 of many an arm turns by ±400°. One turn has all
+/// poses, and in many turns a sample is seldom near the motion that is looked for.
+pub const WIDE_RAD: f64 = 3.0 * TAU;
 
 /// Position, speed and effort limits of the six joints, in joint order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -115,15 +120,41 @@ impl JointLimits {
         q.sup(&self.lower).inf(&self.upper)
     }
 
-    /// The finite range that sampling uses: the limits, with ±π for a continuous joint \[rad\].
+    /// The finite range that sampling uses \[rad\]: the limits; of a joint that turns further than [`WIDE_RAD`] or without limits the turn
+    /// within them that is nearest to ±π, which has all of its poses.
     #[must_use]
     pub fn sampling_range(&self, joint: usize) -> [f64; 2] {
-        use std::f64::consts::PI;
+        self.sampling_range_around(joint, [0.0; 2])
+    }
+
+    /// The range of [`Self::sampling_range`] for motions between two positions \[rad\]: of a joint that turns further than [`WIDE_RAD`] the turn
+    /// around their middle, and what lies between them.
+    #[must_use]
+    pub fn sampling_range_around(&self, joint: usize, positions: [f64; 2]) -> [f64; 2] {
         let (lower, upper) = (self.lower[joint], self.upper[joint]);
-        if lower.is_finite() && upper.is_finite() {
-            [lower, upper]
-        } else {
-            [lower.max(-PI), upper.min(PI)]
+        if !self.is_wide(joint) {
+            return [lower, upper];
         }
+        let [a, b] = positions.map(|position| position.clamp(lower, upper));
+        let middle = (0.5 * (a + b)).clamp(lower + PI, upper - PI);
+        [
+            a.min(b).min(lower.max(middle - PI)),
+            a.max(b).max(upper.min(middle + PI)),
+        ]
+    }
+
+    /// Returns a position of a joint, moved by the fewest whole turns to where it is half a turn or more from both limits \[rad\]; `None` where
+    /// there is no such place.
+    #[must_use]
+    pub fn turned_inside(&self, joint: usize, position: f64) -> Option<f64> {
+        let (lower, upper) = (self.lower[joint] + PI - position, self.upper[joint] - PI - position);
+        let [least, most] = [(lower / TAU).ceil(), (upper / TAU).floor()];
+        (least <= most).then(|| position + TAU * 0.0_f64.clamp(least, most))
+    }
+
+    /// True if a joint turns further than [`WIDE_RAD`], or without limits.
+    #[must_use]
+    pub fn is_wide(&self, joint: usize) -> bool {
+        self.upper[joint] - self.lower[joint] > WIDE_RAD
     }
 }

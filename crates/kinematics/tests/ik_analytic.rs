@@ -636,3 +636,52 @@ fn the_same_arguments_give_the_same_bits() {
         assert_eq!(arm.nearest(&target, &start), arm.nearest(&target, &start));
     }
 }
+
+/// Brute force over whole turns: in the order of all configurations, the first of those nearest to a start is the first of those that are
+/// nearest turn by turn, also where a joint is half a turn from the start. They are as few for joints of ±16 turns as for ±1.
+#[test]
+fn the_nearest_turns_hold_the_nearest_configuration() {
+    let nearest = |all: &mut dyn Iterator<Item = JointVector>, start: &JointVector| {
+        all.min_by(|a, b| (a - start).norm().total_cmp(&(b - start).norm()))
+    };
+    let mut rng = Pcg64::seed_from_u64(29);
+    let mut ties = 0;
+    for arm in [Arm::irb120(), Arm::new(fixture("ur5_lengths"))] {
+        for k in 0..60 {
+            let mut within =
+                |low: f64, high: f64| JointVector::from_fn(|_, _| low + (high - low) * rng.random::<f64>());
+            let (q, mut start) = (within(-3.0, 3.0), within(-16.0, 16.0));
+            let target = arm.target(&q);
+            let mut limits = arm.robot.limits().clone();
+            (limits.lower, limits.upper) = (within(-13.0, -5.0), within(4.0, 8.0));
+            let solutions = arm.arm.solve_all(&target, &start, &limits).unwrap();
+            for solution in solutions.iter() {
+                if k % 2 == 0 {
+                    start = solution.lowest + within(0.0, 2.0).map(|turns| PI * turns.floor());
+                }
+                let few: Vec<_> = solution.nearest_configurations(&start).collect();
+                assert_eq!(
+                    nearest(&mut few.iter().copied(), &start),
+                    nearest(&mut solution.configurations(), &start)
+                );
+                let mut all = solution.configurations();
+                assert!(
+                    few.iter().all(|q| all.any(|other| other == *q)),
+                    "in order, and none twice"
+                );
+                assert!(few.len() <= 64);
+                ties += usize::from(few.len() > 1);
+            }
+            let [once, often] = [1.0, 15.9].map(|turns| {
+                (limits.lower, limits.upper) = (JointVector::repeat(-TAU * turns), JointVector::repeat(TAU * turns));
+                let solutions = arm.arm.solve_all(&target, &q, &limits).unwrap();
+                let few = solutions
+                    .iter()
+                    .map(|solution| solution.nearest_configurations(&q).count());
+                few.sum::<usize>()
+            });
+            assert_eq!(often, once);
+        }
+    }
+    assert!(ties > 100, "{ties}");
+}

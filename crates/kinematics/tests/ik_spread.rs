@@ -68,6 +68,37 @@ fn all_eight_branches_of_a_pose_in_front_are_found() {
     assert_eq!(solver.spread(&target, &home, LISTED).unwrap().len(), 8);
 }
 
+/// Joints of many turns on one side of 0: the same branches, near the configuration asked for.
+#[test]
+fn the_branches_do_not_depend_on_how_far_the_joints_turn() {
+    let home = JointVector::from([0.0, -90.0, 90.0, -90.0, -90.0, 0.0]).map(f64::to_radians);
+    let (robot, by) = (arm(), JointVector::new(2.4, 0.3, 0.2, -0.4, 0.2, 0.9));
+    let target = robot.fk(&(home + by)).pose(solver(&robot).frame());
+    for (limits, turns) in [
+        ([-100.0, 100.0], 0.0),
+        ([0.0, 100.0], 1.0),
+        ([-100.0, -75.0], -14.0),
+        ([-100.0, 100.0], 12.0),
+    ] {
+        let text = crate::wide::between(include_str!("fixtures/ur5_lengths.urdf"), limits);
+        let robot = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
+        let near = home.add_scalar(TAU * turns);
+        let found = solver(&robot).spread(&target, &near, LISTED).unwrap();
+        assert_eq!(found.len(), 8, "{limits:?}");
+        assert!(
+            found.iter().all(|q| (q - near).amax() <= PI + 1e-9),
+            "{limits:?}: {found:?}"
+        );
+        // From the listed starts alone: `near` is on none of the branches.
+        let anywhere = near.add_scalar(0.4);
+        assert_eq!(
+            solver(&robot).spread(&target, &anywhere, LISTED).unwrap().len(),
+            8,
+            "{limits:?}"
+        );
+    }
+}
+
 /// The closed form and a search from many starts agree on the branches of random poses. `PLATEWASH_POSES` sets how many are tried.
 #[test]
 fn the_closed_form_has_every_branch_that_a_search_finds() {

@@ -35,3 +35,5 @@ mod words;
 
 #[path = "../../../tests/support/urdf.rs"]
 mod urdf;
+#[path = "../../../tests/support/wide.rs"]
+mod wide;

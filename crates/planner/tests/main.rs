@@ -19,3 +19,5 @@ mod transit;
 
 #[path = "../../../tests/support/jobs.rs"]
 mod jobs;
+#[path = "../../../tests/support/wide.rs"]
+mod wide;

@@ -1,5 +1,6 @@
 //! Transits among made-up obstacles: each kind is needed once, and is really free.
 
+use crate::redundancy::turns;
 use nalgebra::Vector3;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
@@ -16,6 +17,7 @@ use platewash_workcell::job::ReachBorders;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::random;
 use platewash_workcell::tool::{StraightTool, Tool};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// Check that a configuration is free on a stretch.
@@ -159,6 +161,30 @@ fn a_window_among_the_joints_is_found_by_sampling() {
     assert_eq!(transit.kind, TransitKind::Sampled);
     // From its own seeded stream: the same again.
     assert_eq!(plan_among(&set, &window, None).unwrap(), transit);
+}
+
+/// With joints of many turns, all of them 12 turns from 0: samples lie where the motion is.
+#[test]
+fn a_window_is_found_by_sampling_far_from_0() {
+    let by = JointVector::repeat(12.0 * TAU);
+    let window = |q: &JointVector, _: Stretch| {
+        let q = q - by;
+        q[0].abs() > 0.1 || (-1.2..-0.6).contains(&q[2]) && q[3].abs() < 1.0 && q[5].abs() < 1.0
+    };
+    let ends = [line(&set(), 0, -0.7), line(&set(), 1, 0.9)].map(|line| LiftLine::home(line.top() + by));
+    for robot in [turns::arm_between([-100.0, 100.0]), turns::continuous_arm()] {
+        let set = Set { robot, ..set() };
+        let transit = among(&set, &window, |scene| {
+            let rules = TransitRules {
+                scene,
+                limits: &set.limits,
+                clearance_m: 0.01,
+                arc: None,
+            };
+            plan(&rules, &ends[0], &ends[1], &mut random::stream(1, "crossing"))
+        });
+        assert_eq!(transit.unwrap().kind, TransitKind::Sampled);
+    }
 }
 
 #[test]

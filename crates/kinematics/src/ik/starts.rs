@@ -57,11 +57,42 @@ fn scaled(robot: &RobotModel, k: u32) -> JointVector {
     JointVector::from_fn(|joint, _| {
         let [lower, upper] = robot.limits().sampling_range(joint);
         let within_a_turn = [lower.max(-PI), upper.min(PI)];
-        let [lower, upper] = if within_a_turn[0] < within_a_turn[1] {
+        let [lower, upper] = if within_a_turn[0] < within_a_turn[1] && !robot.limits().is_wide(joint) {
             within_a_turn
         } else {
             [lower, upper]
         };
         lower + (upper - lower) * shares[joint]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::irb120::IRB120_URDF;
+    use crate::urdf::MeshSource;
+
+    /// Joint 6 of ±400° starts within ±180°; of limits on one side of 0 it starts all round, too, as near to 0 as they allow.
+    #[test]
+    fn joints_start_all_round() {
+        let stated = "lower=\"-6.98132\" upper=\"6.98132\"";
+        assert!(IRB120_URDF.contains(stated));
+        for (limits, from) in [
+            ("lower=\"-6.98132\" upper=\"6.98132\"", -PI),
+            ("lower=\"-100\" upper=\"100\"", -PI),
+            ("lower=\"0\" upper=\"100\"", 0.0),
+            ("lower=\"-90\" upper=\"-60\"", -60.0 - 2.0 * PI),
+        ] {
+            let robot = RobotModel::from_urdf(&IRB120_URDF.replace(stated, limits), &MeshSource::none()).unwrap();
+            let starts = Starts::new(&robot, &robot.last_link_frame());
+            let shares: Vec<f64> = starts
+                .entries()
+                .iter()
+                .map(|(q, _)| (q[5] - from) / (2.0 * PI))
+                .collect();
+            let [least, most] = [f64::min, f64::max].map(|of| shares.iter().copied().reduce(of).unwrap());
+            let all_round = (0.0..0.02).contains(&least) && (0.98..=1.0).contains(&most);
+            assert!(all_round, "{limits}: {least} {most}");
+        }
+    }
 }

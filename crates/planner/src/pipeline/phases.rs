@@ -69,8 +69,20 @@ pub fn plan_in_order(
     planned(job, Pipeline::in_order(job, order, paths, watch)?)
 }
 
+/// Plans near home; failing that, where joints of many turns are near a limit at home, some turns away from it.
+fn planned(job: &WashJob, pipeline: Pipeline<'_>) -> Result<PlannedJob, PlanError> {
+    let inside = pipeline.turned_inside();
+    match (planned_there(job, pipeline), inside) {
+        (Err(error), Some(inside)) if !matches!(error, PlanError::Cancelled(_)) => match planned_there(job, inside) {
+            Err(other) if !matches!(other, PlanError::Cancelled(_)) => Err(error),
+            planned => planned,
+        },
+        (planned, _) => planned,
+    }
+}
+
 /// Plans with the usual reserve of tilt, and with more of it where the motion found uses up more.
-fn planned(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<PlannedJob, PlanError> {
+fn planned_there(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<PlannedJob, PlanError> {
     let mut planned = planned_with(job, &pipeline);
     for more in MORE_TILT_RESERVE {
         if !matches!(planned, Err(PlanError::Tilt { .. })) {

@@ -37,6 +37,8 @@ pub(crate) struct Pipeline<'a> {
     pub settings: &'a PlannerSettings,
     pub plates: &'a [Plate],
     pub clearance: ClearanceModel,
+    /// The configuration not far from which the first plate is washed \[rad\].
+    pub near_rad: JointVector,
     /// Reserve between the largest tilt planned and the largest allowed \[rad\].
     pub tilt_reserve_rad: f64,
     /// Limits while washing, and elsewhere.
@@ -102,6 +104,7 @@ impl<'a> Pipeline<'a> {
             } else {
                 PlaceSearch::Off
             },
+            near_rad: terms.home_rad[0],
             tilt_reserve_rad: TILT_RESERVE_RAD,
             explains: true,
             patterns: Vec::new(),
@@ -152,6 +155,24 @@ impl<'a> Pipeline<'a> {
         })
     }
 
+    /// The same pipeline from turns away from home, without explanations: joints of many turns that are near a limit at home are moved by whole
+    /// turns to where they can turn both ways. `None` where that moves none.
+    pub fn turned_inside(&self) -> Option<Self> {
+        let limits = self.robot.limits();
+        let inside = |joint: usize| {
+            limits
+                .turned_inside(joint, self.near_rad[joint])
+                .filter(|_| limits.is_wide(joint))
+        };
+        let near_rad = JointVector::from_fn(|joint, _| inside(joint).unwrap_or(self.near_rad[joint]));
+        (near_rad != self.near_rad).then(|| Self {
+            near_rad,
+            explains: false,
+            place_search: PlaceSearch::Off,
+            ..self.among(self.plates)
+        })
+    }
+
     /// The same pipeline among as many plates at other places, without a listener.
     pub fn among<'b>(&self, plates: &'b [Plate]) -> Pipeline<'b>
     where
@@ -169,6 +190,7 @@ impl<'a> Pipeline<'a> {
             patterns: self.patterns.clone(),
             asked_order: self.asked_order.clone(),
             asked_paths: self.asked_paths.clone(),
+            near_rad: self.near_rad,
             tilt_reserve_rad: self.tilt_reserve_rad,
             explains: self.explains,
             washing: self.washing,

@@ -46,7 +46,7 @@ impl Pipeline<'_> {
         let mut entries: Vec<JointVector> = Vec::with_capacity(centres.len());
         for (plate, centre) in centres.iter().enumerate() {
             scene.check_cancelled()?;
-            entries.push(at(plate, *centre, start));
+            entries.push(at(plate, *centre, &self.near_rad));
         }
         let exit = |plate: usize, towards: &Vector3<f64>| {
             let [_, foot] = self.widest_path(plate, towards).feet(&self.plates[plate]);

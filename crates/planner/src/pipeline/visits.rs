@@ -58,7 +58,7 @@ impl Pipeline<'_> {
     /// washes it either.
     pub fn blocked(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<Option<FailedVisit>, Cancelled> {
         scene.check_cancelled()?;
-        let [near, _] = self.terms.home_rad;
+        let near = self.near_rad;
         let path = self.path_of(scene, order, k);
         let task = |path: &WashPath| Task::new(scene, path, self.clearance_m(), &near);
         let Ok(widest) = task(&path) else {
@@ -88,7 +88,7 @@ impl Pipeline<'_> {
         washing: FindWashing<Self>,
         wanted: impl Fn(usize) -> bool,
     ) -> impl Iterator<Item = Result<Turn, Box<FailedVisit>>> {
-        let [mut near, _] = self.terms.home_rad;
+        let mut near = self.near_rad;
         let turns = (0..order.len()).filter(move |&k| wanted(order[k]));
         turns.map(move |k| {
             self.report_visit(order, k);

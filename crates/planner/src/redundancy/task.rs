@@ -12,7 +12,7 @@ use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TRIM_RAD, MOST_TURNS, WashPath};
 use platewash_workcell::words::plate_name;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt;
 
 /// Joint 5, by its index.
@@ -166,12 +166,13 @@ impl<'a> Task<'a> {
         self.check_wrist(q).is_ok() && self.is_clear(q)
     }
 
-    /// Checks that joint 5 is far enough from 0.
+    /// Checks that joint 5 is far enough from 0 and from whole turns.
     pub(crate) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
         let Some(least_rad) = self.scene.stance.wrist_rad else {
             return Ok(());
         };
-        let (found_rad, least_rad) = (q[WRIST].abs(), least_rad + WRIST_RESERVE_RAD);
+        let whole = TAU * (q[WRIST] / TAU).round();
+        let (found_rad, least_rad) = ((q[WRIST] - whole).abs(), least_rad + WRIST_RESERVE_RAD);
         if found_rad >= least_rad {
             return Ok(());
         }
@@ -322,8 +323,9 @@ impl<'a> Task<'a> {
 impl Task<'_> {
     /// Refuses a step over which the wrist flips.
     pub(crate) fn check_side(&self, from: &JointVector, to: &JointVector) -> Result<(), Hindrance> {
+        let turn = |q: &JointVector| (q[WRIST] / TAU).floor();
         match self.scene.stance.wrist_rad {
-            Some(least_rad) if from[WRIST] * to[WRIST] < 0.0 => Err(Hindrance::Wrist {
+            Some(least_rad) if turn(from) != turn(to) => Err(Hindrance::Wrist {
                 found_rad: 0.0,
                 least_rad,
             }),

@@ -1,7 +1,9 @@
 //! Configurations for a pose of the tip: all to start from, and the one that continues a path.
 
 use crate::scene::hindrance::Hindrance;
-use platewash_kinematics::ik::analytic::{AnalyticArm, Degeneracies, Elbow, Label, Rejection, Shoulder, Wrist};
+use platewash_kinematics::ik::analytic::{
+    AnalyticArm, Degeneracies, Elbow, Label, Rejection, Shoulder, Solution, Wrist,
+};
 use platewash_kinematics::ik::{IkSettings, IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, JointLimits, JointVector, Pose, RobotModel};
@@ -142,13 +144,12 @@ impl<'a> Inverse<'a> {
         };
         let body = AnalyticArm::body_target(tip, target).ok_or(Hindrance::NotFinite)?;
         let all = arm.solve_all(&body, near, limits)?;
-        let mut found: Vec<_> = all
-            .configurations()
-            .map(|(label, q)| Start {
-                q,
-                sides: Some((label.shoulder, label.elbow)),
-            })
-            .collect();
+        // A farther turn of a joint has the same pose and clearances, and would merge with the nearest one.
+        let of_branch = |solution: &Solution| {
+            let sides = Some((solution.label.shoulder, solution.label.elbow));
+            solution.nearest_configurations(near).map(move |q| Start { q, sides })
+        };
+        let mut found: Vec<_> = all.iter().flat_map(of_branch).collect();
         let above =
             |(shoulder, elbow)| elbow == Elbow::Up && (shoulder == Shoulder::Front || arm.shoulder_sides_are_alike());
         let rank = |start: &Start| !start.sides.is_some_and(above);

@@ -196,9 +196,10 @@ impl Search<'_> {
         } else {
             SEARCHED_PLACES
         };
+        let limits = scene.robot.limits();
         let near = JointVector::from_fn(|joint, _| {
-            let [lower, upper] = scene.robot.limits().sampling_range(joint);
-            0.0_f64.clamp(lower, upper)
+            let whole_turns = limits.turned_inside(joint, 0.0);
+            whole_turns.unwrap_or(0.0_f64.clamp(limits.lower[joint], limits.upper[joint]))
         });
         let at = |k: u32| {
             scene.check_cancelled()?;

@@ -3,7 +3,7 @@
 
 use crate::scene::Stretch;
 use crate::transit::search::{FreePath, STEP_RAD, TransitRules};
-use platewash_kinematics::JointVector;
+use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -60,11 +60,13 @@ fn connect(
 ) -> Result<Result<FreeLines, usize>, Cancelled> {
     let root = |q: &JointVector| vec![Node { q: *q, parent: 0 }];
     let mut trees = [root(from), root(to)];
+    let limits = rules.scene.robot.limits();
+    let ranges = std::array::from_fn(|joint| limits.sampling_range_around(joint, [from[joint], to[joint]]));
     // Which of the trees grows towards the sample; the other one then tries to meet it.
     let mut growing = 0;
     while trees[0].len() + trees[1].len() < MOST_NODES {
         rules.scene.check_cancelled()?;
-        let aim = random(rules, rng);
+        let aim = random(&ranges, rng);
         let near = nearest(&trees[growing], &aim);
         if let Some(q) = grown(rules, &trees[growing][near].q, &aim) {
             trees[growing].push(Node { q, parent: near });
@@ -127,11 +129,8 @@ fn nearest(tree: &[Node], aim: &JointVector) -> usize {
     (0..tree.len()).min_by(by_distance).unwrap_or(0)
 }
 
-fn random(rules: &TransitRules<'_>, rng: &mut Pcg64) -> JointVector {
-    JointVector::from_fn(|joint, _| {
-        let [lower, upper] = rules.scene.robot.limits().sampling_range(joint);
-        lower + (upper - lower) * rng.random::<f64>()
-    })
+fn random(ranges: &[[f64; 2]; AXES], rng: &mut Pcg64) -> JointVector {
+    JointVector::from(ranges.map(|[lower, upper]| lower + (upper - lower) * rng.random::<f64>()))
 }
 
 /// Path from the first tree's root to the second one's, over the configuration at which both end.

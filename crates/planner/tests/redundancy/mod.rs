@@ -2,6 +2,7 @@
 
 mod input;
 mod other_arms;
+pub mod turns;
 pub mod world;
 
 use nalgebra::{UnitQuaternion, Vector2};

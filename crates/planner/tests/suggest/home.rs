@@ -1,5 +1,6 @@
 //! Homes over the plates, clear of everything, from which jobs are planned.
 
+use nalgebra::Vector3;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_planner::suggest::{SuggestedHome, suggest_home};
@@ -8,7 +9,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 use platewash_workcell::job::{JobTerms, WashJob};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
-use std::f64::consts::FRAC_PI_6;
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 fn home(terms: &JobTerms) -> Result<SuggestedHome, PlanError> {
     suggest_home(kitchen().arm(), terms, &CancelToken::new())
@@ -64,4 +65,40 @@ fn returns_no_home_where_nothing_is_clear() {
     assert!(matches!(refused, PlanError::NoHome { .. }));
     let said = refused.to_string();
     assert!(said.contains(" and block, in 4000 of them"), "{said}");
+}
+
+/// The same home for joints of ±1 turn and of ±16, and, up to whole turns, where 0 is the end of the joints or far beyond it: but for the two
+/// ways to bend the wrist, which are alike.
+#[test]
+fn the_home_does_not_depend_on_how_far_the_joints_turn() {
+    let terms = kitchen().terms().clone();
+    let home = |limits: [f64; 2]| {
+        let robot = crate::redundancy::turns::arm_between(limits);
+        suggest_home(&robot, &terms, &CancelToken::new()).unwrap()
+    };
+    let once = home([-TAU, TAU]);
+    assert_eq!(home([-100.0, 100.0]).q_deg, once.q_deg);
+    for limits in [[0.0, 100.0], [-100.0, -85.0], [-7.0, 90.0]] {
+        let found = home(limits);
+        assert_eq!(found.clear, once.clear, "{limits:?}");
+        let off = |joint: usize| (found.q_deg[joint] - once.q_deg[joint]).rem_euclid(360.0);
+        assert_eq!([0, 1, 2].map(off), [0.0; 3], "{limits:?}");
+        assert!(found.margin_rad > 0.5 * PI, "{found:?}");
+    }
+}
+
+/// A block over the plates: the home is elsewhere, and no turns away.
+#[test]
+fn a_home_that_is_not_over_the_plates_is_within_a_turn_of_0() {
+    let mut terms = kitchen().terms().clone();
+    terms.plates = vec![kitchen_plate([0.3, 0.0])];
+    let block = ObstacleShape::Convex(Shape::Box {
+        half_m: [0.5, 1.0, 1.0],
+    });
+    let place = Pose::new(Vector3::new(0.7, 0.0, 0.0), Vector3::zeros());
+    terms.workcell.obstacles.push(Obstacle::new("block", block, place));
+    let robot = crate::redundancy::turns::arm_between([-100.0, 100.0]);
+    let found = suggest_home(&robot, &terms, &CancelToken::new()).unwrap();
+    assert!(found.tilt_rad > 0.1, "over the plates: {found:?}");
+    assert!(found.q_deg.iter().all(|deg| deg.abs() <= 180.0), "{found:?}");
 }

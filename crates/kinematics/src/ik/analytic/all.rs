@@ -40,6 +40,8 @@ pub struct Solution {
 #[derive(Debug, Clone)]
 pub struct Configurations {
     solution: Solution,
+    first: [u32; AXES],
+    last: [u32; AXES],
     next: Option<[u32; AXES]>,
 }
 
@@ -64,12 +66,30 @@ impl Solution {
         (self.lowest[joint] + TAU * turns).min(self.upper[joint])
     }
 
-    /// Returns every configuration of this branch within the limits \[rad\].
+    /// Returns every configuration of this branch within the limits \[rad\]. They are very many where the limits allow many turns.
     #[must_use]
     pub fn configurations(&self) -> Configurations {
+        self.between([0; AXES], self.turns.map(|turns| turns - 1))
+    }
+
+    /// Returns the configurations of this branch within the limits, none of whose joints has a turn that is nearer to `start` by more than
+    /// rounding \[rad\]: one, and more only where a joint is half a turn from `start`.
+    #[must_use]
+    pub fn nearest_configurations(&self, start: &JointVector) -> Configurations {
+        let most = |joint: usize| f64::from(self.turns[joint] - 1);
+        let away = |joint: usize| (start[joint] - self.lowest[joint]) / TAU;
+        let within_half = 0.5 + LIMIT_ROUNDING_RAD;
+        let first = |joint| (away(joint) - within_half).ceil().clamp(0.0, most(joint)) as u32;
+        let last = |joint| (away(joint) + within_half).floor().clamp(0.0, most(joint)) as u32;
+        self.between(std::array::from_fn(first), std::array::from_fn(last))
+    }
+
+    fn between(&self, first: [u32; AXES], last: [u32; AXES]) -> Configurations {
         Configurations {
             solution: *self,
-            next: Some([0; AXES]),
+            first,
+            last,
+            next: Some(first),
         }
     }
 }
@@ -79,12 +99,11 @@ impl Iterator for Configurations {
 
     fn next(&mut self) -> Option<JointVector> {
         let now = self.next?;
-        let turns = &self.solution.turns;
         let mut after = now;
         // Count up, joint 6 first; past the last combination nothing is left.
-        self.next = (0..AXES).rev().find(|&i| now[i] + 1 < turns[i]).map(|i| {
+        self.next = (0..AXES).rev().find(|&i| now[i] < self.last[i]).map(|i| {
             after[i] += 1;
-            after[i + 1..].fill(0);
+            after[i + 1..].copy_from_slice(&self.first[i + 1..]);
             after
         });
         Some(JointVector::from_fn(|i, _| self.solution.value(i, f64::from(now[i]))))
@@ -97,7 +116,8 @@ impl Solutions {
         self.slots.iter().filter_map(|slot| slot.as_ref().ok())
     }
 
-    /// Returns every configuration within the limits \[rad\]. Branches that meet in a singularity repeat it.
+    /// Returns every configuration within the limits \[rad\], very many where these allow many turns. Branches that meet in a singularity
+    /// repeat it.
     pub fn configurations(&self) -> impl Iterator<Item = (Label, JointVector)> {
         self.iter()
             .flat_map(|solution| solution.configurations().map(|q| (solution.label, q)))

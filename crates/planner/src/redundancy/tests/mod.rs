@@ -2,6 +2,7 @@ mod anywhere;
 mod aside;
 mod held;
 mod scale;
+mod turns;
 #[path = "../../../tests/redundancy/world.rs"]
 mod world;
 
