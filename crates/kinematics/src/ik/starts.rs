@@ -1,6 +1,7 @@
 //! The listed starts: a fixed, evenly spread set of configurations within the limits.
 //!
-//! They are the first [`LISTED`] points of the six-dimensional Halton sequence ([`halton`]), scaled to the joint limits, with joints that turn further than ±π kept within it. For
+//! They are the first [`LISTED`] points of the six-dimensional Halton sequence ([`halton`]), scaled to the joint limits, with joints that turn further than ±π kept
+//! within it; a joint of many turns has one turn, the nearest to ±π. For
 //! a target, the starts whose frame is nearest to it are tried first: squared distance of the origins in
 //! metres plus 0.05 of the squared chord between the rotations.
 

@@ -74,7 +74,7 @@ impl DynamicsModel {
 /// Number of configurations that are checked: the largest entry found is then within a percent or so of the largest there is.
 const CONFIGURATIONS: u32 = 4096;
 
-/// `count` configurations \[rad\] spread evenly over the limits, ±π for a continuous joint: [`halton`].
+/// `count` configurations \[rad\] spread evenly over the limits, one turn of a joint of many turns: [`halton`].
 pub fn spread(limits: &JointLimits, count: u32) -> impl Iterator<Item = JointVector> + '_ {
     (1..=count).map(|k| {
         let shares = halton::point(k);
