@@ -12,6 +12,7 @@ mod holder;
 mod jobs;
 mod loading;
 mod measured;
+mod measured_matrix;
 mod mount_link;
 mod notes;
 mod obstacle_files;

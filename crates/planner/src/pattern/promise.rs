@@ -529,6 +529,12 @@ impl fmt::Display for Shortfall {
             ContactPromise::LeastForce | ContactPromise::GreatestForce => (1.0, "N"),
             _ => (100.0, "%"),
         };
+        if !self.found.is_finite() {
+            return f.write_str(
+                "no bound was found on how the sponge is pressed, as the face bends too sharply somewhere under it; a profile without that bend, such \
+                 as one that ends before a rim that rolls off, may do",
+            );
+        }
         let [found, required] = distinct_decimals(scale * self.found, scale * self.required, 1);
         match self.promised {
             ContactPromise::Strain => write!(

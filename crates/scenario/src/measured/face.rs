@@ -5,7 +5,7 @@ pub use platewash_workcell::job::Relief;
 use crate::measured::axis::Frame;
 use crate::measured::error::{MeasuredError, Place};
 use crate::measured::knots::Ring;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_workcell::surface::{STEEPEST_RAD, Surface};
 use std::f64::consts::{PI, TAU};
@@ -20,6 +20,11 @@ const EDGE_M: f64 = 2e-3;
 /// Length along the radius over which a slope is averaged, as a share of the rim's radius, and tolerance of its tangent.
 const SLOPE_SPAN: f64 = 0.03;
 const SLOPE_SLACK: f64 = 1.15;
+
+/// Share of a triangle by which a place may be beyond its edge, and part of a cell by which it is looked for: far more than is rounded, far
+/// less than matters.
+const ON_EDGE: f64 = 1e-5;
+const WIDER: f64 = 1e-3;
 
 /// Unit of heights in a relief \[m\].
 const STEP_M: f64 = 1e-5;
@@ -117,7 +122,7 @@ fn rings_of(corners: &[Vector3<f64>; 3], rim_m: f64) -> [usize; 2] {
     };
     let ring = |rho: f64| rho / rim_m * GRID[0] as f64 - 0.5;
     // A little wider, whatever is rounded.
-    let (from, to) = ((ring(least) - 1e-6).ceil().max(0.0), (ring(most) + 1e-6).floor());
+    let (from, to) = ((ring(least) - WIDER).ceil().max(0.0), (ring(most) + WIDER).floor());
     match to >= from {
         true => [from as usize, (to as usize).min(GRID[0] - 1)],
         false => [1, 0],
@@ -139,8 +144,8 @@ fn azimuths_of(corners: &[Vector3<f64>; 3]) -> [usize; 2] {
     }
     let step = TAU / GRID[1] as f64;
     let (from, to) = (
-        ((angles[0] + low) / step - 1e-6).ceil(),
-        ((angles[0] + high) / step + 1e-6).floor(),
+        ((angles[0] + low) / step - WIDER).ceil(),
+        ((angles[0] + high) / step + WIDER).floor(),
     );
     match to >= from {
         true => [from.rem_euclid(GRID[1] as f64) as usize, (to - from) as usize + 1],
@@ -193,13 +198,39 @@ pub(super) fn check_slope(rings: &[Ring], rim_m: f64) -> Result<(), MeasuredErro
     Ok(())
 }
 
-/// Height of a triangle over a place, seen along z; `None` beside it.
+/// Height of a triangle over a place, seen along z; `None` beside it. A place on an edge of two triangles is over both of them, however their
+/// corners are rounded.
 pub(super) fn height_at([a, b, c]: &[Vector3<f64>; 3], [x, y]: [f64; 2]) -> Option<f64> {
     let twice = |p: &Vector3<f64>, q: &Vector3<f64>| (p.x - x) * (q.y - y) - (p.y - y) * (q.x - x);
     let [u, v, w] = [twice(b, c), twice(c, a), twice(a, b)];
     let sum = u + v + w;
-    let inside = sum != 0.0 && [u, v, w].iter().all(|part| part * sum >= 0.0);
+    let inside = sum != 0.0 && [u, v, w].iter().all(|part| part * sum >= -ON_EDGE * sum * sum);
     inside.then(|| (u * a.z + v * b.z + w * c.z) / sum)
+}
+
+/// Returns the points that are corners of the outline of all, seen along the frame's axis: those of the convex hull.
+pub(super) fn corners(points: impl Iterator<Item = Vector3<f64>>, frame: &Frame) -> Vec<Vector3<f64>> {
+    let mut all: Vec<_> = points.map(|point| (frame.local(&point).xy(), point)).collect();
+    all.sort_unstable_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let mut hull = half_outline(all.iter());
+    hull.extend(half_outline(all.iter().rev()));
+    hull
+}
+
+/// Half of the outline of points that come in order along x or against it.
+fn half_outline<'a>(points: impl Iterator<Item = &'a (Vector2<f64>, Vector3<f64>)>) -> Vec<Vector3<f64>> {
+    let mut half: Vec<&(Vector2<f64>, Vector3<f64>)> = Vec::new();
+    for point in points {
+        while let [.., (a, _), (b, _)] = half[..]
+            && (b - a).perp(&(point.0 - b)) <= 0.0
+        {
+            half.pop();
+        }
+        half.push(point);
+    }
+    // The other half begins with the last one.
+    half.pop();
+    half.into_iter().map(|(_, point)| *point).collect()
 }
 
 /// Returns the outermost point of each sector that has one.

@@ -3,12 +3,16 @@
 use crate::measured::algebra::Moments;
 use crate::measured::axis::{Cloud, Fitted, Frame};
 use crate::measured::error::MeasuredError;
-use crate::measured::face::{height_at, outermost};
+use crate::measured::face::{corners, height_at, outermost};
 use crate::measured::is_coordinate;
 use nalgebra::{Point3, Vector3};
 
-/// Cells along the longest side of the box around a mesh: corners in one cell are one vertex.
-const CELLS: f64 = 2_097_151.0;
+/// Cells along the longest side of the box around a mesh: corners in one cell are one vertex. They are odd in number, so that one lies in the
+/// middle plane, where seams are.
+const CELLS: f64 = 2_097_145.0;
+
+/// Distance along each side, as a share of the longest one, below which corners in neighbouring cells are one vertex, too.
+const SAME: f64 = 2e-9;
 
 /// Greatest share of the mesh's area, seen along the axis, by which both sides of a closed mesh may differ.
 const OPEN: f64 = 0.01;
@@ -24,6 +28,14 @@ pub(super) const SECTORS: usize = 24;
 
 /// Number of vertices of the face from which on only a part of them is fitted.
 const ENOUGH: usize = 60_000;
+
+/// Greatest difference of the distances of a facet's corners from the axis, as a share of the rim's radius, at which its corners alone are fitted:
+/// a drawing has corners at the knots of its profile alone. Other facets are cut into parts that are shorter by a factor, with no more than so
+/// many along an edge.
+const COARSE: f64 = 1.0 / 6.0;
+const FINER: f64 = 8.0;
+const MOST_PARTS: usize = 96;
+const SAMPLED: f64 = 8.0;
 
 /// Greatest slope by which the face falls outwards, as its tangent: 45°. It ends there, and the lip begins.
 const LIP: f64 = 1.0;
@@ -46,20 +58,21 @@ pub(super) struct Mesh {
 pub(super) struct Face {
     /// Facets from the pole to the lip, and those of dents: what is measured.
     pub facets: Vec<[u32; 3]>,
-    /// Vertices to fit.
+    /// Vertices to fit, and points of coarse facets to which the profile alone is fitted.
     pub cloud: Cloud,
-    /// Outermost vertices, one a sector.
+    pub samples: Cloud,
+    /// Outermost corners of the rim, no more than one a sector.
     pub rim: Vec<Vector3<f64>>,
 }
 
 impl Face {
     /// Returns what is fitted; an error if nothing is.
     pub fn fitted(&self) -> Result<Fitted<'_>, MeasuredError> {
-        let (cloud, rim) = (&self.cloud, self.rim.as_slice());
+        let (cloud, samples, rim) = (&self.cloud, self.samples.as_slice(), self.rim.as_slice());
         if cloud.is_empty() {
             Err(MeasuredError::Empty)
         } else {
-            Ok(Fitted { cloud, rim })
+            Ok(Fitted { cloud, samples, rim })
         }
     }
 }
@@ -87,23 +100,35 @@ impl Mesh {
             return Err(MeasuredError::Empty);
         }
         let middle = Vector3::from_fn(|k, _| 0.5 * (low[k] + high[k]));
-        let cell = |corner: &Point3<f64>| {
-            let part = |k: usize| ((corner[k] - low[k]) / extent * CELLS).round() as u64;
-            part(0) << 42 | part(1) << 21 | part(2)
+        let part = |k: usize, by: f64, corner: &Point3<f64>| {
+            let share = (corner[k] - middle[k]) / extent + by;
+            ((share * CELLS).round() + 0.5 * (CELLS + 5.0)) as u64
         };
-        let mut corners: Vec<(u64, u32)> = (0..)
-            .zip(triangles.iter().flatten())
-            .map(|(k, c)| (cell(c), k))
-            .collect();
-        corners.sort_unstable();
-        let (mut points, mut vertex) = (Vec::new(), vec![0; corners.len()]);
-        let mut before = u64::MAX;
-        for (cell, k) in corners {
-            if cell != before {
-                points.push(triangles[k as usize / 3][k as usize % 3].coords - middle);
-                before = cell;
+        // The cells of the corners of a small box around a corner: mostly one and the same.
+        let cells = |corner: &Point3<f64>| {
+            let ends = [0, 1, 2].map(|k| [part(k, -SAME, corner), part(k, SAME, corner)]);
+            (0..8).map(move |way: usize| ends[0][way & 1] << 42 | ends[1][way >> 1 & 1] << 21 | ends[2][way >> 2])
+        };
+        let mut corners: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
+        for (k, corner) in (0..).zip(triangles.iter().flatten()) {
+            let mut before = None;
+            for cell in cells(corner).filter(|cell| before.replace(*cell) != Some(*cell)) {
+                corners.push((cell, k));
             }
-            vertex[k as usize] = points.len() as u32 - 1;
+        }
+        corners.sort_unstable();
+        let mut joined: Vec<u32> = (0..3 * triangles.len() as u32).collect();
+        for pair in corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            join(&mut joined, [pair[0].1, pair[1].1]);
+        }
+        let (mut points, mut vertex) = (Vec::new(), vec![u32::MAX; joined.len()]);
+        for (_, k) in corners {
+            let root = root(&mut joined, k) as usize;
+            if vertex[root] == u32::MAX {
+                points.push(triangles[root / 3][root % 3].coords - middle);
+                vertex[root] = points.len() as u32 - 1;
+            }
+            vertex[k as usize] = vertex[root];
         }
         let ordered = |t: &[u32]| match t.iter().min() {
             Some(least) if *least == t[1] => [t[1], t[2], t[0]],
@@ -225,23 +250,60 @@ impl Mesh {
             .collect();
         // What is fitted ends at the lip.
         let mut weights = vec![0.0; self.points.len()];
-        for t in &facets {
-            if !self.is_lip(t, frame) {
-                t.iter().for_each(|k| weights[*k as usize] += area(t) / 3.0);
+        let mut samples = Cloud::new();
+        let smooth = || facets.iter().filter(|t| !self.is_lip(t, frame));
+        let mut is_smooth = vec![false; self.points.len()];
+        smooth().for_each(|t| t.iter().for_each(|k| is_smooth[*k as usize] = true));
+        let vertices = self.points.iter().zip(is_smooth).filter(|(_, is_smooth)| *is_smooth);
+        let corners = corners(vertices.map(|(point, _)| *point), frame);
+        let reach_m = corners
+            .iter()
+            .map(|point| frame.local(point).xy().norm())
+            .fold(0.0, f64::max);
+        for t in smooth() {
+            let parts = self.parts(t, frame, COARSE * reach_m);
+            t.iter().for_each(|k| weights[*k as usize] += area(t) / 3.0);
+            if parts > 1 {
+                // They count more than the corners, which stand for the same area.
+                let weight = SAMPLED * area(t) / (parts * parts) as f64;
+                samples.extend(self.middles(t, parts).map(|middle| (middle, weight)));
             }
         }
-        let fitted = || {
-            (0..)
-                .zip(&weights)
-                .filter(|(_, w)| **w > 0.0)
-                .map(|(k, w): (usize, _)| (self.points[k], *w))
-        };
-        let every = fitted().count() / ENOUGH + 1;
+        let vertices = || (0..).zip(&weights).filter(|(_, weight)| **weight > 0.0);
+        let every = |count: usize| count / ENOUGH + 1;
+        let cloud = vertices().step_by(every(vertices().count()));
         Face {
+            cloud: cloud.map(|(k, weight): (usize, _)| (self.points[k], *weight)).collect(),
+            rim: outermost(corners.into_iter(), frame, SECTORS),
+            samples: samples.iter().step_by(every(samples.len())).copied().collect(),
             facets,
-            cloud: fitted().step_by(every).collect(),
-            rim: outermost(fitted().map(|(point, _)| point), frame, SECTORS),
         }
+    }
+
+    /// Number of parts into which each edge of a facet is cut: 1 where its corners are about as far from the axis as each other, otherwise as
+    /// many as leave no part that is longer than that.
+    fn parts(&self, t: &[u32; 3], frame: &Frame, coarse_m: f64) -> usize {
+        let corners = self.corners(t);
+        let radii = corners.map(|corner| frame.local(&corner).xy().norm());
+        let [least, most] = [f64::min, f64::max].map(|pick| radii.into_iter().reduce(pick).unwrap_or_default());
+        if most - least <= coarse_m {
+            return 1;
+        }
+        let [a, b, c] = corners;
+        let longest_m = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+        ((longest_m / coarse_m * FINER).ceil() as usize).clamp(1, MOST_PARTS)
+    }
+
+    /// Middles of the triangles into which a facet falls where each of its edges is cut into some parts.
+    fn middles(&self, t: &[u32; 3], parts: usize) -> impl Iterator<Item = Vector3<f64>> {
+        let [a, b, c] = self.corners(t);
+        let step = 1.0 / parts as f64;
+        let at = move |i: usize, j: usize, third: f64| {
+            a + (b - a) * ((i as f64 + third) * step) + (c - a) * ((j as f64 + third) * step)
+        };
+        let upright = (0..parts).flat_map(move |i| (0..parts - i).map(move |j| at(i, j, 1.0 / 3.0)));
+        let turned = (0..parts - 1).flat_map(move |i| (0..parts - 1 - i).map(move |j| at(i, j, 2.0 / 3.0)));
+        upright.chain(turned)
     }
 
     /// True if a facet that faces up falls outwards as steeply as the lip.
@@ -256,17 +318,9 @@ impl Mesh {
     /// For each vertex, the least vertex of the piece that it belongs to; facets with a common vertex are of one piece.
     fn pieces(&self, facets: &[[u32; 3]]) -> Vec<u32> {
         let mut of: Vec<u32> = (0..self.points.len() as u32).collect();
-        let root = |of: &mut [u32], mut k: u32| {
-            while of[k as usize] != k {
-                of[k as usize] = of[of[k as usize] as usize];
-                k = of[k as usize];
-            }
-            k
-        };
         for t in facets {
-            let roots = t.map(|k| root(&mut of, k));
-            let least = roots[0].min(roots[1]).min(roots[2]);
-            roots.iter().for_each(|k| of[*k as usize] = least);
+            join(&mut of, [t[0], t[1]]);
+            join(&mut of, [t[1], t[2]]);
         }
         for k in 0..of.len() {
             of[k] = of[of[k] as usize];
@@ -284,4 +338,19 @@ impl Mesh {
             height_at(&corners, [middle.x, middle.y]).is_some_and(|z| z > middle.z)
         })
     }
+}
+
+/// Returns the least member of the group that `k` is in; `of` leads from each member to another one, or to itself.
+fn root(of: &mut [u32], mut k: u32) -> u32 {
+    while of[k as usize] != k {
+        of[k as usize] = of[of[k as usize] as usize];
+        k = of[k as usize];
+    }
+    k
+}
+
+/// Joins the groups of two members.
+fn join(of: &mut [u32], pair: [u32; 2]) {
+    let [a, b] = pair.map(|k| root(of, k));
+    of[a.max(b) as usize] = a.min(b);
 }

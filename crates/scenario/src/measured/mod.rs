@@ -274,10 +274,13 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
         let place = file.place(&frame, &least);
         return Err(MeasuredError::NotRound { rim_m, place });
     }
-    check_slope(&rings(&fitted.placed(&frame), rim_m), rim_m)?;
     let local = |t: &[u32; 3], frame: &Frame| t.map(|k| frame.local(&mesh.points[k as usize]));
     let upper = Heights::of(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
-    upper.check_whole(rim_m, |point| file.place(&frame, point))?;
+    // That it is not round is told first; a steep wall leaves gaps.
+    match upper.check_whole(rim_m, |point| file.place(&frame, point)) {
+        Err(why @ MeasuredError::NotRound { .. }) => return Err(why),
+        whole => check_slope(&rings(&fitted.placed(&frame), rim_m), rim_m).and(whole)?,
+    }
     let profile = sparing(&fitted, &mut frame, &profile, rim_m);
     let surface = profile.surface().ok_or(MeasuredError::Empty)?;
     let frame = frame.raised(profile.level_m());
@@ -319,7 +322,8 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
 
 /// Returns the profile with as few knots as the points ask for, and moves the frame to its axis.
 fn sparing(fitted: &Fitted<'_>, frame: &mut Frame, profile: &Profile, rim_m: f64) -> Profile {
-    let found = |frame: &Frame, profile: &Profile| Profile::sparing(&rings(&fitted.kept(frame, profile), rim_m), rim_m);
+    let found =
+        |frame: &Frame, profile: &Profile| Profile::sparing(&rings(&fitted.of_profile(frame, profile), rim_m), rim_m);
     let mut profile = found(frame, profile);
     fitted.refine(frame, &mut profile, 20, |points, profile| {
         profile.fitted(&rings(points, rim_m), false, 4)

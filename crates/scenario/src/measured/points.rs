@@ -86,6 +86,7 @@ pub fn from_points(
     let refit =
         |points: &[([f64; 2], f64)], profile: &Profile| profile.fitted(&rings(points, profile.rim_m()), false, 4);
     let mut fitted = Fitted {
+        samples: &[],
         cloud: &cloud,
         rim: &[],
     };
