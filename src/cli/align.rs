@@ -4,7 +4,7 @@ use super::failure::ExitCode;
 use super::fk::FramePose;
 use super::numbers::{coordinate, within};
 use super::options::Options;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
 use platewash::kinematics::urdf::file::read_text;
 use platewash::kinematics::words::fixed;
@@ -155,9 +155,14 @@ fn in_file<T>(file: &Path, points: fn(&str) -> Result<Vec<T>, TableError>) -> Re
 fn arm(options: &Options) -> Result<Option<RobotModel>> {
     let scenario = options.scenario.as_deref().map(Scenario::load).transpose()?;
     if scenario.is_none() && options.urdf.is_none() {
+        ensure!(
+            options.fix.is_empty(),
+            "--fix: is for an arm; give its description as --urdf FILE, or --arm NAME"
+        );
         return Ok(None);
     }
-    let stated = scenario.map_or_else(RobotSection::default, |scenario| scenario.robot);
+    let mut stated = scenario.map_or_else(RobotSection::default, |scenario| scenario.robot);
+    stated.fixed.extend(options.fixed());
     let section = match options.urdf {
         Some(_) => options.robot_section(stated),
         None => stated,

@@ -50,6 +50,10 @@ pub fn run(options: &Options, arguments: &EditArguments) -> Result<ExitCode> {
         options.urdf.is_none(),
         "--urdf: the page edits a scenario, which names its arm itself: set robot.urdf (and robot.srdf, robot.package_path) in it"
     );
+    ensure!(
+        options.fix.is_empty(),
+        "--fix: the page edits a scenario, which names its arm itself: set robot.fixed in it"
+    );
     let source = source(options.scenario_name())?;
     let text = text(options, &source)?;
     let editor = Editor::of_text(&source.name, &text, source.folder.as_deref())?;

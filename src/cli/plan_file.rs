@@ -84,16 +84,16 @@ pub fn refused(path: &Path, error: impl Display) -> Error {
 
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.
 fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>) -> Result<Arc<RobotModel>> {
+    let is_stated = |(joint, at): &(String, f64)| wanted.fixed.get(joint) == Some(at);
+    ensure!(
+        options.fix.iter().all(is_stated),
+        "--fix: the plan states which joints are held still ({}); leave it out",
+        match wanted.fixed.is_empty() {
+            true => "none".to_owned(),
+            false => wanted.fixed_words(),
+        }
+    );
     if options.urdf.is_some() {
-        let fixed = options.fixed();
-        ensure!(
-            fixed.is_empty() || fixed == wanted.fixed,
-            "--fix: the plan states which joints are held still ({}); leave it out",
-            match wanted.fixed.is_empty() {
-                true => "none".to_owned(),
-                false => wanted.fixed_words(),
-            }
-        );
         let section = RobotSection {
             fixed: wanted.fixed.clone(),
             ..options.robot_section(RobotSection::default())

@@ -74,21 +74,7 @@ fn a_gripper_is_held_still_from_the_plan_to_the_program() {
         "{}",
         verified.stdout
     );
-    let with_fix = |fix: &str| {
-        said(
-            &[
-                "verify",
-                "out/plan.json",
-                "--urdf",
-                &arm,
-                "--fix",
-                fix,
-                "--fix",
-                "other=-0.03",
-            ],
-            &[],
-        )
-    };
+    let with_fix = |fix: &str| said(&["verify", "out/plan.json", "--urdf", &arm, "--fix", fix], &[]);
     with_fix("finger=0.03").done();
     with_fix("finger=0.02").refused(2, &["out/plan.json", "--fix", "\"finger\" at 0.03", "leave it out"]);
     let against = said(&["verify", "out/plan.json", "--against", &cell, "--urdf", &arm], &[]);
@@ -284,6 +270,7 @@ fn joints_that_cannot_be_held_are_refused_by_name() {
         "{}",
         told.stdout
     );
+    platewash(dir, &["edit", "--fix", "finger=0.01"]).refused(2, &["--fix", "robot.fixed"]);
     platewash(dir, &["robot", "--fix", "finger=0.01"]).refused(2, &["robot.fixed needs a robot.urdf"]);
     platewash(dir, &["study", "run", "x.toml", "--fix", "finger=0.01"]).refused(2, &["--fix", "the study file states"]);
 }
