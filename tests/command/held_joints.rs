@@ -27,6 +27,12 @@ fn gripper() -> String {
     links + &slide("finger", "flange", "left", "") + &slide("other", "flange", "right", follows)
 }
 
+/// A link on a joint that follows joint 2.
+fn balancer() -> String {
+    let follows = "<mimic joint=\"joint_2\" multiplier=\"-0.25\"/>";
+    format!("<link name=\"cylinder\">{BOX}</link>") + &slide("balancer", "link_1", "cylinder", follows)
+}
+
 const IRB120: &str = platewash::kinematics::irb120::IRB120_URDF;
 
 fn one_plate(dir: &Path) -> String {
@@ -227,14 +233,7 @@ fn a_rail_is_held_still() {
 fn joints_that_cannot_be_held_are_refused_by_name() {
     let folder = folder();
     let dir = folder.path();
-    let cylinder = format!("<link name=\"cylinder\">{BOX}</link>")
-        + &slide(
-            "balancer",
-            "link_1",
-            "cylinder",
-            "<mimic joint=\"joint_2\" multiplier=\"-0.25\"/>",
-        );
-    let arm = with(dir, IRB120, &(gripper() + &cylinder));
+    let arm = with(dir, IRB120, &(gripper() + &balancer()));
     let robot = |more: &[&str]| platewash(dir, &[&["robot", "--urdf", &arm][..], more].concat());
     let finger = ["--fix", "finger=0.01"];
     for (fix, words) in [
@@ -280,14 +279,7 @@ fn joints_that_cannot_be_held_are_refused_by_name() {
 fn what_follows_an_axis_is_named_in_the_verdict() {
     let folder = folder();
     let dir = folder.path();
-    let cylinder = format!("<link name=\"cylinder\">{BOX}</link>")
-        + &slide(
-            "balancer",
-            "link_1",
-            "cylinder",
-            "<mimic joint=\"joint_2\" multiplier=\"-0.25\"/>",
-        );
-    let (arm, cell) = (with(dir, IRB120, &cylinder), one_plate(dir));
+    let (arm, cell) = (with(dir, IRB120, &balancer()), one_plate(dir));
     let report = platewash(dir, &["run", "--scenario", &cell, "--urdf", &arm, "--json"])
         .done()
         .json();
