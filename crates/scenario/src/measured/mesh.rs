@@ -35,7 +35,6 @@ const ENOUGH: usize = 60_000;
 const COARSE: f64 = 1.0 / 6.0;
 const FINER: f64 = 8.0;
 const MOST_PARTS: usize = 96;
-const SAMPLED: f64 = 8.0;
 
 /// Greatest slope by which the face falls outwards, as its tangent: 45°. It ends there, and the lip begins.
 const LIP: f64 = 1.0;
@@ -264,8 +263,7 @@ impl Mesh {
             let parts = self.parts(t, frame, COARSE * reach_m);
             t.iter().for_each(|k| weights[*k as usize] += area(t) / 3.0);
             if parts > 1 {
-                // They count more than the corners, which stand for the same area.
-                let weight = SAMPLED * area(t) / (parts * parts) as f64;
+                let weight = area(t) / (parts * parts) as f64;
                 samples.extend(self.middles(t, parts).map(|middle| (middle, weight)));
             }
         }
