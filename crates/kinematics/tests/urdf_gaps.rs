@@ -216,3 +216,35 @@ fn statements_that_cannot_matter_are_not_read() {
         assert_eq!(load(&text).unwrap().limits(), load(IRB120_URDF).unwrap().limits());
     }
 }
+
+/// `urdf-rs` refuses shapes without size from version 1.1 on, also where nothing depends on them.
+#[test]
+fn visuals_without_size_do_not_stop_arms_of_newer_versions() {
+    let text = with_visual(
+        "<visual><geometry><sphere radius=\"0\"/></geometry></visual><visual><geometry><box size=\"1 -1 1\"/></geometry></visual>",
+    );
+    for version in ["1.0", "1.1", "1.2"] {
+        let text = text.replacen(
+            "<robot name=\"irb120\"",
+            &format!("<robot name=\"irb120\" version=\"{version}\""),
+            1,
+        );
+        let model = load(&text).unwrap();
+        assert_eq!(
+            model.visual_findings().len() + model.unused_statements().len(),
+            2,
+            "{version}"
+        );
+        assert_eq!(visuals(&text), visuals(&with_visual("")), "{version}");
+    }
+}
+
+/// A stray reference to a character is text, too.
+#[test]
+fn references_to_characters_are_named() {
+    let all = named(&with_visual("&amp;"));
+    assert!(
+        all.len() == 1 && all[0].starts_with("link 'link_6': the text \"&amp;\""),
+        "{all:?}"
+    );
+}

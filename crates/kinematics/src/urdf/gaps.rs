@@ -37,8 +37,9 @@ const NUMBERS: [(&str, usize); 6] = [
     ("rpy", 3),
 ];
 
-/// Returns the treatment of an element with these attributes; `None` if it has all that it needs.
-pub(crate) fn in_attributes(path: &str, attributes: &[(String, String)]) -> Option<Gap> {
+/// Returns the treatment of an element with these attributes; `None` if it has all that it needs. Where `needs_size`, shapes of visuals must have
+/// a size; elsewhere those without are found later.
+pub(crate) fn in_attributes(path: &str, attributes: &[(String, String)], needs_size: bool) -> Option<Gap> {
     let stated = |key: &str| attributes.iter().find(|(name, _)| name == key).map(|(_, value)| value);
     let tag = path.rsplit('/').next().unwrap_or_default();
     let without = |key: &str| format!("<{tag}> without {key}");
@@ -54,7 +55,9 @@ pub(crate) fn in_attributes(path: &str, attributes: &[(String, String)]) -> Opti
     let left_out = |(key, value): &(String, String), count| Gap::LeftOut(format!("{key}=\"{value}\", not {count}"));
     let wrong = |(key, value): &&(String, String)| {
         let known = NUMBERS.iter().find(|(number, _)| number == key);
-        path.starts_with("link/visual/") && known.is_some_and(|(_, count)| !are_numbers(value, *count))
+        let is_size = needs_size && path.starts_with("link/visual/geometry/") && key != "scale";
+        let fits = |count| are_numbers(value, count) && !(is_size && has_no_size(value));
+        path.starts_with("link/visual/") && known.is_some_and(|(_, count)| !fits(*count))
     };
     if let Some(attribute) = attributes.iter().find(wrong) {
         return Some(left_out(attribute, "as many numbers as it needs"));
@@ -66,6 +69,13 @@ pub(crate) fn in_attributes(path: &str, attributes: &[(String, String)]) -> Opti
         Some(key) => Some(Gap::LeftOut(without(key))),
         None => Some(left_out(attributes.iter().find(is_no_colour)?, "four numbers")),
     }
+}
+
+/// True if a number is 0 or less.
+fn has_no_size(text: &str) -> bool {
+    text.split_whitespace()
+        .filter_map(|number| number.parse().ok())
+        .any(|number: f64| number <= 0.0)
 }
 
 fn are_numbers(text: &str, count: usize) -> bool {

@@ -11,6 +11,7 @@ use crate::urdf::tree::{LARGEST_LENGTH_M, length};
 use crate::urdf::triangles;
 use nalgebra::Point3;
 use percent_encoding::percent_decode_str;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -223,10 +224,11 @@ impl MeshSource {
 
     /// Finds a file by its name, or by the name with the characters that its percent signs stand for, as in addresses.
     fn find(&self, file: &str) -> Result<PathBuf, MeshError> {
-        self.find_as(file).or_else(|missing| {
-            let decoded = percent_decode_str(file).decode_utf8_lossy();
-            self.find_as(&decoded).map_err(|_| missing)
-        })
+        self.find_as(file)
+            .or_else(|missing| match percent_decode_str(file).decode_utf8_lossy() {
+                Cow::Owned(decoded) => self.find_as(&decoded).map_err(|_| missing),
+                Cow::Borrowed(_) => Err(missing),
+            })
     }
 
     fn find_as(&self, file: &str) -> Result<PathBuf, MeshError> {

@@ -100,6 +100,9 @@ const USED: [(&str, &[&str]); 35] = [
 
 const LIMIT: &str = "joint/limit";
 
+/// Version from which on `urdf-rs` refuses shapes without a size.
+const SIZED: (u32, u32) = (1, 1);
+
 const COLLISION_GEOMETRY: &str = "link/collision/geometry";
 
 /// Elements, with all in them, and attributes that cannot matter: names of shapes, textures, where an encoder finds its zero, gains
@@ -154,6 +157,7 @@ pub(crate) fn read(text: &str) -> Result<Statements, UrdfError> {
             Ok(Event::End(_)) => walk.leave(end)?,
             Ok(Event::Text(text)) => walk.text(&String::from_utf8_lossy(&text), start..end),
             Ok(Event::CData(text)) => walk.text(&String::from_utf8_lossy(&text), start..end),
+            Ok(Event::GeneralRef(name)) => walk.name_text(&format!("&{};", String::from_utf8_lossy(&name)), end),
             Ok(Event::Eof) | Err(_) => break,
             Ok(_) => {}
         }
@@ -277,7 +281,7 @@ impl Walk<'_> {
             let gains = tag.attributes().flatten().filter(|a| a.key.as_ref().starts_with(b"k_"));
             gains.for_each(|gain| self.edits.blank_attribute(self.text, &gain));
         }
-        match gaps::in_attributes(&path, &attributes) {
+        match gaps::in_attributes(&path, &attributes, self.version >= SIZED) {
             Some(Gap::Completed(with, statement)) => {
                 // Behind the opening bracket and the name.
                 self.edits.insert(span.start + 1 + tag.name().as_ref().len(), with);
@@ -360,9 +364,14 @@ impl Walk<'_> {
         if self.open.is_empty() || text.is_empty() {
             return;
         }
-        self.edits.blank(span.clone());
-        if self.skipped == 0 && self.open.get(1).is_none_or(|element| element.tag != DRIVERS) {
-            self.note(self.open.len(), format!("the text \"{text}\""), span.end);
+        self.name_text(text, span.end);
+        self.edits.blank(span);
+    }
+
+    fn name_text(&mut self, text: &str, offset: usize) {
+        let is_looked_at = self.skipped == 0 && self.open.get(1).is_none_or(|element| element.tag != DRIVERS);
+        if is_looked_at && !self.open.is_empty() {
+            self.note(self.open.len(), format!("the text \"{text}\""), offset);
         }
     }
 

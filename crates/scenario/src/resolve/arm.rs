@@ -67,7 +67,12 @@ pub(crate) fn load(
 ) -> Result<RobotModel, ArmError> {
     match (&section.urdf, section.model) {
         (Some(urdf), _) => load_description(urdf, section, files, (fixed, solids)),
-        (None, BuiltInArm::Irb120) => Ok(RobotModel::irb120()?),
+        (None, BuiltInArm::Irb120) => {
+            let robot = RobotModel::irb120()?;
+            let file = "the built-in arm".to_owned();
+            let held = robot.check_held(&section.fixed);
+            held.map_err(|error| ArmError::Urdf { file, error }).map(|()| robot)
+        }
     }
 }
 
