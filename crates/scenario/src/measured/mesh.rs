@@ -249,29 +249,28 @@ impl Mesh {
             .collect();
         // What is fitted ends at the lip.
         let mut weights = vec![0.0; self.points.len()];
-        let mut samples = Cloud::new();
-        let smooth = || facets.iter().filter(|t| !self.is_lip(t, frame));
-        let mut is_smooth = vec![false; self.points.len()];
-        smooth().for_each(|t| t.iter().for_each(|k| is_smooth[*k as usize] = true));
-        let vertices = self.points.iter().zip(is_smooth).filter(|(_, is_smooth)| *is_smooth);
-        let corners = corners(vertices.map(|(point, _)| *point), frame);
+        let smooth: Vec<_> = facets.iter().filter(|t| !self.is_lip(t, frame)).collect();
+        for t in &smooth {
+            t.iter().for_each(|k| weights[*k as usize] += area(t) / 3.0);
+        }
+        let vertices = || (0..).zip(&weights).filter(|(_, weight)| **weight > 0.0);
+        let corners = corners(vertices().map(|(k, _): (usize, _)| self.points[k]), frame);
         let reach_m = corners
             .iter()
             .map(|point| frame.local(point).xy().norm())
             .fold(0.0, f64::max);
-        for t in smooth() {
+        let mut samples = Cloud::new();
+        for t in smooth {
             let parts = self.parts(t, frame, COARSE * reach_m);
-            t.iter().for_each(|k| weights[*k as usize] += area(t) / 3.0);
             if parts > 1 {
                 let weight = area(t) / (parts * parts) as f64;
                 samples.extend(self.middles(t, parts).map(|middle| (middle, weight)));
             }
         }
-        let vertices = || (0..).zip(&weights).filter(|(_, weight)| **weight > 0.0);
         let every = |count: usize| count / ENOUGH + 1;
         let cloud = vertices().step_by(every(vertices().count()));
         Face {
-            cloud: cloud.map(|(k, weight): (usize, _)| (self.points[k], *weight)).collect(),
+            cloud: cloud.map(|(k, weight)| (self.points[k], *weight)).collect(),
             rim: outermost(corners.into_iter(), frame, SECTORS),
             samples: samples.iter().step_by(every(samples.len())).copied().collect(),
             facets,
@@ -279,7 +278,7 @@ impl Mesh {
     }
 
     /// Number of parts into which each edge of a facet is cut: 1 where its corners are about as far from the axis as each other, otherwise as
-    /// many as leave no part that is longer than that.
+    /// many as leave no part that is longer than `coarse_m` by [`FINER`].
     fn parts(&self, t: &[u32; 3], frame: &Frame, coarse_m: f64) -> usize {
         let corners = self.corners(t);
         let radii = corners.map(|corner| frame.local(&corner).xy().norm());
