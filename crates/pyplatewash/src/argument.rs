@@ -153,7 +153,7 @@ pub fn names(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Strin
 /// A mapping of names to numbers, empty if left out.
 ///
 /// # Errors
-/// `InputTypeError` for what is no mapping of texts to numbers, `InputError` for a number that is not finite.
+/// `InputTypeError` for what is no mapping of texts to numbers. NaN and infinities pass, and the caller checks them.
 pub fn positions(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<BTreeMap<String, f64>> {
     let Some(value) = value else {
         return Ok(BTreeMap::new());
