@@ -78,8 +78,6 @@ impl Frame {
 pub(super) struct Fitted<'c> {
     /// Points of the face.
     pub cloud: &'c Cloud,
-    /// Further points of coarse facets. The profile alone is fitted to them: chords would pull the axis aside.
-    pub samples: &'c [(Vector3<f64>, f64)],
     /// Points of the rim; empty if it does not take part.
     pub rim: &'c [Vector3<f64>],
 }
@@ -92,7 +90,11 @@ impl Fitted<'_> {
 
     /// Points as ρ, z and weight \[m\].
     pub fn placed(&self, frame: &Frame) -> Vec<([f64; 2], f64)> {
-        placed(self.cloud, frame).collect()
+        let placed = |(point, weight): &(Vector3<f64>, f64)| {
+            let local = frame.local(point);
+            ([local.xy().norm(), local.z], *weight)
+        };
+        self.cloud.iter().map(placed).collect()
     }
 
     /// Same as [`Self::placed`], with no weight left to outliers among the points of about the same radius.
@@ -123,13 +125,6 @@ impl Fitted<'_> {
         all
     }
 
-    /// Points to which the profile is fitted, as ρ, z and weight \[m\].
-    pub fn of_profile(&self, frame: &Frame, profile: &Profile) -> Vec<([f64; 2], f64)> {
-        let mut all = self.kept(frame, profile);
-        all.extend(placed(self.samples, frame));
-        all
-    }
-
     /// Moves the frame until the points are as near to the profile as can be. `refit` fits the profile to points, stated by ρ, z and weight.
     /// Returns the uncertainty of the centre \[m\], too.
     pub fn refine(
@@ -141,7 +136,7 @@ impl Fitted<'_> {
     ) -> f64 {
         let mut unsure_m = f64::INFINITY;
         for _ in 0..rounds {
-            *profile = refit(&self.of_profile(frame, profile), profile);
+            *profile = refit(&self.kept(frame, profile), profile);
             let (step, sigma_m) = self.step(frame, profile);
             unsure_m = sigma_m;
             let rim_m = profile.rim_m();
@@ -205,13 +200,6 @@ impl Fitted<'_> {
         cholesky(&mut n, &mut g);
         (g, sigma_m)
     }
-}
-
-fn placed(points: &[(Vector3<f64>, f64)], frame: &Frame) -> impl Iterator<Item = ([f64; 2], f64)> {
-    points.iter().map(|(point, weight)| {
-        let local = frame.local(point);
-        ([local.xy().norm(), local.z], *weight)
-    })
 }
 
 /// Greatest residual that is no outlier, from the magnitudes of all \[m\].

@@ -74,7 +74,7 @@ pub enum MeasuredError {
     /// The rim is no circle.
     #[error(
         "it is not a surface of revolution: its rim is between {} and {} from the axis, the least at {place}; expected one radius within {}: \
-         only round plates can be washed",
+         only round plates can be washed, and a mesh of one needs 12 corners or more round its rim",
         millimetres(.rim_m[0]),
         millimetres(.rim_m[1]),
         millimetres(MOST_DEVIATION_M)

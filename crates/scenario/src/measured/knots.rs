@@ -10,7 +10,7 @@ use platewash_kinematics::trig::{asin, ln};
 use platewash_workcell::surface::{Knot, MOST_KNOTS, Meridian, Surface};
 
 /// Number of rings in which heights are averaged.
-const RINGS: usize = 256;
+pub(super) const RINGS: usize = 256;
 
 /// Share of the rim's radius within which rings count less: they hold few points.
 const MIDDLE: f64 = 0.05;

@@ -29,12 +29,9 @@ pub(super) const SECTORS: usize = 24;
 /// Number of vertices of the face from which on only a part of them is fitted.
 const ENOUGH: usize = 60_000;
 
-/// Greatest difference of the distances of a facet's corners from the axis, as a share of the rim's radius, at which its corners alone are fitted:
-/// a drawing has corners at the knots of its profile alone. Other facets are cut into parts that are shorter by a factor, with no more than so
-/// many along an edge.
-const COARSE: f64 = 1.0 / 6.0;
-const FINER: f64 = 8.0;
-const MOST_PARTS: usize = 96;
+/// Number of points all over the surface, roughly, and greatest number of parts into which each edge of a facet is cut where the whole surface is fitted.
+const SAMPLES: usize = 20_000;
+const MOST_PARTS: usize = 192;
 
 /// Greatest slope by which the face falls outwards, as its tangent: 45°. It ends there, and the lip begins.
 const LIP: f64 = 1.0;
@@ -53,13 +50,21 @@ pub(super) struct Mesh {
     volume: f64,
 }
 
+/// What of a face is fitted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fit {
+    /// The vertices: they lie on the plate that coarse facets stand for.
+    Vertices,
+    /// Points all over the facets: a drawing may have vertices at the knots of its profile alone.
+    Surface,
+}
+
 /// Facets of the face.
 pub(super) struct Face {
     /// Facets from the pole to the lip, and those of dents: what is measured.
     pub facets: Vec<[u32; 3]>,
-    /// Vertices to fit, and points of coarse facets to which the profile alone is fitted.
+    /// Points to fit.
     pub cloud: Cloud,
-    pub samples: Cloud,
     /// Outermost corners of the rim, no more than one a sector.
     pub rim: Vec<Vector3<f64>>,
 }
@@ -67,11 +72,11 @@ pub(super) struct Face {
 impl Face {
     /// Returns what is fitted; an error if nothing is.
     pub fn fitted(&self) -> Result<Fitted<'_>, MeasuredError> {
-        let (cloud, samples, rim) = (&self.cloud, self.samples.as_slice(), self.rim.as_slice());
+        let (cloud, rim) = (&self.cloud, self.rim.as_slice());
         if cloud.is_empty() {
             Err(MeasuredError::Empty)
         } else {
-            Ok(Fitted { cloud, samples, rim })
+            Ok(Fitted { cloud, rim })
         }
     }
 }
@@ -221,7 +226,7 @@ impl Mesh {
     }
 
     /// Returns the face that looks along the frame's axis: the facets that face up, in pieces that nothing covers.
-    pub fn face(&self, frame: &Frame) -> Face {
+    pub fn face(&self, frame: &Frame, fit: Fit) -> Face {
         let axis = frame.axis();
         let side = self.side(&axis);
         let area = |t: &[u32; 3]| side * self.normal(t).dot(&axis);
@@ -248,51 +253,40 @@ impl Mesh {
             .filter(|t| face[pieces[t[0] as usize] as usize])
             .collect();
         // What is fitted ends at the lip.
-        let mut weights = vec![0.0; self.points.len()];
         let smooth: Vec<_> = facets.iter().filter(|t| !self.is_lip(t, frame)).collect();
+        let mut weights = vec![0.0; self.points.len()];
         for t in &smooth {
             t.iter().for_each(|k| weights[*k as usize] += area(t) / 3.0);
         }
         let vertices = || (0..).zip(&weights).filter(|(_, weight)| **weight > 0.0);
         let corners = corners(vertices().map(|(k, _): (usize, _)| self.points[k]), frame);
-        let reach_m = corners
-            .iter()
-            .map(|point| frame.local(point).xy().norm())
-            .fold(0.0, f64::max);
-        let mut samples = Cloud::new();
-        for t in smooth {
-            let parts = self.parts(t, frame, COARSE * reach_m);
-            if parts > 1 {
-                let weight = area(t) / (parts * parts) as f64;
-                samples.extend(self.middles(t, parts).map(|middle| (middle, weight)));
+        let mut cloud: Cloud = match fit {
+            Fit::Vertices => vertices().map(|(k, weight)| (self.points[k], *weight)).collect(),
+            Fit::Surface => {
+                let all: f64 = smooth.iter().map(|t| area(t)).sum();
+                let part_area = all / SAMPLES as f64;
+                let parts = |t: &[u32; 3]| ((area(t) / part_area).sqrt().ceil() as usize).clamp(1, MOST_PARTS);
+                let of_facet = |t: &[u32; 3]| {
+                    let (parts, area) = (parts(t), area(t));
+                    let part = area / (parts * parts) as f64;
+                    self.middles(t, parts).map(move |middle| (middle, part))
+                };
+                smooth.iter().flat_map(|t| of_facet(t)).collect()
             }
+        };
+        let every = cloud.len() / ENOUGH + 1;
+        if every > 1 {
+            cloud = cloud.into_iter().step_by(every).collect();
         }
-        let every = |count: usize| count / ENOUGH + 1;
-        let cloud = vertices().step_by(every(vertices().count()));
         Face {
-            cloud: cloud.map(|(k, weight)| (self.points[k], *weight)).collect(),
+            cloud,
             rim: outermost(corners.into_iter(), frame, SECTORS),
-            samples: samples.iter().step_by(every(samples.len())).copied().collect(),
             facets,
         }
     }
 
-    /// Number of parts into which each edge of a facet is cut: 1 where its corners are about as far from the axis as each other, otherwise as
-    /// many as leave no part that is longer than `coarse_m` by [`FINER`].
-    fn parts(&self, t: &[u32; 3], frame: &Frame, coarse_m: f64) -> usize {
-        let corners = self.corners(t);
-        let radii = corners.map(|corner| frame.local(&corner).xy().norm());
-        let [least, most] = [f64::min, f64::max].map(|pick| radii.into_iter().reduce(pick).unwrap_or_default());
-        if most - least <= coarse_m {
-            return 1;
-        }
-        let [a, b, c] = corners;
-        let longest_m = (b - a).norm().max((c - b).norm()).max((a - c).norm());
-        ((longest_m / coarse_m * FINER).ceil() as usize).clamp(1, MOST_PARTS)
-    }
-
     /// Middles of the triangles into which a facet falls where each of its edges is cut into some parts.
-    fn middles(&self, t: &[u32; 3], parts: usize) -> impl Iterator<Item = Vector3<f64>> {
+    fn middles(&self, t: &[u32; 3], parts: usize) -> impl Iterator<Item = Vector3<f64>> + use<> {
         let [a, b, c] = self.corners(t);
         let step = 1.0 / parts as f64;
         let at = move |i: usize, j: usize, third: f64| {

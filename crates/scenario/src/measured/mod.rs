@@ -1,7 +1,7 @@
 //! Plate from measurements: a mesh of its surface, such as a scan or a drawing, or points touched on its face with a probe.
 //!
 //! The face is the side that is stated, otherwise the one that rises towards its rim; of a flat plate the one that looks along the file's z. It ends at the lip, where it
-//! falls outwards by more than 45°, or at the greatest radius. Its profile is fitted to the vertices. The deviation is measured between the
+//! falls outwards by more than 45°, or at the greatest radius. Its profile is fitted to the vertices, or where these have few radii to the whole surface. The deviation is measured between the
 //! vertices, too, and is an upper bound; of points it is that at the points, and nothing is known between them. The pole is put so that the
 //! face is as far above its profile as below it: a dent of 1 mm is a deviation of 0.5 mm.
 //!
@@ -41,8 +41,8 @@ pub use crate::measured::unit::{Unit, probe_points};
 use crate::measured::axis::{Fitted, Frame};
 use crate::measured::body::{Body, Extremes, Ruler};
 use crate::measured::face::{Heights, check_slope, relief};
-use crate::measured::knots::{Profile, rings};
-use crate::measured::mesh::{Mesh, SECTORS};
+use crate::measured::knots::{Profile, RINGS, rings};
+use crate::measured::mesh::{Fit, Mesh, SECTORS};
 use crate::measured::side::{FLAT, Side};
 use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
@@ -67,6 +67,10 @@ const LIP_M: f64 = 3e-3;
 
 /// Difference of deviations, beyond twice the lesser one, from which on the smoother side of a flat plate fits better \[m\].
 const CLEARLY_M: f64 = 2e-4;
+
+/// Number of rings with vertices from which on, and deviation \[m\] up to which, the vertices tell the profile well.
+const ENOUGH_RINGS: usize = RINGS / 4;
+const WELL_M: f64 = 1e-4;
 
 /// Number of rings in which a face is compared with its mean height.
 const ROUND_RINGS: usize = 72;
@@ -246,17 +250,38 @@ fn of_side(
     }
 }
 
-/// Returns the plate whose face looks along z of a frame, roughly.
-fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<MeasuredPlate, MeasuredError> {
+/// Returns the plate whose face looks along z of a frame, roughly. Its profile is fitted to the vertices, which lie on the plate. Where these
+/// have few radii, or tell no plate, the whole surface may tell it better.
+fn of_face(mesh: &Mesh, file: &File, frame: Frame, rim_m: f64) -> Result<MeasuredPlate, MeasuredError> {
+    let by_vertices = by_fit(mesh, file, frame, rim_m, Fit::Vertices);
+    let is_sure = |(plate, rings): &(MeasuredPlate, usize)| *rings >= ENOUGH_RINGS || plate.deviation_m <= WELL_M;
+    if by_vertices.as_ref().is_ok_and(is_sure) {
+        return by_vertices.map(|(plate, _)| plate);
+    }
+    match (by_vertices, by_fit(mesh, file, frame, rim_m, Fit::Surface)) {
+        (Ok((plate, _)), Ok((other, _))) if other.deviation_m < plate.deviation_m => Ok(other),
+        (Err(_), Ok((other, _))) => Ok(other),
+        (answer, _) => answer.map(|(plate, _)| plate),
+    }
+}
+
+/// Returns the plate with its profile fitted to the vertices or to the surface, and the number of rings that hold what is fitted.
+fn by_fit(
+    mesh: &Mesh,
+    file: &File,
+    mut frame: Frame,
+    rim_m: f64,
+    fit: Fit,
+) -> Result<(MeasuredPlate, usize), MeasuredError> {
     let mut profile = Profile::level(rim_m, FIRST_KNOTS);
-    let mut face = mesh.face(&frame);
+    let mut face = mesh.face(&frame, fit);
     for _ in 0..2 {
         let fitted = face.fitted()?;
         profile = Profile::level(fitted.rim_m(&frame), FIRST_KNOTS);
         fitted.refine(&mut frame, &mut profile, 20, |points, profile| {
             profile.fitted(&rings(points, profile.rim_m()), false, 4)
         });
-        face = mesh.face(&frame);
+        face = mesh.face(&frame, fit);
     }
     let fitted = face.fitted()?;
     let rim_m = fitted.rim_m(&frame);
@@ -277,9 +302,10 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
     let local = |t: &[u32; 3], frame: &Frame| t.map(|k| frame.local(&mesh.points[k as usize]));
     let upper = Heights::of(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
     // That it is not round is told first; a steep wall leaves gaps.
+    let means = rings(&fitted.placed(&frame), rim_m);
     match upper.check_whole(rim_m, |point| file.place(&frame, point)) {
         Err(why @ MeasuredError::NotRound { .. }) => return Err(why),
-        whole => check_slope(&rings(&fitted.placed(&frame), rim_m), rim_m).and(whole)?,
+        whole => check_slope(&means, rim_m).and(whole)?,
     }
     let profile = sparing(&fitted, &mut frame, &profile, rim_m);
     let surface = profile.surface().ok_or(MeasuredError::Empty)?;
@@ -317,13 +343,12 @@ fn of_face(mesh: &Mesh, file: &File, mut frame: Frame, rim_m: f64) -> Result<Mea
             (plate.deviation_m, plate.worst) = (off_m, file.place(&frame, &at));
         }
     }
-    smooth_enough(plate)
+    Ok((smooth_enough(plate)?, means.len()))
 }
 
 /// Returns the profile with as few knots as the points ask for, and moves the frame to its axis.
 fn sparing(fitted: &Fitted<'_>, frame: &mut Frame, profile: &Profile, rim_m: f64) -> Profile {
-    let found =
-        |frame: &Frame, profile: &Profile| Profile::sparing(&rings(&fitted.of_profile(frame, profile), rim_m), rim_m);
+    let found = |frame: &Frame, profile: &Profile| Profile::sparing(&rings(&fitted.kept(frame, profile), rim_m), rim_m);
     let mut profile = found(frame, profile);
     fitted.refine(frame, &mut profile, 20, |points, profile| {
         profile.fitted(&rings(points, rim_m), false, 4)

@@ -86,7 +86,6 @@ pub fn from_points(
     let refit =
         |points: &[([f64; 2], f64)], profile: &Profile| profile.fitted(&rings(points, profile.rim_m()), false, 4);
     let mut fitted = Fitted {
-        samples: &[],
         cloud: &cloud,
         rim: &[],
     };
