@@ -8,7 +8,7 @@ use crate::urdf::collada;
 use crate::urdf::error::UrdfError;
 use crate::urdf::files::Files;
 use crate::urdf::tree::{LARGEST_LENGTH_M, length};
-use crate::urdf::triangles;
+use crate::urdf::{obj, stl};
 use nalgebra::Point3;
 use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
@@ -130,11 +130,13 @@ impl MeshSource {
     pub(crate) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
         let file = self.read(link, name, scale)?;
         let points = match file.format()? {
-            Format::Stl => stl(file.bytes()),
-            Format::Obj => obj(file.bytes()),
-            Format::Collada => collada::corners(file.bytes(), MAX_HULL).map(|corners| distinct(corners.into_iter())),
+            Format::Stl => stl::corners(file.bytes()),
+            // Used by a face or not.
+            Format::Obj => obj::vertices(file.bytes()),
+            Format::Collada => collada::corners(file.bytes(), MAX_HULL),
         };
-        let points = file.scaled(points.map_err(|detail| file.wrong(detail))?)?;
+        let points = distinct(points.map_err(|detail| file.wrong(detail))?);
+        let points = file.scaled(points)?;
         if points.len() < 4 {
             let count = points.len();
             return Err(file.wrong(format!("it has {count} vertices; a hull needs at least 4")));
@@ -152,8 +154,8 @@ impl MeshSource {
     ) -> Result<Vec<Triangle>, UrdfError> {
         let file = self.read(link, name, scale)?;
         let corners = match file.format()? {
-            Format::Stl => triangles::stl(file.bytes()),
-            Format::Obj => triangles::obj(file.bytes(), most),
+            Format::Stl => stl::corners(file.bytes()),
+            Format::Obj => obj::corners(file.bytes(), most),
             Format::Collada => collada::corners(file.bytes(), most),
         };
         let corners = corners.map_err(|detail| file.wrong(detail))?;
@@ -422,8 +424,8 @@ impl MeshFile {
     /// Returns the corners of the triangles, as many as can be `used`: from 1 to `most` triangles.
     fn corners(&self, most: usize, used: &str) -> Result<Vec<Point3<f64>>, MeshError> {
         let corners = match self.format()? {
-            Format::Stl => triangles::stl(&self.bytes),
-            Format::Obj => triangles::obj(&self.bytes, most),
+            Format::Stl => stl::corners(&self.bytes),
+            Format::Obj => obj::corners(&self.bytes, most),
             Format::Collada => collada::corners(&self.bytes, most),
         };
         let corners = corners.map_err(|detail| self.wrong(detail))?;
@@ -454,28 +456,11 @@ impl MeshFile {
     }
 }
 
-/// Vertices, or an error in the file.
-type Vertices = Result<Vec<Point3<f64>>, String>;
-
-/// Reads the vertices of a binary or ASCII STL file, each once.
-pub(crate) fn stl(bytes: &[u8]) -> Vertices {
-    Ok(distinct(triangles::stl(bytes)?.into_iter()))
-}
-
-/// Reads the vertices of an OBJ file, used by a face or not, each once.
-pub(crate) fn obj(bytes: &[u8]) -> Vertices {
-    let text = String::from_utf8_lossy(bytes);
-    let vertex = |(index, line): (usize, &str)| {
-        let mut words = line.split_whitespace();
-        (words.next() == Some("v")).then(|| triangles::point(words, index))
-    };
-    let points: Vec<_> = text.lines().enumerate().filter_map(vertex).collect::<Result<_, _>>()?;
-    Ok(distinct(points.into_iter()))
-}
-
-fn distinct(points: impl Iterator<Item = Point3<f64>>) -> Vec<Point3<f64>> {
+/// Returns the points, each once.
+fn distinct(points: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
     let mut seen = BTreeSet::new();
     points
+        .into_iter()
         .filter(|p| seen.insert([p.x, p.y, p.z].map(f64::to_bits)))
         .collect()
 }

@@ -5,7 +5,7 @@
 //! that are not complete (`gaps`); `urdf-rs` reads the others (where it refuses one, `error` finds which); `fixed` holds joints still that
 //! are not of the arm; `followers` takes out what follows an axis; `tree` checks the structure, orders the six joints and checks their limits;
 //! `shapes` converts collision geometry (recognising capsules, finding meshes through `mesh` and reading
-//! their vertices) and visual geometry (reading the `triangles` of meshes), which is left out by name where it cannot be read. Every file is read through `file`.
+//! their vertices) and visual geometry (reading the triangles of meshes: `stl`, `obj`, `collada`), which is left out by name where it cannot be read. Every file is read through `file`.
 //!
 //! xacro is not expanded: run `xacro FILE.xacro > FILE.urdf` first.
 
@@ -18,11 +18,13 @@ mod fixed;
 mod followers;
 mod gaps;
 mod mesh;
+mod mesh_text;
+mod obj;
 mod scan;
 pub(crate) mod shapes;
 mod statements;
+mod stl;
 mod tree;
-mod triangles;
 
 pub use crate::urdf::error::UrdfError;
 pub use crate::urdf::files::{Files, HeldFiles};
