@@ -43,7 +43,7 @@ impl fmt::Display for InfeasibleAnswer {
 
 /// Error that prevents a plan; `None` where the input is at fault.
 fn cause(failure: &Failure) -> Option<PlanError> {
-    match failure {
+    match failure.cause() {
         Failure::Plan(error) => Some(error.clone()),
         Failure::Layout(error) | Failure::Paper(PaperError::Layout(error)) => Some(PlanError::Layout(error.clone())),
         _ => None,

@@ -370,7 +370,7 @@ pub fn installed_folders() -> Vec<PathBuf> {
 /// True where a job was refused because of its scenario, in a message that does not name the scenario.
 fn is_of_job(failure: &platewash::Failure) -> bool {
     use platewash::Failure::{Body, Job, NoContact, Plan, Tool};
-    match failure {
+    match failure.cause() {
         Job(_) | NoContact { .. } | Body(_) | Tool(_) => true,
         Plan(error) => matches!(
             error,

@@ -179,6 +179,7 @@ fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotMode
             );
         }
     }
+    options.warn(&Note::of_sizes(&cell.tool, &cell.obstacles));
     Ok(cell)
 }
 

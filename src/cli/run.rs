@@ -47,16 +47,20 @@ pub struct Washing {
 /// Plans the washing that the scenario asks for.
 pub fn wash(options: &Options, scenario: &Scenario) -> Result<Washing, Failure> {
     let arm = options.arm(scenario)?;
-    options.warn(&scenario.notes_on_meshes());
+    options.warn(&scenario.notes_on_bodies(&arm));
     let progress = options.progress("planning");
     let watch = Watch {
         tell: &|activity| progress.say(activity),
         cancel: &options.cancel,
     };
     // What fails wherever the plates lie, before they are placed.
-    planner::check(&arm, &scenario.terms(&arm, &Layout::of(Vec::new()))?)?;
+    let nowhere = Layout::of(Vec::new());
+    planner::check(&arm, &scenario.terms(&arm, &nowhere)?)
+        .map_err(|why| scenario.with_advice_on_hulls(&arm, &nowhere, why.into()))?;
     let layout = scenario.place(&arm, &watch)?;
-    let planned = plan_with(&scenario.job_on(&arm, &layout)?, &watch)?;
+    let job = scenario.job_on(&arm, &layout);
+    let planned = job.and_then(|job| Ok(plan_with(&job, &watch)?));
+    let planned = planned.map_err(|why| scenario.with_advice_on_hulls(&arm, &layout, why))?;
     tracing::info!("planned {} knots", planned.plan.knots.t_s.len());
     Ok(Washing {
         arm,

@@ -99,7 +99,7 @@ fn valid(options: &Options, scenario: &Scenario) -> Result<ValidAnswer> {
     }
     Ok(ValidAnswer {
         valid: true,
-        notes: [scenario.notes(), Note::of_arm(&robot), scenario.notes_on_meshes()].concat(),
+        notes: [scenario.notes(), Note::of_arm(&robot), scenario.notes_on_bodies(&robot)].concat(),
         overload: PayloadCheck::new(&scenario.tool_on(&robot)?, scenario.robot.payload_kg, &robot).overload(),
         scenario: scenario.name.clone(),
         robot: robot.name().to_owned(),

@@ -98,6 +98,13 @@ pub struct Inertial {
 }
 
 impl Shape {
+    /// Longest side of the box around the shape, along its axes \[m\].
+    #[must_use]
+    pub fn extent_m(&self) -> f64 {
+        let sides = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| self.support(&axis) + self.support(&-axis));
+        sides.into_iter().fold(0.0, f64::max)
+    }
+
     /// Support function: extent of the shape from its origin along a unit direction, in its own frame \[m\].
     #[must_use]
     pub fn support(&self, direction: &Vector3<f64>) -> f64 {

@@ -9,7 +9,7 @@ fn read(bytes: &[u8]) -> Result<Vec<[Point3<f64>; 3]>, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("part.obj"), bytes).unwrap();
     let source = MeshSource::new(&[], Some(folder.path()));
-    source.solid("part.obj", [1.0; 3]).map_err(|why| why.to_string())
+    source.solid("part.obj", None).map_err(|why| why.to_string())
 }
 
 #[test]

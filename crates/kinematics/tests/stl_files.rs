@@ -18,7 +18,7 @@ fn read(bytes: &[u8]) -> Result<Vec<[f64; 9]>, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("part.stl"), bytes).unwrap();
     let source = MeshSource::new(&[], Some(folder.path()));
-    let triangles = source.solid("part.stl", [1.0; 3]).map_err(|why| why.to_string())?;
+    let triangles = source.solid("part.stl", None).map_err(|why| why.to_string())?;
     let flat = |[a, b, c]: [Point3<f64>; 3]| std::array::from_fn(|k| [a, b, c][k / 3][k % 3]);
     Ok(triangles.into_iter().map(flat).collect())
 }

@@ -45,7 +45,7 @@ fn tetrahedron() -> String {
 fn read(text: &[u8]) -> Result<Triangles, String> {
     let folder = TempDir::new().unwrap();
     std::fs::write(folder.path().join("part.dae"), text).unwrap();
-    let found = MeshSource::new(&[], Some(folder.path())).solid("part.dae", [1.0; 3]);
+    let found = MeshSource::new(&[], Some(folder.path())).solid("part.dae", None);
     let plain = |corners: [Point3<f64>; 3]| corners.map(|p| [p.x, p.y, p.z]);
     found
         .map(|all| all.into_iter().map(plain).collect())

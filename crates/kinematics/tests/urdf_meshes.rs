@@ -547,9 +547,9 @@ fn scans_have_up_to_two_million_triangles() {
         std::fs::write(folder.path().join("scan.stl"), bytes).unwrap();
     };
     write(1_500_000);
-    let found = source.scan("scan.stl").unwrap();
+    let found = source.scan("scan.stl").unwrap().triangles;
     assert_eq!((found.len(), found[0][1].x), (1_500_000, 150.0));
-    let why = source.solid("scan.stl", [1.0; 3]).unwrap_err().to_string();
+    let why = source.solid("scan.stl", None).unwrap_err().to_string();
     assert!(why.contains("scan.stl"), "{why}");
     write(2_000_001);
     let why = source.scan("scan.stl").unwrap_err().to_string();

@@ -52,13 +52,29 @@ pub enum Failure {
     Simulation(SimulationError),
     /// The plan could not be written.
     File(PlanFileError),
+    /// Meshes of obstacles count as convex hulls, in which bodies stand that may be clear of the meshes.
+    Hull {
+        /// The failure that names them.
+        why: Box<Self>,
+        /// What counts, and whether a decomposition mends it.
+        advice: String,
+    },
 }
 
 impl Failure {
+    /// The failure without advice on meshes.
+    #[must_use]
+    pub fn cause(&self) -> &Self {
+        match self {
+            Self::Hull { why, .. } => why,
+            other => other,
+        }
+    }
+
     /// Returns the verdict on a job without a plan: proved infeasible, or no way found; `None` for bad input.
     #[must_use]
     pub fn infeasibility(&self) -> Option<Infeasibility> {
-        match self {
+        match self.cause() {
             Self::Layout(error) => error.infeasibility(),
             Self::Plan(error) => error.infeasibility(),
             Self::Paper(error) => error.infeasibility(),
@@ -70,7 +86,7 @@ impl Failure {
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         matches!(
-            self,
+            self.cause(),
             Self::Plan(PlanError::Cancelled(_))
                 | Self::Paper(PaperError::Cancelled(_))
                 | Self::Prove(ProveError::Cancelled(_))
@@ -97,6 +113,7 @@ impl fmt::Display for Failure {
             Self::Prove(error) => write!(f, "{error}"),
             Self::Simulation(error) => simulation(f, error),
             Self::File(error) => write!(f, "{error}"),
+            Self::Hull { why, advice } => write!(f, "{why}; {advice}"),
         }
     }
 }

@@ -59,5 +59,5 @@ pub use crate::sections::simulation::{ControlSection, PlantSection, TIME_STEPS_S
 pub use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, BodyFrame, HandleName, ToolBodySection, ToolSection};
 pub use crate::sections::wash::WashSection;
 pub use crate::suggest::Suggestion;
-pub use crate::units::Note;
+pub use crate::units::{MeshAs, Note};
 pub use platewash_scenarios::{SHIPPED, ShippedScenario};

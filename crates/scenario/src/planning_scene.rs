@@ -7,7 +7,7 @@
 
 use crate::error::{Problem, ScenarioError};
 use crate::resolve::surroundings::LEAST_EXCESS_M;
-use crate::units::Note;
+use crate::units::{MeshAs, Note};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
@@ -54,7 +54,7 @@ pub(crate) fn notes_on_meshes(text: &str) -> Vec<Note> {
         (by_m > LEAST_EXCESS_M).then(|| Note::LargerThanMesh {
             body: mesh.name.clone(),
             by_m,
-            is_decomposed: true,
+            as_what: MeshAs::Parts,
         })
     };
     reader.meshes.iter().filter_map(note).collect()

@@ -5,13 +5,19 @@ use platewash_kinematics::inertia::ImplausibleInertia;
 use platewash_kinematics::urdf::FollowerLink;
 use platewash_kinematics::words::{decimals_up, rounded};
 use platewash_kinematics::{AXES, RobotModel};
+use platewash_workcell::tool::Tool;
 use platewash_workcell::words::quoted;
+use platewash_workcell::workcell::Obstacle;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
 
 /// An arm that reaches farther than this is described in millimetres \[m\]: six axes reach some five metres.
 const LONGEST_REACH_M: f64 = 20.0;
+
+/// Lengths of bodies from which on to which their numbers are probably metres \[m\].
+const SMALLEST_BODY_M: f64 = 1e-3;
+const LARGEST_BODY_M: f64 = 10.0;
 
 /// Significant digits of suggested values.
 const DIGITS: usize = 4;
@@ -97,15 +103,34 @@ pub enum Note {
         /// Greatest deviation of the measured plate from the fitted one \[m\].
         deviation_m: f64,
     },
+    /// A body that is very small or very large for its place: its numbers may be in another unit.
+    UnusualSize {
+        /// Name of the body.
+        body: String,
+        /// Longest side of the box around it \[m\].
+        extent_m: f64,
+    },
     /// A body of the tool or an obstacle whose convex parts hold more than its mesh.
     LargerThanMesh {
         /// Name of the body.
         body: String,
         /// Upper bound on how far the parts reach beyond the mesh \[m\].
         by_m: f64,
-        /// True where the parts are those of a decomposition, and not its hull.
-        is_decomposed: bool,
+        /// What counts in place of the mesh.
+        as_what: MeshAs,
     },
+}
+
+/// What counts in place of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshAs {
+    /// Its convex hull.
+    Hull,
+    /// Its convex hull, of a body of the tool.
+    HullOfTool,
+    /// Convex parts.
+    Parts,
 }
 
 impl Scenario {
@@ -168,7 +193,29 @@ impl Note {
             more: inertias.count(),
         });
         let all = [long, bare, visual, base, unused, left_out, inertias];
-        all.into_iter().flatten().collect()
+        let sizes = robot.links().iter().filter_map(|link| {
+            let extents = link.collision.iter().map(|part| part.shape.extent_m());
+            Self::of_size(&link.name, extents.reduce(f64::max)?)
+        });
+        all.into_iter().flatten().chain(sizes).collect()
+    }
+
+    /// Notes on bodies of a tool and obstacles that are very small or very large.
+    #[must_use]
+    pub fn of_sizes(tool: &Tool, obstacles: &[Obstacle]) -> Vec<Self> {
+        let of_tool = tool.bodies.iter().map(|body| (&body.name, Some(body.shape.extent_m())));
+        let of_obstacles = obstacles.iter().map(|body| (&body.name, body.shape.extent_m()));
+        let all = of_tool.chain(of_obstacles);
+        all.filter_map(|(name, extent_m)| Self::of_size(name, extent_m?))
+            .collect()
+    }
+
+    fn of_size(body: &str, extent_m: f64) -> Option<Self> {
+        let is_usual = (SMALLEST_BODY_M..=LARGEST_BODY_M).contains(&extent_m);
+        (!is_usual).then(|| Self::UnusualSize {
+            body: body.to_owned(),
+            extent_m,
+        })
     }
 }
 
@@ -239,17 +286,29 @@ impl fmt::Display for Note {
                     "{file} is in {unit}; its plate deviates from the fitted profile by up to {by_mm} mm{at_points}, which adds to its height error{between}"
                 )
             }
+            Self::UnusualSize { body, extent_m } => {
+                let body = quoted(body);
+                let (size, unit) = match *extent_m < SMALLEST_BODY_M {
+                    true => (format!("{:.2} mm", 1e3 * extent_m), "scaled twice, or in metres where another unit was meant"),
+                    false => (format!("{extent_m:.1} m"), "in millimetres or inches where metres are expected"),
+                };
+                write!(f, "{body} is {size} long at most; its numbers may be {unit}")
+            }
             Self::LargerThanMesh {
                 body,
                 by_m,
-                is_decomposed,
+                as_what,
             } => {
                 let (body, by_mm) = (quoted(body), decimals_up(1e3 * by_m, 1));
-                let (counts, advice) = match is_decomposed {
-                    true => ("convex parts, which reach", "cut the mesh into several closed bodies, or state boxes in its place"),
-                    false => (
+                let (counts, advice) = match as_what {
+                    MeshAs::Parts => ("convex parts, which reach", "cut the mesh into several closed bodies, or state boxes in its place"),
+                    MeshAs::Hull => (
                         "its convex hull, which reaches",
                         "mesh_parts = \"decomposed\", or a mesh cut into several bodies, is nearer to it",
+                    ),
+                    MeshAs::HullOfTool => (
+                        "its convex hull, which reaches",
+                        "several bodies of the tool, each with a part of the mesh, are nearer to it",
                     ),
                 };
                 write!(

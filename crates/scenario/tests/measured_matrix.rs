@@ -280,7 +280,7 @@ fn good_plates_are_accepted_whatever_their_triangles() {
             .sum();
         assert_eq!(accepted, 49, "{counts:?}");
     }
-    let (counts, faults) = matrix(&[8, 12], &[0.0, 5.0], &["jittered"]);
+    let (counts, faults) = matrix(&[8, 12, 180], &[0.0, 5.0], &["jittered"]);
     assert!(faults.is_empty(), "{faults:#?} {counts:#?}");
 }
 

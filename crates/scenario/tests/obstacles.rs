@@ -341,6 +341,122 @@ fn meshes_are_hulls_or_parts_and_a_job_has_their_points() {
     assert!(matches!(shape("mesh_parts = \"decomposed\""), ObstacleShape::Parts(parts) if parts.len() >= 2));
 }
 
+/// A Collada file of one triangle and its mirror image, with a unit.
+fn collada(metres: &str) -> String {
+    let places = "0 0 0 100 0 0 0 100 0 0 0 100";
+    format!(
+        "<COLLADA><asset><unit meter=\"{metres}\"/></asset><library_geometries><geometry id=\"a\"><mesh><source id=\"p\"><float_array id=\"n\" \
+         count=\"12\">{places}</float_array><technique_common><accessor source=\"#n\" count=\"4\" stride=\"3\"><param name=\"X\" \
+         type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source><vertices \
+         id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" \
+         offset=\"0\"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries></COLLADA>"
+    )
+}
+
+#[test]
+fn a_mesh_is_scaled_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let millimetres = collada("0.001");
+    let reach_m = |text: &str, more: &str| {
+        let scenario =
+            with_mesh(folder.path(), "a.dae", text.as_bytes(), more).map_err(|failure| failure.to_string())?;
+        let job = scenario.job().map_err(|failure| failure.to_string())?;
+        Ok::<_, String>(job.terms().workcell.obstacles[1].shape.extent_m().unwrap())
+    };
+    assert!((reach_m(&millimetres, "").unwrap() - 0.1).abs() < 1e-12);
+    assert!((reach_m(&collada("1"), "mesh_scale = [0.001, 0.001, 0.001]").unwrap() - 0.1).abs() < 1e-12);
+    for unit in ["0.001", "0.0254", "1000"] {
+        let said = reach_m(&collada(unit), "mesh_scale = [0.001, 0.001, 0.001]").unwrap_err();
+        let unit: f64 = unit.parse().unwrap();
+        let expected = format!(
+            "it states its unit, {unit} m, and the scale [0.001, 0.001, 0.001] is stated, too: leave out mesh_scale"
+        );
+        assert!(said.contains(&expected), "{said}");
+    }
+    let said = reach_m(&collada("10"), "").unwrap_err();
+    assert!(said.contains("these may be millimetres"), "{said}");
+}
+
+#[test]
+fn bodies_of_unusual_sizes_are_named() {
+    let notes = |more: &str| {
+        let scenario = scenario(more);
+        let all = scenario.notes_on_bodies(&scenario.arm().unwrap());
+        all.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let edges = |m: f64| {
+        named(
+            "thing",
+            &format!("shape = \"box\"\nsize_m = [{m}, {m}, {m}]\nat_m = [30, 0, 0]"),
+        )
+    };
+    assert_eq!(notes(&edges(0.0011)), Vec::<String>::new());
+    assert_eq!(notes(&edges(9.9)), Vec::<String>::new());
+    assert!(notes(&edges(9e-4))[0].contains("\"thing\" is 0.90 mm long at most; its numbers may be scaled twice"));
+    assert!(notes(&edges(20.0))[0].contains("\"thing\" is 20.0 m long at most; its numbers may be in millimetres"));
+}
+
+/// Four walls of a room as one mesh: its hull holds the arm, its parts do not.
+#[test]
+fn a_hull_in_which_bodies_stand_is_named_and_a_decomposition_tried() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::new();
+    for (index, [low, high]) in [
+        [[-2.0, -2.0], [2.0, -1.9]],
+        [[-2.0, 1.9], [2.0, 2.0]],
+        [[-2.0, -1.9], [-1.9, 1.9]],
+        [[1.9, -1.9], [2.0, 1.9]],
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for k in 0..8 {
+            let at = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 1 { high } else { low };
+            text += &format!(
+                "v {} {} {}\n",
+                at(0, low[0], high[0]),
+                at(1, low[1], high[1]),
+                at(2, 0.0, 1.0)
+            );
+        }
+        for face in [
+            [1, 3, 4, 2],
+            [5, 6, 8, 7],
+            [1, 2, 6, 5],
+            [3, 7, 8, 4],
+            [1, 5, 7, 3],
+            [2, 4, 8, 6],
+        ] {
+            let face = face.map(|corner| (corner + 8 * index).to_string());
+            text += &format!("f {}\n", face.join(" "));
+        }
+    }
+    std::fs::write(folder.path().join("room.obj"), &text).unwrap();
+    let said = |more: &str| {
+        let mesh = named(
+            "room",
+            &format!("shape = \"mesh\"\nmesh = \"room.obj\"\nat_m = [0, 0, 0.01]\n{more}"),
+        );
+        let path = folder.path().join("cell.toml");
+        std::fs::write(&path, self::text(&mesh)).unwrap();
+        let scenario = Scenario::load(&path.to_string_lossy()).unwrap();
+        scenario.check().map(|_| ()).map_err(|failure| failure.to_string())
+    };
+    let hull = said("").unwrap_err();
+    assert!(
+        hull.contains("obstacle room counts as the convex hull of its mesh")
+            && hull.contains("with mesh_parts = \"decomposed\" nothing stands in it (tried)"),
+        "{hull}"
+    );
+    assert_eq!(said("mesh_parts = \"decomposed\""), Ok(()));
+    let near = "mesh_parts = \"hull\"\n[[obstacle]]\nname = \"post\"\nshape = \"box\"\nsize_m = [0.1, 0.1, 0.1]\nat_m = [0, 0, 0.3]";
+    let both = said(near).unwrap_err();
+    assert!(
+        both.contains("mesh_parts = \"decomposed\" alone does not mend it (tried)"),
+        "{both}"
+    );
+}
+
 #[test]
 fn rejects_invalid_meshes_by_obstacle_and_file() {
     let folder = tempfile::tempdir().unwrap();
@@ -369,7 +485,12 @@ fn rejects_invalid_meshes_by_obstacle_and_file() {
             "coordinates must be numbers",
         ),
         ("a.dae", b"<COLLADA/>", "", "no triangles"),
-        ("cut.stl", b"solid a\nfacet\nvertex 0 0 0\n", "", "cut off"),
+        (
+            "cut.stl",
+            b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
+            "",
+            "cut off",
+        ),
     ];
     for (file, content, more, words) in cases {
         let said = with_mesh(folder.path(), file, content, more).unwrap_err().to_string();

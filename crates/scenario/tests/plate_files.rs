@@ -324,3 +324,49 @@ fn a_measured_shape_reaches_every_plate_that_takes_it() {
     let contact = terms.contact_of(meshed).unwrap();
     assert_eq!(contact.height_error_m, 0.001 + terms.measured[0].deviation_m);
 }
+
+/// A unit in the names of the columns, and another one in the key; a ball without points.
+#[test]
+fn statements_about_a_measurement_that_do_not_fit_it_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let [mesh, points] = mesh_and_points();
+    write(folder.path(), "a.obj", &mesh);
+    write(folder.path(), "a.csv", &points);
+    let said = |shape: &str| {
+        write(
+            folder.path(),
+            "mine.toml",
+            &format!("{HEAD}[layout]\n[[plate]]\nat_m = [0.35, 0.2, 0.03]\n{shape}\n"),
+        );
+        let path = folder.path().join("mine.toml");
+        let scenario = Scenario::load(&path.to_string_lossy()).map_err(|error| error.to_string())?;
+        scenario.job().map(|_| ()).map_err(|failure| failure.to_string())
+    };
+    assert_eq!(said("points = \"a.csv\"\nunit = \"mm\""), Ok(()));
+    for (shape, words) in [
+        ("points = \"a.csv\"\nunit = \"m\"", "plate[0].unit: "),
+        (
+            "mesh = \"a.obj\"\nball_radius_m = 0.002",
+            "plate[0].ball_radius_m: is the ball with which points were touched",
+        ),
+        (
+            "ball_radius_m = 0.002",
+            "plate[0].ball_radius_m: is the ball_radius_m of a mesh or of points",
+        ),
+        (
+            "points = \"a.csv\"\nball_radius_m = 0",
+            "plate[0].ball_radius_m must be",
+        ),
+    ] {
+        let found = said(shape).unwrap_err();
+        assert!(found.contains(words), "{found}");
+    }
+    let height_m = |shape: &str| {
+        said(shape).unwrap();
+        let job = load(folder.path()).job().unwrap();
+        let surface = job.terms().plates[0].surface;
+        surface.height_m(surface.rim_m())
+    };
+    let apart = height_m("points = \"a.csv\"") - height_m("points = \"a.csv\"\nball_radius_m = 0.005");
+    assert!(apart.abs() > 1e-4, "{apart}");
+}

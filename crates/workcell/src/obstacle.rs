@@ -41,6 +41,21 @@ pub enum ObstacleShape {
     Parts(Vec<Vec<Point3<f64>>>),
 }
 
+impl ObstacleShape {
+    /// Longest side of the box around the body, along its axes \[m\]; `None` for a half-space.
+    #[must_use]
+    pub fn extent_m(&self) -> Option<f64> {
+        match self {
+            Self::HalfSpace => None,
+            Self::Convex(shape) => Some(shape.extent_m()),
+            Self::Parts(parts) => {
+                let points = parts.iter().flatten().copied().collect();
+                Some(Shape::Hull { points }.extent_m())
+            }
+        }
+    }
+}
+
 /// Greatest angle \[rad\] and greatest distance \[m\] from a level plane at height 0 that are rounding.
 const LEVEL: f64 = 1e-9;
 const SAME_HEIGHT_M: f64 = 1e-9;

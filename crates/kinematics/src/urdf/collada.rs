@@ -24,17 +24,8 @@ const MAX_STEPS: usize = 100_000;
 /// # Errors
 /// The reason, for a file that is damaged, uses what is not handled, or shows more than `most` triangles.
 pub(crate) fn corners(bytes: &[u8], most: usize) -> Result<Vec<Point3<f64>>, String> {
-    let text = String::from_utf8_lossy(bytes);
-    let root = Element::parse(text.trim_start_matches('\u{feff}'))?;
-    if root.name != "COLLADA" {
-        return Err(format!("it begins with <{}>, not <COLLADA>", root.name));
-    }
-    let unit = root.child("asset").and_then(|asset| asset.child("unit"));
-    let stated = unit.and_then(|unit| unit.attribute("meter")).unwrap_or("1");
-    let metres = stated.trim().parse::<f64>().unwrap_or(f64::NAN);
-    if !(metres > 0.0 && metres.is_finite()) {
-        return Err(format!("its unit of '{stated}' m is no length"));
-    }
+    let root = root(bytes)?;
+    let unit_m = unit_m(&root)?.unwrap_or(1.0);
     let mut scene = Scene {
         most,
         named: BTreeMap::new(),
@@ -47,7 +38,7 @@ pub(crate) fn corners(bytes: &[u8], most: usize) -> Result<Vec<Point3<f64>>, Str
             scene.named.entry((&element.name, id)).or_default().push(element);
         }
     });
-    let unit = Matrix4::new_scaling(metres);
+    let unit = Matrix4::new_scaling(unit_m);
     let shown = root.child("scene");
     if let Some(shown) = shown.and_then(|scene| scene.child("instance_visual_scene")) {
         scene.node(scene.target(shown, "visual_scene")?, &unit, 0)?;
@@ -62,6 +53,35 @@ pub(crate) fn corners(bytes: &[u8], most: usize) -> Result<Vec<Point3<f64>>, Str
         })?;
     }
     Ok(scene.shown)
+}
+
+/// Returns the unit that a file states \[m\].
+///
+/// # Errors
+/// The reason, for a file that is damaged, or a unit that is no length.
+pub(crate) fn stated_unit_m(bytes: &[u8]) -> Result<Option<f64>, String> {
+    unit_m(&root(bytes)?)
+}
+
+fn root(bytes: &[u8]) -> Result<Element, String> {
+    let text = String::from_utf8_lossy(bytes);
+    let root = Element::parse(text.trim_start_matches('\u{feff}'))?;
+    match root.name.as_str() {
+        "COLLADA" => Ok(root),
+        other => Err(format!("it begins with <{other}>, not <COLLADA>")),
+    }
+}
+
+fn unit_m(root: &Element) -> Result<Option<f64>, String> {
+    let unit = root.child("asset").and_then(|asset| asset.child("unit"));
+    let Some(stated) = unit.and_then(|unit| unit.attribute("meter")) else {
+        return Ok(None);
+    };
+    let unit_m = stated.trim().parse::<f64>().unwrap_or(f64::NAN);
+    match unit_m > 0.0 && unit_m.is_finite() {
+        true => Ok(Some(unit_m)),
+        false => Err(format!("its unit of '{stated}' m is no length")),
+    }
 }
 
 /// Elements of a file by kind and name, and what its scene shows.

@@ -45,6 +45,15 @@ pub trait MeshSplitter: Debug + Send + Sync {
     fn split(&self, triangles: &[[Point3<f64>; 3]]) -> Result<Vec<Vec<Point3<f64>>>, String>;
 }
 
+/// Triangles of a measured body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scan {
+    /// Corners of the triangles, in the order of the file: in metres if it states its unit, otherwise in a unit that is not known.
+    pub triangles: Vec<[Point3<f64>; 3]>,
+    /// Unit that the file states \[m\]; Collada files can.
+    pub unit_m: Option<f64>,
+}
+
 /// Folders in which mesh files are looked for, and what becomes of the meshes.
 #[derive(Debug, Clone, Default)]
 pub struct MeshSource {
@@ -109,7 +118,8 @@ impl MeshSource {
             let points = self.vertices(link, name, scale)?;
             return Ok(vec![Shape::Hull { points }]);
         };
-        let triangles = self.solid(name, scale).map_err(|error| error.of(link))?;
+        let triangles = self.open(name, scale, MAX_BYTES).and_then(|file| file.solid());
+        let triangles = triangles.map_err(|error| error.of(link))?;
         let parts = splitter.split(&triangles).map_err(|why| UrdfError::Split {
             link: link.to_owned(),
             why: format!("mesh '{name}': {why}"),
@@ -174,26 +184,33 @@ impl MeshSource {
         Ok(corners.chunks_exact(3).map(triangle).collect())
     }
 
-    /// Returns the scaled triangles of a mesh file \[m\], three corners each, in the order of the file: those of a mirrored part are seen
-    /// from inside.
+    /// Returns the triangles of a mesh file \[m\], three corners each, in the order of the file: those of a mirrored part are seen from inside.
+    /// Without a scale they are in the unit that the file states, or in metres.
     ///
     /// # Errors
-    /// [`MeshError`]: the file is not found, not STL, OBJ or Collada, damaged, has no triangles or too many, or coordinates that are not lengths.
-    pub fn solid(&self, name: &str, scale: [f64; 3]) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
-        let file = self.open(name, scale, MAX_BYTES)?;
-        let corners = file.scaled(file.corners(MAX_SOLID, "judged")?)?;
-        Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
+    /// [`MeshError`]: the file is not found, not STL, OBJ or Collada, damaged, has no triangles or too many, or coordinates that are not lengths;
+    /// or it states its unit, and there is a scale, too.
+    pub fn solid(&self, name: &str, scale: Option<[f64; 3]>) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
+        let file = self.open(name, scale.unwrap_or([1.0; 3]), MAX_BYTES)?;
+        if let (Some(scale), Some(unit_m)) = (scale, file.unit_m()?.filter(|unit_m| *unit_m != 1.0)) {
+            return Err(file.wrong(format!(
+                "it states its unit, {unit_m} m, and the scale {scale:?} is stated, too: leave out mesh_scale"
+            )));
+        }
+        file.solid()
     }
 
-    /// Returns the triangles of a measured body, three corners each, in the order of the file: up to two million. They are in the unit of the
-    /// file; those of Collada, which states it, in metres.
+    /// Returns the triangles of a measured body, as they are: up to two million.
     ///
     /// # Errors
     /// [`MeshError`]: the file is not found, not STL, OBJ or Collada, damaged, or has no triangles or too many. Coordinates are not judged.
-    pub fn scan(&self, name: &str) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
+    pub fn scan(&self, name: &str) -> Result<Scan, MeshError> {
         let file = self.open(name, [1.0; 3], MAX_SCAN_BYTES)?;
         let corners = file.corners(MAX_SCAN, "measured")?;
-        Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
+        Ok(Scan {
+            triangles: corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
+            unit_m: file.unit_m()?,
+        })
     }
 
     /// Reads a mesh file of a link, with its scale.
@@ -437,6 +454,19 @@ impl MeshFile {
         Ok(corners)
     }
 
+    /// Unit that the file states \[m\].
+    fn unit_m(&self) -> Result<Option<f64>, MeshError> {
+        match self.format()? {
+            Format::Collada => collada::stated_unit_m(&self.bytes).map_err(|detail| self.wrong(detail)),
+            Format::Stl | Format::Obj => Ok(None),
+        }
+    }
+
+    fn solid(&self) -> Result<Vec<[Point3<f64>; 3]>, MeshError> {
+        let corners = self.scaled(self.corners(MAX_SOLID, "judged")?)?;
+        Ok(corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect())
+    }
+
     fn scale(&self, points: &mut [Point3<f64>]) {
         let [x, y, z] = self.scale;
         for point in points {
@@ -447,8 +477,13 @@ impl MeshFile {
     fn scaled(&self, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, MeshError> {
         self.scale(&mut points);
         match points.iter().find(|p| !p.iter().all(|c| c.abs() <= LARGEST_LENGTH_M)) {
+            Some(p) if p.iter().any(|c| !c.is_finite()) => Err(self.wrong(format!(
+                "its vertex ({}, {}, {}) is none: coordinates must be numbers",
+                p.x, p.y, p.z
+            ))),
             Some(p) => Err(self.wrong(format!(
-                "its vertex ({}, {}, {}) is none: coordinates must be numbers up to {LARGEST_LENGTH_M} m either way",
+                "its vertex ({}, {}, {}) is none: coordinates must be numbers up to {LARGEST_LENGTH_M} m either way; these may be \
+                 millimetres: scale them by [0.001, 0.001, 0.001] (mesh_scale)",
                 p.x, p.y, p.z
             ))),
             None => Ok(points),

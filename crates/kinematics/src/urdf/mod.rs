@@ -30,7 +30,7 @@ pub use crate::urdf::error::UrdfError;
 pub use crate::urdf::files::{Files, HeldFiles};
 pub use crate::urdf::fixed::FixedJoints;
 pub use crate::urdf::followers::FollowerLink;
-pub use crate::urdf::mesh::{MeshError, MeshSource, MeshSplitter};
+pub use crate::urdf::mesh::{MeshError, MeshSource, MeshSplitter, Scan};
 pub use crate::urdf::scan::MAX_BYTES;
 pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
 pub use crate::urdf::statements::UnusedStatement;

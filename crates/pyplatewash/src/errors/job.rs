@@ -47,7 +47,7 @@ pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {
 /// A scenario, a job or a plan that could not be carried out, with the keys of scenarios that decide it.
 pub fn failure(py: Python<'_>, error: &Failure) -> PyErr {
     let message = error.to_string();
-    match error {
+    match error.cause() {
         Failure::Scenario(error) => scenario(py, error),
         Failure::Arm(_) => staged(py, "robot", &message, Vec::new()),
         Failure::Layout(error) => layout(py, error, &message),

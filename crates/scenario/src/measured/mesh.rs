@@ -29,8 +29,9 @@ pub(super) const SECTORS: usize = 24;
 /// Number of vertices of the face from which on only a part of them is fitted.
 const ENOUGH: usize = 60_000;
 
-/// Number of points all over the surface, roughly, and greatest number of parts into which each edge of a facet is cut where the whole surface is fitted.
+/// Numbers of points all over the surface and from the axis to the rim, roughly, and greatest number of parts into which each edge of a facet is cut where the whole surface is fitted.
 const SAMPLES: usize = 20_000;
+const ACROSS: f64 = 64.0;
 const MOST_PARTS: usize = 192;
 
 /// Greatest slope by which the face falls outwards, as its tangent: 45°. It ends there, and the lip begins.
@@ -265,7 +266,15 @@ impl Mesh {
             Fit::Surface => {
                 let all: f64 = smooth.iter().map(|t| area(t)).sum();
                 let part_area = all / SAMPLES as f64;
-                let parts = |t: &[u32; 3]| ((area(t) / part_area).sqrt().ceil() as usize).clamp(1, MOST_PARTS);
+                let radius_m = |point: &Vector3<f64>| frame.local(point).xy().norm();
+                let reach_m = corners.iter().map(radius_m).fold(0.0, f64::max);
+                let parts = |t: &[u32; 3]| {
+                    let radii = self.corners(t).map(|corner| radius_m(&corner));
+                    let [least, most] =
+                        [f64::min, f64::max].map(|pick| radii.into_iter().reduce(pick).unwrap_or_default());
+                    let along = ((most - least) / reach_m * ACROSS).ceil();
+                    ((area(t) / part_area).sqrt().ceil().max(along) as usize).clamp(1, MOST_PARTS)
+                };
                 let of_facet = |t: &[u32; 3]| {
                     let (parts, area) = (parts(t), area(t));
                     let part = area / (parts * parts) as f64;

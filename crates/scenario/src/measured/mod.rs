@@ -34,7 +34,7 @@ mod unit;
 
 pub use crate::measured::error::{MeasuredError, Place};
 pub use crate::measured::face::Relief;
-pub use crate::measured::points::{LEAST_POINTS, from_points};
+pub use crate::measured::points::{LEAST_POINTS, from_ball_centres, from_points};
 pub use crate::measured::side::FaceSide;
 pub use crate::measured::unit::{Unit, probe_points};
 

@@ -39,6 +39,38 @@ const STILL_M: f64 = 2e-6;
 const RADIUS_GAP: f64 = 0.4;
 const AZIMUTH_GAP: f64 = 1.75;
 
+/// Number of times that the points of a face are found from the centres of a ball, each with the normals found before.
+const BALL_ROUNDS: usize = 4;
+
+/// Returns the plate whose face was touched with a ball of a radius \[m\], from the places of its centre: these lie on a surface that is as far
+/// from the face all over. Its normals are those of the face.
+///
+/// # Errors
+/// As [`from_points`].
+pub fn from_ball_centres(
+    centres: &[Point3<f64>],
+    radius_m: f64,
+    unit: Option<Unit>,
+    face: Option<FaceSide>,
+) -> Result<MeasuredPlate, MeasuredError> {
+    let mut plate = from_points(centres, unit, face)?;
+    let (unit, unit_is_guessed) = (plate.unit, plate.unit_is_guessed);
+    let mut touched = centres.to_vec();
+    for _ in 0..BALL_ROUNDS {
+        for (point, centre) in touched.iter_mut().zip(centres) {
+            let local = plate.pose.inverse_transform_point(&(*point * unit.length_m()));
+            let rho_m = local.xy().coords.norm().min(plate.surface.rim_m());
+            let normal = plate.surface.normal(rho_m, atan2(local.y, local.x)).into_inner();
+            *point = centre - plate.pose.rotation * normal * (radius_m / unit.length_m());
+        }
+        plate = from_points(&touched, Some(unit), face)?;
+    }
+    Ok(MeasuredPlate {
+        unit_is_guessed,
+        ..plate
+    })
+}
+
 /// Returns the plate whose face was touched in points. Its rim is at the outermost one: touch the rim all round.
 ///
 /// # Errors

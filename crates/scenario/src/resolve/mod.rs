@@ -63,7 +63,7 @@ impl Scenario {
         let of_tool = self.tool_body.iter().map(|section| &section.body);
         for body in of_tool.chain(self.obstacle.iter().map(|section| &section.body)) {
             if let Some(mesh) = &body.mesh {
-                let _ = self.meshes().solid(&mesh.to_string_lossy(), [1.0; 3]);
+                let _ = self.meshes().solid(&mesh.to_string_lossy(), None);
             }
         }
     }
@@ -157,7 +157,7 @@ impl Scenario {
         if given {
             self.check_on(&arm, &layout)?;
         } else if self.job.program == Program::Certified {
-            platewash_planner::check(&arm, &self.terms(&arm, &layout)?)?;
+            self.check_standing(&arm, &layout)?;
         }
         Ok((arm, layout.findings))
     }
@@ -168,10 +168,25 @@ impl Scenario {
     /// The error that the job itself would end with.
     pub fn check_on(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
         match self.job.program {
-            Program::Certified => platewash_planner::check(arm, self.job_on(arm, layout)?.terms())?,
+            Program::Certified => self.check_standing(arm, layout)?,
             Program::Paper => self.paper_job_on(arm, layout.clone())?.validate()?,
         }
         Ok(())
+    }
+
+    /// Refuses what stands where it cannot, of a certified job on some plates or on none.
+    fn check_standing(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
+        self.check_as_stated(arm, layout)
+            .map_err(|why| self.with_advice_on_hulls(arm, layout, why))
+    }
+
+    /// Same as [`Self::check_standing`], without advice on meshes.
+    pub(crate) fn check_as_stated(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
+        let terms = match layout.plates.is_empty() {
+            true => self.terms(arm, layout)?,
+            false => self.job_on(arm, layout)?.terms().clone(),
+        };
+        Ok(platewash_planner::check(arm, &terms)?)
     }
 
     /// The terms of the job on some plates; where no home is stated, one is found for them.

@@ -34,12 +34,22 @@ const MOST: f64 = 1e5;
 const FARTHEST_M: f64 = 10.0;
 
 /// Keys of `[layout]` that state a measured shape.
-const OF_LAYOUT: [&str; 4] = [
+const OF_LAYOUT: [&str; 5] = [
     "layout.plate_mesh",
     "layout.plate_points",
     "layout.plate_unit",
     "layout.plate_face",
+    "layout.plate_ball_radius_m",
 ];
+
+/// Measurement as its keys state it: mesh, points, unit, face, radius of the probe's ball \[m\].
+type Measurement = (
+    Option<PathBuf>,
+    Option<PathBuf>,
+    Option<Unit>,
+    Option<FaceSide>,
+    Option<f64>,
+);
 
 /// Columns of a table of plates.
 const NAME: [&str; 1] = ["name"];
@@ -161,7 +171,11 @@ impl Scenario {
         for (index, row) in rows() {
             let at = |name: &str| format!("plate[{index}].{name}");
             let is_measured = row.mesh.is_some() || row.points.is_some();
-            for (key, is_stated) in [("unit", row.unit.is_some()), ("face", row.face.is_some())] {
+            for (key, is_stated) in [
+                ("unit", row.unit.is_some()),
+                ("face", row.face.is_some()),
+                ("ball_radius_m", row.ball_radius_m.is_some()),
+            ] {
                 if is_stated && !is_measured {
                     conflict(
                         at(key),
@@ -261,6 +275,7 @@ impl Scenario {
             layout.plate_points.take(),
             layout.plate_unit.take(),
             layout.plate_face.take(),
+            layout.plate_ball_radius_m.take(),
         );
         let plate = self.measure(stated, OF_LAYOUT, &mut files);
         let of_layout = plate.map_err(refused)?.map(|(index, plate)| {
@@ -273,7 +288,13 @@ impl Scenario {
         for (k, row) in read.plate.iter_mut().enumerate() {
             // A section without a shape of its own takes that of the layout.
             let has_own = row.has_shape();
-            let stated = (row.mesh.take(), row.points.take(), row.unit.take(), row.face.take());
+            let stated = (
+                row.mesh.take(),
+                row.points.take(),
+                row.unit.take(),
+                row.face.take(),
+                row.ball_radius_m.take(),
+            );
             let keys = OF_LAYOUT.map(|key| ShapeKeys(Some(k)).called(key));
             let plate = self
                 .measure(stated, keys.each_ref().map(String::as_str), &mut files)
@@ -321,8 +342,8 @@ impl Scenario {
     /// Measures the plate of a mesh or of points, if one of them is stated; adds it to the files, with its index.
     fn measure(
         &self,
-        (mesh, points, unit, face): (Option<PathBuf>, Option<PathBuf>, Option<Unit>, Option<FaceSide>),
-        [of_mesh, of_points, of_unit, of_side]: [&str; 4],
+        (mesh, points, unit, face, ball_radius_m): Measurement,
+        [of_mesh, of_points, of_unit, of_side, of_ball]: [&str; 5],
         files: &mut ReadFiles,
     ) -> Result<Option<(usize, MeasuredPlate)>, Problem> {
         let is_probed = mesh.is_none();
@@ -338,16 +359,31 @@ impl Scenario {
             };
             refused(key, path, format!("{error}{hint}"))
         };
+        if mesh.is_some() && ball_radius_m.is_some() {
+            conflict(
+                of_ball,
+                "is the ball with which points were touched, and a mesh is stated",
+            )?;
+        }
         let (path, plate) = match (mesh, points) {
             (Some(path), _) => {
                 let source = MeshSource::new(&self.robot.package_path, None).reading(&self.files);
-                let triangles = source
+                let scan = source
                     .scan(&path.to_string_lossy())
                     .map_err(|error| refused(of_mesh, &path, error.to_string()))?;
-                // Collada states its unit, and comes in metres.
-                let is_collada = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("dae"));
-                let unit = unit.or(is_collada.then_some(Unit::Metre));
-                let plate = self.solids.plate(&triangles, unit, face);
+                // What states its unit comes in metres.
+                let unit = match (unit, scan.unit_m) {
+                    (Some(unit), Some(of_file_m)) if unit.length_m() != of_file_m => {
+                        let detail = format!(
+                            "the file states its unit, {of_file_m} m, and the unit {} is stated, too; leave it out",
+                            unit.name()
+                        );
+                        return Err(refused(of_unit, &path, detail));
+                    }
+                    (_, Some(_)) => Some(Unit::Metre),
+                    (unit, None) => unit,
+                };
+                let plate = self.solids.plate(&scan.triangles, unit, face);
                 let plate = plate.map_err(|error| misfit(of_mesh, &path, error))?;
                 (path, plate)
             }
@@ -355,7 +391,21 @@ impl Scenario {
                 let text = self.text_of(&path, of_points, MOST_TABLE_BYTES)?;
                 let touched = measured::probe_points(&text);
                 let (touched, stated) = touched.map_err(|error| refused(of_points, &path, error.to_string()))?;
-                let plate = measured::from_points(&touched, stated.or(unit), face);
+                if let (Some(unit), Some(of_file)) = (unit, stated)
+                    && unit != of_file
+                {
+                    let detail = format!(
+                        "its columns are in {}, and the unit {} is stated, too; leave it out",
+                        of_file.name(),
+                        unit.name()
+                    );
+                    return Err(refused(of_unit, &path, detail));
+                }
+                let unit = stated.or(unit);
+                let plate = match ball_radius_m {
+                    Some(radius_m) => measured::from_ball_centres(&touched, radius_m, unit, face),
+                    None => measured::from_points(&touched, unit, face),
+                };
                 let plate = plate.map_err(|error| misfit(of_points, &path, error))?;
                 (path, plate)
             }

@@ -70,7 +70,7 @@ impl Solids {
         &self,
         source: &MeshSource,
         file: &Path,
-        scale: [f64; 3],
+        scale: Option<[f64; 3]>,
         parts: SolidParts,
     ) -> Result<Hulls, BodyFault> {
         let triangles = source.solid(&file.to_string_lossy(), scale).map_err(BodyFault::Mesh)?;
@@ -114,7 +114,13 @@ impl Solids {
     }
 
     /// Upper bound on how far the convex parts of a mesh reach beyond it \[m\]; `None` where there are none.
-    pub(crate) fn excess_m(&self, source: &MeshSource, file: &Path, scale: [f64; 3], parts: SolidParts) -> Option<f64> {
+    pub(crate) fn excess_m(
+        &self,
+        source: &MeshSource,
+        file: &Path,
+        scale: Option<[f64; 3]>,
+        parts: SolidParts,
+    ) -> Option<f64> {
         let triangles = source.solid(&file.to_string_lossy(), scale).ok()?;
         let hulls = self.parts(source, file, scale, parts).ok()?;
         Some(excess_m(&triangles, &hulls))
@@ -147,7 +153,7 @@ mod tests {
         let file = folder.path().join("a.obj");
         std::fs::write(&file, TETRAHEDRON).unwrap();
         let (solids, source) = (Solids::default(), MeshSource::none());
-        let parts = |of: &Solids, scale: f64, parts| of.parts(&source, &file, [scale; 3], parts).unwrap();
+        let parts = |of: &Solids, scale: f64, parts| of.parts(&source, &file, Some([scale; 3]), parts).unwrap();
         let first = parts(&solids, 1.0, SolidParts::Hull);
         assert!(Arc::ptr_eq(&first, &parts(&solids.clone(), 1.0, SolidParts::Hull)));
         assert_eq!(first, parts(&Solids::default(), 1.0, SolidParts::Hull));

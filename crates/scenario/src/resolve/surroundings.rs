@@ -7,14 +7,16 @@ use crate::sections::body_shape::{SectionShape, pose};
 use crate::sections::obstacle::{MeshPartsName, ObstacleSection};
 use crate::sections::room::TABLE;
 use crate::sections::tool::ToolBodySection;
-use crate::units::Note;
+use crate::units::{MeshAs, Note};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::clearance::SolidParts;
+use platewash_workcell::layout::Layout;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::words::count_with_noun;
+use platewash_workcell::words::{count_with_noun, printable};
 use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Excess of convex parts over a mesh up to which no note is given \[m\].
 pub(crate) const LEAST_EXCESS_M: f64 = 1e-3;
@@ -118,30 +120,85 @@ impl Scenario {
         }
     }
 
-    /// Notes on convex parts that reach beyond the meshes of tool and obstacles. Meshes that cannot be read are left out: the
-    /// caller that makes the workcell reports them.
+    /// Notes on bodies of the tool and obstacles: sizes that are unusual, convex parts that reach beyond their meshes. Bodies that cannot be
+    /// read are left out: the caller that makes the workcell reports them.
     #[must_use]
-    pub fn notes_on_meshes(&self) -> Vec<Note> {
+    pub fn notes_on_bodies(&self, arm: &RobotModel) -> Vec<Note> {
+        let tool = self.tool_on(arm).ok();
+        let sizes = tool.and_then(|tool| {
+            let obstacles = self.obstacles(arm, &tool, self.plates()).ok()?;
+            Some(Note::of_sizes(&tool, &obstacles))
+        });
+        sizes.into_iter().flatten().chain(self.notes_on_meshes()).collect()
+    }
+
+    /// Notes on convex parts that reach beyond the meshes of tool and obstacles.
+    #[must_use]
+    pub(crate) fn notes_on_meshes(&self) -> Vec<Note> {
         let source = self.meshes();
-        let note = |name: &str, (file, scale): (&Path, [f64; 3]), parts: SolidParts| {
+        let note = |name: &str, (file, scale): (&Path, Option<[f64; 3]>), parts: SolidParts, as_what: MeshAs| {
             let by_m = self.solids.excess_m(&source, file, scale, parts)?;
             let body = name.to_owned();
-            (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh {
-                body,
-                by_m,
-                is_decomposed: parts != SolidParts::Hull,
-            })
+            (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh { body, by_m, as_what })
         };
         let of_obstacle = |section: &ObstacleSection| match section.stated("obstacle") {
-            Ok(SectionShape::Mesh { file, scale }) => note(&section.name, (file, scale), solid_parts(section)),
+            Ok(SectionShape::Mesh { file, scale }) => {
+                let (parts, as_what) = match solid_parts(section) {
+                    SolidParts::Hull => (SolidParts::Hull, MeshAs::Hull),
+                    parts => (parts, MeshAs::Parts),
+                };
+                note(&section.name, (file, scale), parts, as_what)
+            }
             _ => None,
         };
         let of_tool = |section: &ToolBodySection| match section.body.stated("tool_body") {
-            Ok(SectionShape::Mesh { file, scale }) => note(&section.name, (file, scale), SolidParts::Hull),
+            Ok(SectionShape::Mesh { file, scale }) => {
+                note(&section.name, (file, scale), SolidParts::Hull, MeshAs::HullOfTool)
+            }
             _ => None,
         };
         let of_tools = self.tool_body.iter().filter_map(of_tool);
         of_tools.chain(self.obstacle.iter().filter_map(of_obstacle)).collect()
+    }
+
+    /// Returns a failure with advice, if it names obstacles that count as the convex hulls of their meshes: whether a decomposition mends it is
+    /// tried.
+    #[must_use]
+    pub fn with_advice_on_hulls(&self, arm: &Arc<RobotModel>, layout: &Layout, why: Failure) -> Failure {
+        let (words, source) = (why.to_string(), self.meshes());
+        let is_concerned = |section: &ObstacleSection| {
+            let Ok(SectionShape::Mesh { file, scale }) = section.stated("obstacle") else {
+                return false;
+            };
+            let excess_m = || self.solids.excess_m(&source, file, scale, SolidParts::Hull);
+            solid_parts(section) == SolidParts::Hull
+                && words.contains(&printable(&section.name))
+                && excess_m().is_some_and(|by_m| by_m > LEAST_EXCESS_M)
+        };
+        let mut other = self.clone();
+        let mut concerned = Vec::new();
+        for section in other.obstacle.iter_mut().filter(|section| is_concerned(section)) {
+            section.mesh_parts = Some(MeshPartsName::Decomposed);
+            concerned.push(printable(&section.name));
+        }
+        if concerned.is_empty() {
+            return why;
+        }
+        let stands_clear = |scenario: &Self| scenario.check_as_stated(arm, layout).is_ok();
+        if stands_clear(self) {
+            return why;
+        }
+        let tried = match stands_clear(&other) {
+            true => "with mesh_parts = \"decomposed\" nothing stands in it",
+            false => "mesh_parts = \"decomposed\" alone does not mend it",
+        };
+        let names = concerned.join(", ");
+        let advice =
+            format!("obstacle {names} counts as the convex hull of its mesh, which fills hollows: {tried} (tried)");
+        Failure::Hull {
+            why: Box::new(why),
+            advice,
+        }
     }
 
     fn shape(&self, index: usize, section: &ObstacleSection) -> Result<ObstacleShape, Failure> {

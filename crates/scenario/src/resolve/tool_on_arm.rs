@@ -68,7 +68,7 @@ impl Scenario {
         index: usize,
         section: &ToolBodySection,
         file: &Path,
-        scale: [f64; 3],
+        scale: Option<[f64; 3]>,
     ) -> Result<Shape, BodyError> {
         let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, SolidParts::Hull);
@@ -116,7 +116,7 @@ impl Scenario {
 /// Body of the tool, as far as its section states it.
 enum ToolBodySource<'a> {
     Convex(Shape),
-    Mesh { file: &'a Path, scale: [f64; 3] },
+    Mesh { file: &'a Path, scale: Option<[f64; 3]> },
 }
 
 impl ToolBodySource<'_> {

@@ -41,7 +41,7 @@ macro_rules! with_shape_keys {
                 concat!($section, ".mesh_scale"),
                 "",
                 $crate::keys::key::Domain::Scale(-1e6, 1e6),
-                "What the coordinates of a mesh are multiplied by: [0.001, 0.001, 0.001] where they are millimetres. Without it, 1.",
+                "What the coordinates of a mesh are multiplied by: [0.001, 0.001, 0.001] where they are millimetres. Without it, 1. A Collada file that states a unit other than 1 m has none.",
             ),
             $($of_mesh,)*
             $($behind,)*
@@ -120,7 +120,7 @@ impl BodyShape {
 pub(crate) enum SectionShape<'a> {
     HalfSpace,
     Convex(Shape),
-    Mesh { file: &'a Path, scale: [f64; 3] },
+    Mesh { file: &'a Path, scale: Option<[f64; 3]> },
 }
 
 impl StatedShape {
@@ -157,7 +157,7 @@ impl StatedShape {
                 let file = self.mesh.as_deref();
                 return Ok(SectionShape::Mesh {
                     file: file.ok_or_else(|| wrong("mesh", "is missing; it names the file".to_owned()))?,
-                    scale: self.mesh_scale.unwrap_or([1.0; 3]),
+                    scale: self.mesh_scale,
                 });
             }
         }))

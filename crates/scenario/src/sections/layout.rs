@@ -54,6 +54,10 @@ pub struct LayoutSection {
     #[key(domain = Word(&["m", "cm", "mm", "inch"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate_unit: Option<Unit>,
+    /// Radius of the ball with which the probe touched; the points are then those of its centre. Without it, they are on the face.
+    #[key(unit = "m", domain = NumberAbove(0.0, 0.1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate_ball_radius_m: Option<f64>,
     /// Direction of the file in which the washed face of the mesh or the points looks. Without it, the side that rises to its rim; of a flat plate
     /// the one towards +z.
     #[key(domain = Word(&["+x", "-x", "+y", "-y", "+z", "-z"]))]
@@ -209,6 +213,7 @@ impl LayoutSection {
         for (key, is_stated, what) in [
             ("layout.plate_unit", self.plate_unit.is_some(), "unit"),
             ("layout.plate_face", self.plate_face.is_some(), "face"),
+            ("layout.plate_ball_radius_m", self.plate_ball_radius_m.is_some(), "ball"),
         ] {
             if is_stated {
                 return conflict(key, format!("is the {what} of a mesh or of points, and there are none"));
@@ -293,6 +298,10 @@ pub struct PlateSection {
     #[key(domain = Word(&["m", "cm", "mm", "inch"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
+    /// Radius of the ball with which the probe touched, as `layout.plate_ball_radius_m`.
+    #[key(unit = "m", domain = NumberAbove(0.0, 0.1))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ball_radius_m: Option<f64>,
     /// Direction of the file in which the washed face of the mesh or the points looks, as `layout.plate_face`.
     #[key(domain = Word(&["+x", "-x", "+y", "-y", "+z", "-z"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -351,6 +360,7 @@ impl PlateSection {
             own.plate_mesh.clone_from(&self.mesh);
             own.plate_points.clone_from(&self.points);
             own.plate_unit = self.unit;
+            own.plate_ball_radius_m = self.ball_radius_m;
             own.plate_face = self.face;
         }
         own.plate_soil = self.soil.clone().or(own.plate_soil);
