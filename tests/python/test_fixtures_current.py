@@ -6,6 +6,7 @@ import arms
 import generate
 import numpy as np
 import pytest
+import stl_files
 
 import urdf_reader
 
@@ -85,3 +86,7 @@ def test_published_solutions_reach_their_pose(fixtures):
         cosine = (np.trace(np.array(content["pose"]["R"]).T @ placed[:3, :3]) - 1) / 2
         assert off <= content["position_tolerance_m"]
         assert np.arccos(min(1.0, cosine)) <= content["rotation_tolerance_rad"]
+
+
+def test_stl_files_and_what_trimesh_reads_are_current(fixtures):
+    assert read(fixtures, "stl_files.json") == stl_files.files()
