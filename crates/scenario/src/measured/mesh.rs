@@ -29,10 +29,11 @@ pub(super) const SECTORS: usize = 24;
 /// Number of vertices of the face from which on only a part of them is fitted.
 const ENOUGH: usize = 60_000;
 
-/// Numbers of points all over the surface and from the axis to the rim, roughly, and greatest number of parts into which each edge of a facet is cut where the whole surface is fitted.
-const SAMPLES: usize = 20_000;
-const ACROSS: f64 = 64.0;
-const MOST_PARTS: usize = 192;
+/// Number of points all over the surface, roughly, where this is fitted.
+const SAMPLES: f64 = 60_000.0;
+
+/// Powers of the plastic number, upside down: steps of a sequence that fills a square evenly.
+const EVENLY: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
 
 /// Greatest slope by which the face falls outwards, as its tangent: 45°. It ends there, and the lip begins.
 const LIP: f64 = 1.0;
@@ -265,22 +266,19 @@ impl Mesh {
             Fit::Vertices => vertices().map(|(k, weight)| (self.points[k], *weight)).collect(),
             Fit::Surface => {
                 let all: f64 = smooth.iter().map(|t| area(t)).sum();
-                let part_area = all / SAMPLES as f64;
-                let radius_m = |point: &Vector3<f64>| frame.local(point).xy().norm();
-                let reach_m = corners.iter().map(radius_m).fold(0.0, f64::max);
-                let parts = |t: &[u32; 3]| {
-                    let radii = self.corners(t).map(|corner| radius_m(&corner));
-                    let [least, most] =
-                        [f64::min, f64::max].map(|pick| radii.into_iter().reduce(pick).unwrap_or_default());
-                    let along = ((most - least) / reach_m * ACROSS).ceil();
-                    ((area(t) / part_area).sqrt().ceil().max(along) as usize).clamp(1, MOST_PARTS)
-                };
-                let of_facet = |t: &[u32; 3]| {
-                    let (parts, area) = (parts(t), area(t));
-                    let part = area / (parts * parts) as f64;
-                    self.middles(t, parts).map(move |middle| (middle, part))
-                };
-                smooth.iter().flat_map(|t| of_facet(t)).collect()
+                let mut sequence = (0..).map(|k| EVENLY.map(|step| (f64::from(k) * step).fract()));
+                let mut samples = Cloud::new();
+                for t in &smooth {
+                    let [a, b, c] = self.corners(t);
+                    let count = (area(t) / all * SAMPLES).ceil().max(1.0);
+                    let places = sequence.by_ref().take(count as usize);
+                    // Over the parallelogram of two edges, folded onto the triangle.
+                    samples.extend(places.map(|[u, v]: [f64; 2]| {
+                        let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
+                        (a + (b - a) * u + (c - a) * v, area(t) / count)
+                    }));
+                }
+                samples
             }
         };
         let every = cloud.len() / ENOUGH + 1;
@@ -292,18 +290,6 @@ impl Mesh {
             rim: outermost(corners.into_iter(), frame, SECTORS),
             facets,
         }
-    }
-
-    /// Middles of the triangles into which a facet falls where each of its edges is cut into some parts.
-    fn middles(&self, t: &[u32; 3], parts: usize) -> impl Iterator<Item = Vector3<f64>> + use<> {
-        let [a, b, c] = self.corners(t);
-        let step = 1.0 / parts as f64;
-        let at = move |i: usize, j: usize, third: f64| {
-            a + (b - a) * ((i as f64 + third) * step) + (c - a) * ((j as f64 + third) * step)
-        };
-        let upright = (0..parts).flat_map(move |i| (0..parts - i).map(move |j| at(i, j, 1.0 / 3.0)));
-        let turned = (0..parts - 1).flat_map(move |i| (0..parts - 1 - i).map(move |j| at(i, j, 2.0 / 3.0)));
-        upright.chain(turned)
     }
 
     /// True if a facet that faces up falls outwards as steeply as the lip.
