@@ -138,7 +138,12 @@ fn names_unreadable_visuals_without_failing() {
             "scale=\"1e6 1 1\"",
             "exceeds 100 m",
         ),
-        ("part.stl", "solid cut\nvertex 0 0 0\n".to_owned(), "", "cut off"),
+        (
+            "part.stl",
+            "solid cut\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n".to_owned(),
+            "",
+            "cut off",
+        ),
     ];
     for (name, file, attributes, words) in cases {
         let (robot, _folder) = with_file(name, file.as_bytes(), attributes);

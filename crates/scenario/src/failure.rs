@@ -56,7 +56,7 @@ pub enum Failure {
     Hull {
         /// The failure that names them.
         why: Box<Self>,
-        /// What counts, and whether a decomposition mends it.
+        /// Words on the hulls, and on whether a decomposition mends it.
         advice: String,
     },
 }

@@ -116,12 +116,12 @@ pub enum Note {
         body: String,
         /// Upper bound on how far the parts reach beyond the mesh \[m\].
         by_m: f64,
-        /// What counts in place of the mesh.
+        /// Stand-in for the mesh.
         as_what: MeshAs,
     },
 }
 
-/// What counts in place of a mesh.
+/// Stand-in for a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshAs {

@@ -444,7 +444,7 @@ fn a_hull_in_which_bodies_stand_is_named_and_a_decomposition_tried() {
     };
     let hull = said("").unwrap_err();
     assert!(
-        hull.contains("obstacle room counts as the convex hull of its mesh")
+        hull.contains("obstacle 'room' counts as the convex hull of its mesh")
             && hull.contains("with mesh_parts = \"decomposed\" nothing stands in it (tried)"),
         "{hull}"
     );

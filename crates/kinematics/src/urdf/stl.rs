@@ -50,7 +50,7 @@ fn binary(data: &[u8], count: usize) -> Result<Vec<Point3<f64>>, String> {
     Ok(triangles.flat_map(|t| t[12..48].chunks_exact(12).map(corner)).collect())
 }
 
-/// What is open in an ASCII file.
+/// Statement of an ASCII file that is open.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Open {
     Nothing,

@@ -52,7 +52,7 @@ pub(super) struct Mesh {
     volume: f64,
 }
 
-/// What of a face is fitted.
+/// Part of a face that is fitted.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fit {
     /// The vertices: they lie on the plate that coarse facets stand for.

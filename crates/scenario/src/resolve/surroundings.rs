@@ -192,9 +192,9 @@ impl Scenario {
             true => "with mesh_parts = \"decomposed\" nothing stands in it",
             false => "mesh_parts = \"decomposed\" alone does not mend it",
         };
-        let names = concerned.join(", ");
+        let names = concerned.join("', '");
         let advice =
-            format!("obstacle {names} counts as the convex hull of its mesh, which fills hollows: {tried} (tried)");
+            format!("obstacle '{names}' counts as the convex hull of its mesh, which fills hollows: {tried} (tried)");
         Failure::Hull {
             why: Box::new(why),
             advice,
