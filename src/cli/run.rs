@@ -12,7 +12,7 @@ use anyhow::Result;
 use clap::Args;
 use platewash::certificate::{planned_headline, prove_with};
 use platewash::paper::run_with;
-use platewash::planner::{self, PlanError, PlannedJob, Watch, plan_with};
+use platewash::planner::{PlanError, PlannedJob, Watch, plan_with};
 use platewash::scenario::{Program, Remedies};
 use platewash::simulator::simulate::table;
 use platewash::viewer::view::ExecutedMotion;
@@ -54,9 +54,7 @@ pub fn wash(options: &Options, scenario: &Scenario) -> Result<Washing, Failure> 
         cancel: &options.cancel,
     };
     // What fails wherever the plates lie, before they are placed.
-    let nowhere = Layout::of(Vec::new());
-    planner::check(&arm, &scenario.terms(&arm, &nowhere)?)
-        .map_err(|why| scenario.with_advice_on_hulls(&arm, &nowhere, why.into()))?;
+    scenario.check_standing(&arm, &Layout::of(Vec::new()))?;
     let layout = scenario.place(&arm, &watch)?;
     let job = scenario.job_on(&arm, &layout);
     let planned = job.and_then(|job| Ok(plan_with(&job, &watch)?));

@@ -15,7 +15,7 @@ use std::fmt;
 /// An arm that reaches farther than this is described in millimetres \[m\]: six axes reach some five metres.
 const LONGEST_REACH_M: f64 = 20.0;
 
-/// Lengths of bodies from which on to which their numbers are probably metres \[m\].
+/// Least and greatest length of a body at which its numbers are probably metres \[m\].
 const SMALLEST_BODY_M: f64 = 1e-3;
 const LARGEST_BODY_M: f64 = 10.0;
 

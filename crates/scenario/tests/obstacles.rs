@@ -299,25 +299,32 @@ fn with_mesh(folder: &Path, file: &str, content: &[u8], more: &str) -> Result<Sc
     scenario.job().map(|_| scenario)
 }
 
+/// Lines of an OBJ file for a box between two corners, behind some other boxes.
+fn box_obj(others: usize, low: [f64; 3], high: [f64; 3]) -> String {
+    let mut text = String::new();
+    for k in 0..8 {
+        let [x, y, z] = std::array::from_fn(|bit| if k >> bit & 1 == 1 { high[bit] } else { low[bit] });
+        text += &format!("v {x} {y} {z}\n");
+    }
+    for face in [
+        [1, 3, 4, 2],
+        [5, 6, 8, 7],
+        [1, 2, 6, 5],
+        [3, 7, 8, 4],
+        [1, 5, 7, 3],
+        [2, 4, 8, 6],
+    ] {
+        let face = face.map(|corner| (corner + 8 * others).to_string());
+        text += &format!("f {}\n", face.join(" "));
+    }
+    text
+}
+
 /// An L of two boxes, as an OBJ file.
 fn angle() -> String {
     let mut text = String::new();
     for (index, [x, y]) in [[0.2, 0.02], [0.02, 0.2]].iter().enumerate() {
-        for k in 0..8 {
-            let at = |bit: usize, high: f64| if k >> bit & 1 == 1 { high } else { 0.0 };
-            text += &format!("v {} {} {}\n", at(0, *x), at(1, *y), at(2, 0.1));
-        }
-        for face in [
-            [1, 3, 4, 2],
-            [5, 6, 8, 7],
-            [1, 2, 6, 5],
-            [3, 7, 8, 4],
-            [1, 5, 7, 3],
-            [2, 4, 8, 6],
-        ] {
-            let face = face.map(|corner| (corner + 8 * index).to_string());
-            text += &format!("f {}\n", face.join(" "));
-        }
+        text += &box_obj(index, [0.0; 3], [*x, *y, 0.1]);
     }
     text
 }
@@ -410,26 +417,7 @@ fn a_hull_in_which_bodies_stand_is_named_and_a_decomposition_tried() {
     .into_iter()
     .enumerate()
     {
-        for k in 0..8 {
-            let at = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 1 { high } else { low };
-            text += &format!(
-                "v {} {} {}\n",
-                at(0, low[0], high[0]),
-                at(1, low[1], high[1]),
-                at(2, 0.0, 1.0)
-            );
-        }
-        for face in [
-            [1, 3, 4, 2],
-            [5, 6, 8, 7],
-            [1, 2, 6, 5],
-            [3, 7, 8, 4],
-            [1, 5, 7, 3],
-            [2, 4, 8, 6],
-        ] {
-            let face = face.map(|corner| (corner + 8 * index).to_string());
-            text += &format!("f {}\n", face.join(" "));
-        }
+        text += &box_obj(index, [low[0], low[1], 0.0], [high[0], high[1], 1.0]);
     }
     std::fs::write(folder.path().join("room.obj"), &text).unwrap();
     let said = |more: &str| {

@@ -32,7 +32,7 @@ const ENOUGH: usize = 60_000;
 /// Number of points all over the surface, roughly, where this is fitted.
 const SAMPLES: f64 = 60_000.0;
 
-/// Powers of the plastic number, upside down: steps of a sequence that fills a square evenly.
+/// Steps of a sequence of points that fills a square evenly: 1/p and 1/p², with the plastic number p.
 const EVENLY: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
 
 /// Greatest slope by which the face falls outwards, as its tangent: 45°. It ends there, and the lip begins.

@@ -175,18 +175,21 @@ impl Scenario {
     }
 
     /// Refuses what stands where it cannot, of a certified job on some plates or on none.
-    fn check_standing(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// The error that the job itself would end with, with advice on meshes that count as hulls.
+    pub fn check_standing(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
         self.check_as_stated(arm, layout)
             .map_err(|why| self.with_advice_on_hulls(arm, layout, why))
     }
 
     /// Same as [`Self::check_standing`], without advice on meshes.
     pub(crate) fn check_as_stated(&self, arm: &Arc<RobotModel>, layout: &Layout) -> Result<(), Failure> {
-        let terms = match layout.plates.is_empty() {
-            true => self.terms(arm, layout)?,
-            false => self.job_on(arm, layout)?.terms().clone(),
-        };
-        Ok(platewash_planner::check(arm, &terms)?)
+        match layout.plates.is_empty() {
+            true => platewash_planner::check(arm, &self.terms(arm, layout)?)?,
+            false => platewash_planner::check(arm, self.job_on(arm, layout)?.terms())?,
+        }
+        Ok(())
     }
 
     /// The terms of the job on some plates; where no home is stated, one is found for them.

@@ -136,25 +136,27 @@ impl Scenario {
     #[must_use]
     pub(crate) fn notes_on_meshes(&self) -> Vec<Note> {
         let source = self.meshes();
-        let note = |name: &str, (file, scale): (&Path, Option<[f64; 3]>), parts: SolidParts, as_what: MeshAs| {
+        let note = |name: &str, (file, scale): (&Path, Option<[f64; 3]>), as_what: MeshAs| {
+            let parts = match as_what {
+                MeshAs::Hull | MeshAs::HullOfTool => SolidParts::Hull,
+                MeshAs::Parts => SolidParts::Decomposed,
+            };
             let by_m = self.solids.excess_m(&source, file, scale, parts)?;
             let body = name.to_owned();
             (by_m > LEAST_EXCESS_M).then_some(Note::LargerThanMesh { body, by_m, as_what })
         };
         let of_obstacle = |section: &ObstacleSection| match section.stated("obstacle") {
             Ok(SectionShape::Mesh { file, scale }) => {
-                let (parts, as_what) = match solid_parts(section) {
-                    SolidParts::Hull => (SolidParts::Hull, MeshAs::Hull),
-                    parts => (parts, MeshAs::Parts),
+                let as_what = match solid_parts(section) {
+                    SolidParts::Hull => MeshAs::Hull,
+                    _ => MeshAs::Parts,
                 };
-                note(&section.name, (file, scale), parts, as_what)
+                note(&section.name, (file, scale), as_what)
             }
             _ => None,
         };
         let of_tool = |section: &ToolBodySection| match section.body.stated("tool_body") {
-            Ok(SectionShape::Mesh { file, scale }) => {
-                note(&section.name, (file, scale), SolidParts::Hull, MeshAs::HullOfTool)
-            }
+            Ok(SectionShape::Mesh { file, scale }) => note(&section.name, (file, scale), MeshAs::HullOfTool),
             _ => None,
         };
         let of_tools = self.tool_body.iter().filter_map(of_tool);
