@@ -6,5 +6,6 @@ await import("./test/picture.mjs");
 await import("./test/features.mjs");
 await import("./test/verdict.mjs");
 await import("./test/hostile.mjs");
+await import("./test/looks.mjs");
 await import("./test/many.mjs");
 await import("./test/live.mjs");

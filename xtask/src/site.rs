@@ -1,9 +1,10 @@
 //! The documentation as a website: pages, Rust and Python API, playground. Links that lead nowhere are errors.
 
 use crate::{check, page, python, web, wheel};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use platewash_bundler::{Node, Packages, Step, Workshop, copied, removed, root, target};
-use std::fs;
+use std::path::Path;
+use std::{env, fs};
 
 /// What pages link to beside those of `docs`, at the same places as in the repository.
 const LINKED: [&str; 6] = [
@@ -44,6 +45,27 @@ pub fn built() -> Result<()> {
     for (name, script) in [("formulas", "formulas"), ("links of the website", "links")] {
         node.npm(name, folder, &["run", "--silent", script]).run()?;
     }
+    formulas_of_page(&node, folder)?;
     removed(&target().join("site"))?;
     fs::rename(&site, target().join("site")).with_context(|| site.display().to_string())
+}
+
+/// Checks that the page in 3-D has the formulas as the documentation has them, or writes them anew where `PLATEWASH_WRITE_DOCS` is set.
+fn formulas_of_page(node: &Node, folder: &Path) -> Result<()> {
+    let new = folder.join("formulas.json");
+    let out = new.to_string_lossy();
+    let line = ["mathml.mjs", &out, "pages/docs/certificate.md", "pages/docs/contact.md"];
+    node.node("formulas of the page", folder, &line).run()?;
+    let kept = root().join("crates/viewer/page/src/formulas.json");
+    let read = |file: &Path| fs::read_to_string(file).with_context(|| file.display().to_string());
+    if read(&new)? == read(&kept)? {
+        return Ok(());
+    }
+    if env::var_os("PLATEWASH_WRITE_DOCS").is_none() {
+        bail!(
+            "{} is not what the formulas of docs give: run PLATEWASH_WRITE_DOCS=1 cargo xtask check --only site",
+            kept.display()
+        );
+    }
+    copied(&new, &kept)
 }

@@ -41,6 +41,7 @@ pub use crate::program::{ProgramLimits, ProgramProof, prove_program};
 pub use crate::prove::{MotionProof, prove, prove_motion, prove_with};
 pub use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
 pub use crate::report::check::{Check, Discrepancy, Measure, Sense, Status, Unit, WorstCase};
+pub use crate::report::explanation::Explanation;
 pub use crate::report::headline::{paper_headline, planned_headline};
 pub use crate::report::requirement::Requirement;
 pub use crate::report::table::MeasureWords;

@@ -1,5 +1,6 @@
 //! When a run counts as washed, and what breaks it: one good job and single changes of it.
 
+use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::cubic::Interpolation;
 use platewash_paper::report::{PaperFinding, ViolationKind};
@@ -12,6 +13,7 @@ use platewash_workcell::layout::{Layout, base_footprint, check_explicit};
 use platewash_workcell::simulation::ControlLawName;
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::verdict::Verdict;
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// Where the arm starts: over the centre of the plate.
@@ -73,6 +75,31 @@ fn a_plate_that_is_covered_clear_and_touched_is_washed() {
     let plate = &report.plates[0];
     assert!(plate.washed && plate.executed_coverage.lower > 0.995 && plate.in_contact == plate.waypoints);
     assert!(report.findings.is_empty(), "{:?}", report.findings);
+}
+
+#[test]
+fn a_tilted_plate_is_measured_in_its_own_plane() {
+    let turned = |[roll, pitch, yaw]: [f64; 3]| {
+        let report = judged(|job| {
+            let pose = &mut job.layout.plates[0].pose;
+            pose.rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+            // An upright plate would stand in the floor.
+            job.workcell.obstacles.clear();
+            with_tool(job, 0.15);
+        });
+        report.plates[0].executed_coverage
+    };
+    // Around its axis nothing changes; of an upright plate the level spiral sweeps a stripe as wide as the sponge.
+    assert!(turned([0.0, 0.0, 1.0]).lower > 0.995);
+    let rim_m = good().layout.plates[0].rim_m();
+    let stripe = 2.0 * 2.0 * rim_m * 0.025 / (std::f64::consts::PI * rim_m * rim_m);
+    for upright in [[FRAC_PI_2, 0.0, 0.0], [0.0, -FRAC_PI_2, 0.0]] {
+        let swept = turned(upright);
+        assert!(
+            swept.upper <= stripe && swept.lower > 0.9 * stripe,
+            "{swept:?} for about {stripe}"
+        );
+    }
 }
 
 #[test]

@@ -305,6 +305,49 @@ fn keys_of_sections_that_are_not_there_are_refused() {
 
 /// Joints that are held still are a table: in braces, with a header of its own, or with dots.
 #[test]
+fn a_section_is_taken_out_with_its_comments() {
+    let without = |text: &str, key: &str| {
+        let mut draft = Draft::new(text).unwrap();
+        draft.set(key, None).unwrap();
+        draft.text().to_owned()
+    };
+    let text = "# head\n\n[[obstacle]]\nname = \"a\"   # one\n\n# About b.\n[[obstacle]]\nname = \"b\"\n\n# Kept.\n\n# About c.\n\
+                [[obstacle]]\nname = \"c\"\n\n[wash]\nturns = 3\n# end\n";
+    let b = "# About b.\n[[obstacle]]\nname = \"b\"\n";
+    let c = "# About c.\n[[obstacle]]\nname = \"c\"\n";
+    let (kept, end) = ("\n# Kept.\n", "\n[wash]\nturns = 3\n# end\n");
+    assert_eq!(without(text, "obstacle[0]"), format!("# head\n\n{b}{kept}\n{c}{end}"));
+    assert_eq!(without(text, "obstacle[1]"), text.replace(&format!("\n{b}"), ""));
+    assert_eq!(without(text, "obstacle[2]"), text.replace(&format!("\n{c}"), ""));
+    // All of them, the ends of lines and the mark kept.
+    let ends = format!("\u{feff}{}", text.replace('\n', "\r\n"));
+    let none = ["obstacle[2]", "obstacle[0]", "obstacle[0]"]
+        .iter()
+        .fold(ends, |text, key| without(&text, key));
+    assert_eq!(
+        none,
+        "\u{feff}# head\r\n\r\n# Kept.\r\n\r\n[wash]\r\nturns = 3\r\n# end\r\n"
+    );
+    assert_eq!(
+        without("obstacle = [{name = \"a\"}, {name = \"b\"}]\n", "obstacle[0]"),
+        "obstacle = [ {name = \"b\"}]\n"
+    );
+    let mut draft = Draft::new(text).unwrap();
+    for key in [
+        "obstacle[3]",
+        "plate[0]",
+        "obstacle[-1]",
+        "obstacle[01]",
+        "wash",
+        "wash[0]",
+    ] {
+        draft.set(key, None).unwrap_err();
+    }
+    draft.set("obstacle[0]", Some(&Value::from(1))).unwrap_err();
+    assert_eq!(draft.text(), text);
+}
+
+#[test]
 fn positions_of_joints_are_a_table() {
     let all = json!({"rail": 0.3, "tip/finger 2": -2.0});
     for text in [

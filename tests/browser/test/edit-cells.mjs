@@ -85,6 +85,34 @@ test("all tabs fit beside the scene, and every plate lies between toolbar and re
   await page.waitForFunction(() => document.querySelector("canvas.scene").clientHeight >= 844 / 2 - 1);
 });
 
+test("an obstacle is added, moved and removed with the keyboard alone, in sight of who does it", async (t) => {
+  const { page, quiet } = await edit(t, await folder(t));
+  const first = await scenario(page);
+  await page.getByRole("button", { name: "Add obstacle" }).focus();
+  await page.keyboard.press("Enter");
+  await settled(page);
+  const row = page.getByRole("group", { name: "box 1", exact: true });
+  assert.ok(await row.evaluate((element) => element === document.activeElement), "the focus is not on what was added");
+  const at = await placeOf(page, "box 1");
+  // Nearer to the eye than the arm, and on the canvas.
+  const [[, below], [, foot]] = [await onScreen(page, at), await onScreen(page, [0, 0, 0])];
+  assert.ok(below > foot, `${below} for ${foot}`);
+  const time = await page.evaluate(() => window.platewash.time());
+  await page.keyboard.press("Shift+ArrowUp");
+  await page.keyboard.press("ArrowRight");
+  await settled(page);
+  const moved = await placeOf(page, "box 1");
+  const way = [moved[0] - at[0], moved[1] - at[1]].map((step) => Math.round(1000 * Math.abs(step))).sort((a, b) => a - b);
+  assert.deepEqual(way, [5, 50]);
+  assert.equal(await page.evaluate(() => window.platewash.time()), time, "the film moved");
+  await page.keyboard.press("Delete");
+  await settled(page);
+  assert.equal((await scenario(page)).trimEnd(), first.trimEnd());
+  assert.ok(await page.getByRole("button", { name: "Add obstacle" }).evaluate((element) => element === document.activeElement));
+  assert.equal(await row.count(), 0);
+  quiet();
+});
+
 test("an obstacle is moved once it is clicked, and refused where it stands in a plate", async (t) => {
   const { page, quiet } = await edit(t, await folder(t), ["--scenario", "sink"]);
   const before = await scenario(page);

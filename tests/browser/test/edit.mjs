@@ -66,6 +66,33 @@ test("a drag out of reach leads to the reason and a ghost, and a click on the gh
   quiet();
 });
 
+test("what a held plate was proved with is the last valid plan once it is dragged out of reach", async (t) => {
+  const { page, quiet } = await one(t);
+  const facts = () => page.locator("#header .facts dd").allInnerTexts();
+  const before = await facts();
+  const [x, y] = (await centres(page))[0];
+  const away = Math.hypot(x, y);
+  await drag(page, 0, [x + 0.06, y - 0.02], { release: false });
+  // Held still, it is planned and proved there.
+  await page.waitForFunction(
+    (hash) => document.querySelector("#header .badge").textContent === "Proved" && document.querySelector("#header .facts code").textContent !== hash,
+    before[1].trim(),
+  );
+  const held = await facts();
+  const [outX, outY] = await onScreen(page, [(x * 0.62) / away, (y * 0.62) / away, 0.03]);
+  await page.mouse.move(outX, outY);
+  await page.mouse.up();
+  await settled(page);
+  assert.equal((await verdict(page)).kind, "unplanned");
+  assert.deepEqual(await page.locator("#header .facts dt").allInnerTexts(), ["last valid cycle", "last valid hash"]);
+  assert.deepEqual(await facts(), held);
+  await page.getByRole("tab", { name: "Proof" }).click();
+  const proof = await page.locator("#panel-requirements").innerText();
+  assert.match(proof, /\d+.requirements: \d+ proved/);
+  assert.doesNotMatch(proof, /nothing was proved/);
+  quiet();
+});
+
 test("sixty changes and as many undos give the first scenario byte for byte", async (t) => {
   const { page, quiet } = await edit(t, await folder(t));
   const first = await scenario(page);

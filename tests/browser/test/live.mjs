@@ -68,6 +68,20 @@ test("a live run is shown while it runs, and what was missed when its connection
   const pace = (second - first) / (ended - began);
   assert.ok(pace > 0.6 && pace < 1.7, `it runs at ${pace} times real time`);
   assert.match(await text(page), /live/i);
+  assert.equal(await page.locator("select.follow option:checked").innerText(), "Live motion");
+  for (const [width, height] of [[1440, 900], [1280, 800], [820, 1180], [390, 844]]) {
+    await page.setViewportSize({ width, height });
+    const covered = await page.evaluate(() => {
+      const box = (element) => element.getBoundingClientRect();
+      const pill = box(document.querySelector(".banner"));
+      return [...document.querySelectorAll(".toolbar > *")].filter((tool) => {
+        const { left, right, top, bottom } = box(tool);
+        return left < pill.right && pill.left < right && top < pill.bottom && pill.top < bottom;
+      }).map((tool) => tool.textContent);
+    });
+    assert.deepEqual(covered, [], `the pill covers tools at ${width}`);
+  }
+  await page.setViewportSize({ width: 400, height: 300 });
 
   between.up(false);
   await until(page, "reconnecting", 0);

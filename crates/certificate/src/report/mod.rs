@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | what is required | `requirement` |
 //! | what came of one requirement | `check` |
+//! | the requirement, its formula and whose its limit is, for readers | `explanation` |
 //! | all of it; places in the world frame | `certificate` |
 //! | the first line, with what is laxer than usual | `headline` |
 //! | the table | `table` |
@@ -12,6 +13,7 @@
 
 pub(crate) mod certificate;
 pub(crate) mod check;
+pub(crate) mod explanation;
 pub(crate) mod headline;
 pub(crate) mod requirement;
 pub(crate) mod table;

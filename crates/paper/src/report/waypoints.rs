@@ -3,6 +3,7 @@
 use super::motion::{ClosestApproach, Nearness, nearest};
 use crate::run::PaperRun;
 use crate::tracking::{IkOutcome, Step, tracking_errors};
+use nalgebra::Vector3;
 use platewash_kinematics::ik::IkCause;
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
 use platewash_workcell::plate::Plate;
@@ -147,12 +148,16 @@ fn worst_unreached(steps: &[StepNearness<'_>]) -> Option<UnreachedWaypoint> {
 fn plate(run: &PaperRun, steps: &[StepNearness<'_>], index: usize) -> Result<PlateReport, CoverageError> {
     let (plate, tool) = (run.job.layout.plates[index], &run.job.workcell.tool);
     let centre_m = plate.centre_xy();
-    let swept = |of: fn(&Step) -> [f64; 2]| {
-        let path: Vec<_> = steps.iter().map(|(step, _)| of(step)).collect();
-        coverage(&path, centre_m, plate.rim_m(), tool.sponge.radius_m, &RASTER)
+    // In the plane of the plate: seen from above, an upright plate is a line.
+    let swept = |of: fn(&Step) -> &Vector3<f64>| {
+        let path: Vec<_> = steps
+            .iter()
+            .map(|(step, _)| plate.local(of(step)).xy().into())
+            .collect();
+        coverage(&path, [0.0; 2], plate.rim_m(), tool.sponge.radius_m, &RASTER)
     };
     let worst = |of: fn(&Step) -> f64| steps.iter().map(|(step, _)| of(step)).fold(0.0, f64::max);
-    let executed_coverage = swept(|s| [s.executed_tip.x, s.executed_tip.y])?;
+    let executed_coverage = swept(|s| &s.executed_tip)?;
     let all = WaypointReport::new(steps);
     let in_contact = steps.iter().filter(|(step, _)| touches(run, &plate, step)).count();
     let clear = steps.iter().all(|(_, near)| near[1].too_near.is_empty());
@@ -169,7 +174,7 @@ fn plate(run: &PaperRun, steps: &[StepNearness<'_>], index: usize) -> Result<Pla
         planned_clearance: all.planned_clearance,
         executed_clearance: all.executed_clearance,
         in_contact,
-        ideal_coverage: swept(|s| [s.target.x, s.target.y])?,
+        ideal_coverage: swept(|s| &s.target)?,
         executed_coverage,
         tracking_rms_m: all.tracking_rms_m,
         tracking_max_m: all.tracking_max_m,
@@ -179,6 +184,6 @@ fn plate(run: &PaperRun, steps: &[StepNearness<'_>], index: usize) -> Result<Pla
 /// Checks that the executed sponge is on the plate at a step.
 fn touches(run: &PaperRun, plate: &Plate, step: &Step) -> bool {
     let tool = &run.job.workcell.tool;
-    let height = step.executed_tip.z - plate.centre().z;
-    tool.is_present() && (-tool.sponge.height_m..=CONTACT_HEIGHT_M).contains(&height)
+    let height_m = plate.height_of(&step.executed_tip);
+    tool.is_present() && (-tool.sponge.height_m..=CONTACT_HEIGHT_M).contains(&height_m)
 }

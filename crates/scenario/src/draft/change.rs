@@ -34,12 +34,7 @@ pub(crate) enum Stop {
 pub(crate) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Result<Option<String>, EditError> {
     let plain = plain(text);
     let change = || {
-        let document = Document::parse(plain.as_str()).map_err(|_| Stop::Unplaced)?;
-        let mut document = document.into_mut();
-        // Text that is not printed as it stands, such as dotted keys of two sections that take turns, would be moved.
-        if document.to_string() != plain {
-            return Err(Stop::Unplaced);
-        }
+        let mut document = document(&plain)?;
         match value {
             Some(value) => set(&mut document, target, value)?,
             None => remove(&mut document, target)?,
@@ -53,6 +48,39 @@ pub(crate) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Resu
         Stop::NoRow(list) => Err(EditError::NoRow { key, list }),
         Stop::Unplaced => Err(EditError::Unplaced { key }),
     })
+}
+
+/// The text without a section of a list. Its comments go with it, but for those before the last blank line over it.
+pub(crate) fn without_row(text: &str, (list, index): (&'static str, usize)) -> Result<String, EditError> {
+    let plain = plain(text);
+    let key = format!("{list}[{index}]");
+    let mut document = document(&plain).map_err(|_| EditError::Unplaced { key: key.clone() })?;
+    let lead = match document.get_mut(list) {
+        Some(Item::ArrayOfTables(rows)) if index < rows.len() => {
+            let row = rows.remove(index);
+            let lead = text_of(row.decor().prefix());
+            let kept = lead[..lead.rfind("\n\n").map_or(0, |blank| blank + 1)].to_owned();
+            Some((kept, row.position()))
+        }
+        Some(Item::Value(Value::Array(rows))) if index < rows.len() => {
+            rows.remove(index);
+            None
+        }
+        _ => return Err(EditError::NoRow { key, list }),
+    };
+    if let Some((lead, position)) = lead.filter(|(lead, _)| !lead.trim().is_empty()) {
+        lead_to_next(&mut document, position.unwrap_or(0), &lead);
+    }
+    Ok(restored(document.to_string(), text))
+}
+
+/// The document of a text that is printed as it stands. Dotted keys of two sections that take turns, for example, would be moved.
+fn document(plain: &str) -> Result<DocumentMut, Stop> {
+    let document = Document::parse(plain).map_err(|_| Stop::Unplaced)?;
+    let document = document.into_mut();
+    (document.to_string() == plain)
+        .then_some(document)
+        .ok_or(Stop::Unplaced)
 }
 
 /// A text with line feeds at the ends of all its lines, and without its mark.
@@ -278,7 +306,11 @@ fn keep_lead(document: &mut DocumentMut, target: &Target, lead: &str) {
         .ok()
         .flatten()
         .and_then(|item| item.as_table()?.position());
-    let after = own.unwrap_or(0);
+    lead_to_next(document, own.unwrap_or(0), lead);
+}
+
+/// Puts lines before the first section behind a position, or at the end.
+fn lead_to_next(document: &mut DocumentMut, after: isize, lead: &str) {
     let mut next: Option<&mut Table> = None;
     for table in tables_of(document.as_table_mut()) {
         let position = table.position();

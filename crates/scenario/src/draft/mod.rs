@@ -60,7 +60,8 @@ impl Draft {
         &self.text
     }
 
-    /// Gives a key of the table, or one of a section of a list that is there, as `plate[1].at_m`, a value, or takes it out of the text.
+    /// Gives a key of the table, or one of a section of a list that is there, as `plate[1].at_m`, a value, or takes it out of the text. A
+    /// whole section of a list, as `obstacle[0]`, can only be taken out.
     ///
     /// Everything else in the text stays, and the text is the same where the value is there already. A key that is not stated yet goes to
     /// the end of its section, a section to where the table has it. A key that is taken out takes the comment behind it with it.
@@ -68,11 +69,16 @@ impl Draft {
     /// # Errors
     /// [`EditError`]; the text stays as it was.
     pub fn set(&mut self, key: &str, value: Option<&Value>) -> Result<(), EditError> {
-        let (target, value) = Target::with_value(key, value)?;
-        let Some(text) = change::changed(&self.text, &target, value.as_ref())? else {
-            return Ok(());
+        let (text, key) = match (value, row(key)) {
+            (None, Some(row)) => (change::without_row(&self.text, row)?, key.to_owned()),
+            _ => {
+                let (target, value) = Target::with_value(key, value)?;
+                let Some(text) = change::changed(&self.text, &target, value.as_ref())? else {
+                    return Ok(());
+                };
+                (text, target.path())
+            }
         };
-        let key = target.path();
         if text.len() as u64 > MAX_BYTES {
             return Err(EditError::TooLong { key, limit: MAX_BYTES });
         }
@@ -134,6 +140,15 @@ fn json_or_words(value: &DeValue<'_>) -> Value {
     }
 }
 
+/// The list and the index of a section, as `obstacle[0]`; `None` for anything else.
+fn row(path: &str) -> Option<(&'static str, usize)> {
+    let (name, index) = path.strip_suffix(']')?.split_once('[')?;
+    let list = LISTS.iter().find(|list| list.name == name)?;
+    // No sign, and one way to write a number.
+    let index = index.parse().ok().filter(|k: &usize| k.to_string() == index)?;
+    Some((list.name, index))
+}
+
 /// A key that is changed.
 pub(crate) struct Target {
     /// Its row of a table of keys.
@@ -148,14 +163,14 @@ impl Target {
         if let Some(key) = KEYS.iter().find(|key| key.path == path) {
             return Some(Self { key, row: None });
         }
-        let (name, rest) = path.split_once('[')?;
-        let (index, own) = rest.split_once("].")?;
+        let (section, own) = path.split_once("].")?;
+        let (name, index) = row(&format!("{section}]"))?;
         let list = LISTS.iter().find(|list| list.name == name)?;
         let key = list.keys.iter().find(|key| own_name(key) == own)?;
-        // No sign, and one way to write a number.
-        let index = index.parse().ok().filter(|k: &usize| k.to_string() == index)?;
-        let row = Some((list.name, index));
-        Some(Self { key, row })
+        Some(Self {
+            key,
+            row: Some((name, index)),
+        })
     }
 
     /// The key that a path names, and a value as the key takes it: JSON has one type of numbers, so that where a whole one is wanted, one

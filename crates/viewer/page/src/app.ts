@@ -62,7 +62,11 @@ export class App {
     // A live cell's film comes and goes: its place is always there.
     const film = this.#player.duration > 0 || edit !== null;
     let drawn = (): void => undefined;
-    this.#ready = new Promise<void>((resolve) => (drawn = resolve)).then(() => this.#panels.start());
+    this.#ready = new Promise<void>((resolve) => (drawn = resolve)).then(() => {
+      // Before its first frame the canvas is black.
+      this.#stage.canvas.dataset["drawn"] = "";
+      this.#panels.start();
+    });
     // The timer lets the browser show the first frame before panels are filled.
     this.#loop = new Loop({ advance: (now) => this.#advance(now), draw: () => this.#draw() }, () => setTimeout(drawn));
     this.#controls = new Controls(this.#player, () => this.#loop.now(), {
@@ -95,7 +99,7 @@ export class App {
     this.#beside = view.beside === null || scene === null ? null : new BesidePanel(this.#player, view.beside, scene, () => this.#show());
     if (this.#beside !== null) this.#stage.addTool(this.#beside.button, this.#beside.element);
     this.#tour = !film || scene === null ? null : new Tour(this.#player, this.#controls, scene, (check) => this.#mark(check, false));
-    if (this.#tour !== null) this.#stage.addTool(this.#tour.button, this.#tour.label, this.#tour.element);
+    if (this.#tour !== null) this.#stage.addTool(this.#tour.button, this.#tour.element, this.#tour.label);
     this.#panels = new Panels([...(this.#editor?.panels ?? []), ...this.#makePanels(film)], this.#address.place.panel, () => this.#address.touch());
     this.#listen();
     this.#go(this.#address.place);
@@ -104,6 +108,7 @@ export class App {
   /** The first frame, then all that follows it. */
   start(): void {
     this.#stage.fit();
+    this.#stage.showMotion(this.#player.follows, this.#player.shown.heat);
     const quiet = matchMedia("(prefers-reduced-motion: reduce)").matches || this.#editor !== null;
     if (!quiet && !this.#player.live && this.#address.place.t === null) this.#controls.play();
     this.#loop.start();
@@ -170,6 +175,7 @@ export class App {
     this.#controls.hold(stale);
     this.#stage.scene?.setStale(stale);
     this.#transport?.hold(stale);
+    this.#requirements.hold(stale);
   }
 
   #makeTransport(): Transport {
@@ -248,16 +254,21 @@ export class App {
 
   /** Marks a requirement's worst place, or none. */
   #mark(check: Check | null, looks = true): void {
-    this.#stage.scene?.focus(check?.worst.place_m ?? null, looks);
+    const { place_m = null, plate, time_s } = check?.worst ?? {};
+    // What is worst at no moment is worst of a plate's face.
+    const face = time_s !== undefined || plate === undefined ? null : (this.#player.view.plates[plate] ?? null);
+    this.#stage.scene?.focus(place_m, looks, face);
     // Under the scene, a row in sight would take the scene out of it.
     this.#requirements.mark(check, looks || matchMedia("(min-width: 880px)").matches);
   }
 
-  /** Goes to where a requirement is worst. */
+  /** Goes to where a requirement is worst; to the end of the washing where that is a place of a plate at no moment. */
   #choose(check: Check): void {
-    const { time_s } = check.worst;
+    const { time_s, plate } = check.worst;
     this.#controls.pause();
-    if (time_s !== undefined) this.#controls.seek(time_s);
+    const washed = this.#player.view.segments.findLast((one) => one.kind === "wash" && one.plate === plate)?.t_end_s;
+    const t = time_s ?? washed;
+    if (t !== undefined) this.#controls.seek(t);
     this.#panels.show("requirements");
     this.#mark(check);
     this.#stage.root.scrollIntoView({ block: "nearest" });

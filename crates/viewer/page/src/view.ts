@@ -77,9 +77,19 @@ export interface Check {
   /** Bound, seen and limit with units; the discrepancies; empty where there is nothing to add. */
   detail: string;
   /** Where it is worst: when, and in the world frame [m]. What does not apply is left out. */
-  worst: { time_s?: number; place_m?: [number, number, number] };
+  worst: { time_s?: number; place_m?: [number, number, number]; plate?: number };
   /** The rest of it in words: joint, plate, segment and pair. */
   place: string;
+  why: Explanation;
+}
+
+/** A requirement in a sentence, where it is proved in the documentation, the numbers of its formulas, and whose its limit is. */
+export interface Explanation {
+  sentence: string;
+  section: string;
+  formulas: string[];
+  /** Empty where nothing is measured. */
+  limit: string;
 }
 
 /** The proof. */

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { grouped, measureWords, shareOf } from "../src/limits.ts";
 import type { Check, Measure, Status } from "../src/view.ts";
 
-const check = (requirement: string, status: Status = "proved"): Check => ({ requirement, words: requirement, status, detail: "", worst: {}, place: "" });
+const check = (requirement: string, status: Status = "proved"): Check => ({ requirement, words: requirement, status, detail: "", worst: {}, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } });
 const atMost = (bound: number | null, limit: number, unit: string): Measure => ({ bound, limit, sense: "at_most", unit });
 const atLeast = (bound: number | null, limit: number, unit: string): Measure => ({ bound, limit, sense: "at_least", unit });
 

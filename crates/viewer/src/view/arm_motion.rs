@@ -62,7 +62,7 @@ impl View {
                 passes: shown.proved,
                 headline: printable(shown.headline),
                 hash: Status::Proved,
-                checks: shown.checks.iter().map(Check::new).collect(),
+                checks: (shown.checks.iter()).map(|check| Check::new(check, None)).collect(),
                 contact: None,
                 rests_on: shown.assumptions.to_vec(),
             }),

@@ -7,10 +7,14 @@ use super::numbers::Numbers;
 use super::tips::Tips;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::plan::Plan;
+use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
 /// Cells of all rasters together, about.
 const CELLS: usize = 9_000;
+
+/// Time after a waypoint at which a wash is taken to begin, so that the waypoint before the first one is not part of it \[s\].
+const JUST_AFTER_S: f64 = 1e-9;
 
 /// Executed motion of another program, with the arm of the plan and no tool.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,6 +38,16 @@ impl Beside {
     /// [`ViewError`] for a plan that is no motion, or another plan's motion.
     pub fn new(plan: &Plan, robot: &RobotModel, executed: &ExecutedMotion) -> Result<Self, ViewError> {
         let motion = plan.knots.motion()?;
+        let mut plan = plan.clone();
+        for segment in plan
+            .segments
+            .iter_mut()
+            .filter(|segment| segment.kind == SegmentKind::Wash)
+        {
+            // The program's report measures the way from the first waypoint of a plate on, without the step that leads there.
+            segment.t_start_s += JUST_AFTER_S;
+        }
+        let plan = &plan;
         let shown = Execution::new(executed, plan, &Tips::new(plan, robot, &motion), None, CELLS)?;
         Ok(Self {
             headline: shown.told.headline.unwrap_or_default(),

@@ -1,6 +1,6 @@
 //! The proof, in the words of the certificate.
 
-use platewash_certificate::{self as proved, Status, WorstCase};
+use platewash_certificate::{self as proved, Explanation, Status, VerdictBasis, WorstCase};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::words::printable;
 use serde::Serialize;
@@ -43,6 +43,8 @@ pub struct Check {
     pub detail: String,
     /// Worst place: pair, joint, segment and plate in words; empty where none is known.
     pub place: String,
+    /// The requirement in a sentence, its formula, and whose its limit is.
+    pub why: Explanation,
 }
 
 impl Certificate {
@@ -54,7 +56,9 @@ impl Certificate {
             passes: certificate.passes(),
             headline: printable(&certificate.headline),
             hash: certificate.hash.status,
-            checks: certificate.checks.iter().map(Check::new).collect(),
+            checks: (certificate.checks.iter())
+                .map(|check| Check::new(check, Some(&certificate.rests_on)))
+                .collect(),
             contact: certificate.rests_on.requirements.contact.map(|asked| Contact {
                 asked,
                 plates: certificate.contact.clone(),
@@ -65,11 +69,12 @@ impl Certificate {
 }
 
 impl Check {
-    pub(super) fn new(check: &proved::Check) -> Self {
+    pub(super) fn new(check: &proved::Check, basis: Option<&VerdictBasis>) -> Self {
         Self {
             words: check.requirement.words(),
             detail: check.detail(),
             place: place(&check.worst),
+            why: Explanation::of(check, basis),
             check: check.clone(),
         }
     }

@@ -21,10 +21,24 @@ export interface PanelActions {
   key(event: KeyboardEvent): boolean;
 }
 
-export interface RowShown {
+interface RowShown {
   name: string;
   centre: Centre;
-  state: PlateState;
+  /** Null of an obstacle. */
+  state: PlateState | null;
+  selected: boolean;
+  /** Whether it can be taken away. */
+  goes: boolean;
+}
+
+/** What is done with the thing of a row. */
+interface RowActions extends Pick<PanelActions, "key"> {
+  select(): void;
+  place(centre: Centre): void;
+  remove(): void;
+  /** Of plates alone. */
+  take?(): void;
+  map?(): void;
 }
 
 /** Coordinates farther than this are refused by every scenario [m]. */
@@ -32,7 +46,7 @@ const FARTHEST_M = 10;
 
 class Row {
   readonly element: HTMLElement;
-  readonly #plate: number;
+  readonly #actions: RowActions;
   readonly #name = el("bdi", { class: "row-name" });
   readonly #sign = el("span", { class: "status" });
   readonly #inputs: [HTMLInputElement, HTMLInputElement];
@@ -43,31 +57,30 @@ class Row {
   #shown: { tone: Tone; word: string; words: string; causes: readonly string[] } | null = null;
   #centre: Centre = [0, 0];
 
-  constructor(plate: number, commands: Commands, actions: PanelActions) {
-    this.#plate = plate;
-    this.#inputs = [this.#input("x", 0, commands), this.#input("y", 1, commands)];
+  constructor(actions: RowActions) {
+    this.#actions = actions;
+    this.#inputs = [this.#input("x", 0), this.#input("y", 1)];
     this.#take = button({ class: "button text-button" }, () => {
       // The button goes with the place.
       this.element.focus();
-      commands.take(plate);
+      actions.take?.();
     }, icon("target"), el("span", {}, this.#nearest.node));
     this.#remove = button({ class: "button bare-button", title: "Remove (Delete)" }, () => {
       this.element.focus();
-      commands.remove(plate);
+      actions.remove();
     }, icon("cross"));
-    const map = button({ class: "button text-button", title: "Show where it could be washed, the others as they lie" }, () => actions.map(plate), "Where?");
+    const map = actions.map === undefined ? null : button({ class: "button text-button", title: "Show where it could be washed, the others as they lie" }, actions.map, "Where?");
     const places = el("div", { class: "row-places" }, ...this.#inputs.map((input, k) => el("label", {}, k === 0 ? "x" : "y", input)), el("span", { class: "unit" }, "m"), map, this.#remove);
     this.element = el("div", { class: "row", set: { tabindex: 0, role: "group" } }, el("div", { class: "row-head" }, this.#name, this.#sign), places, this.#why, this.#take);
-    this.element.addEventListener("focusin", () => commands.select(plate));
-    this.element.addEventListener("pointerdown", () => commands.select(plate));
+    for (const type of ["focusin", "pointerdown"]) this.element.addEventListener(type, () => actions.select());
     this.element.addEventListener("keydown", (event) => {
-      // Here it is the focus that chooses the plate.
+      // Here it is the focus that chooses.
       const chooses = event.key.toLowerCase() === "n";
       if (event.target === this.element && !chooses && actions.key(event)) event.preventDefault();
     });
   }
 
-  show({ name, centre, state }: RowShown, selected: boolean, several: boolean): void {
+  show({ name, centre, state, selected, goes }: RowShown): void {
     if (this.#name.textContent !== name) {
       this.#name.textContent = name;
       this.#inputs.forEach((input, k) => input.setAttribute("aria-label", `${name}, ${k === 0 ? "x" : "y"} in metres`));
@@ -78,11 +91,12 @@ class Row {
       if (document.activeElement !== input || input.dataset["dirty"] !== "true") this.#fill(input, k as 0 | 1);
     });
     this.element.classList.toggle("selected", selected);
-    this.#remove.disabled = !several;
-    const { nearest_m } = state;
+    this.#remove.hidden = !goes;
+    const nearest_m = state?.nearest_m;
     this.#take.hidden = nearest_m === undefined || nearest_m === null;
     if (nearest_m) this.#nearest.set(`Nearest place, ${millimetres(Math.hypot(nearest_m[0] - centre[0], nearest_m[1] - centre[1]), 0)} away`);
-    this.#say(state);
+    if (state !== null) this.#say(state);
+    else this.element.setAttribute("aria-label", name);
   }
 
   #fill(input: HTMLInputElement, axis: 0 | 1): void {
@@ -95,7 +109,7 @@ class Row {
   #say(state: PlateState): void {
     const { tone, word, words, nearest_m, searched_m } = state;
     const nowhere = nearest_m === null ? [`No other place within ${millimetres(searched_m, 0)}.`] : [];
-    const causes = [...state.causes, ...nowhere];
+    const causes = [...state.causes.filter((cause) => !words.includes(cause)), ...nowhere];
     const now = { tone, word, words, causes };
     if (JSON.stringify(now) === JSON.stringify(this.#shown)) return;
     this.#shown = now;
@@ -108,7 +122,7 @@ class Row {
     this.element.setAttribute("aria-label", `${this.#name.textContent}: ${word}`);
   }
 
-  #input(name: string, axis: 0 | 1, commands: Commands): HTMLInputElement {
+  #input(name: string, axis: 0 | 1): HTMLInputElement {
     const input = el("input", { class: "number", set: { type: "text", inputmode: "decimal", name, autocomplete: "off", spellcheck: "false" } });
     const read = (): number | null => {
       const value = readNumber(input.value);
@@ -117,7 +131,7 @@ class Row {
     const to = (value: number): void => {
       const centre: Centre = [...this.#centre];
       centre[axis] = value;
-      commands.place(this.#plate, centre);
+      this.#actions.place(centre);
     };
     input.addEventListener("input", () => {
       input.dataset["dirty"] = "true";
@@ -148,6 +162,11 @@ export class CellPanel {
   readonly #actions: PanelActions;
   readonly #list = el("div", { class: "rows", set: { role: "group", "aria-label": "Plates" } });
   readonly #rows: Row[] = [];
+  readonly #bodyList = el("div", { class: "rows", set: { role: "group", "aria-label": "Obstacles" } });
+  readonly #bodyRows: Row[] = [];
+  /** The body of each of these rows. */
+  #bodies: number[] = [];
+  readonly #addObstacle: HTMLButtonElement;
   readonly #all: HTMLButtonElement;
   readonly #findings = el("ul", { class: "plain findings" });
   readonly #mapWords = el("span", { set: { role: "status" } });
@@ -165,7 +184,7 @@ export class CellPanel {
       if (event.key !== "Enter" && actions.key(event)) event.preventDefault();
     });
     const add = button({ class: "button text-button" }, () => commands.add(), "Add plate");
-    const obstacle = button({ class: "button text-button", title: "Add a box that stands around; its size is in the text" }, () => commands.addObstacle(), "Add obstacle");
+    this.#addObstacle = button({ class: "button text-button", title: "Add a box that stands around; its size is in the text" }, () => commands.addObstacle(), "Add obstacle");
     const hide = button({ class: "button text-button", title: "Hide the map (Escape)" }, () => actions.clearMap(), "Hide the map");
     this.#map = el("div", { class: "map-words" }, this.#mapWords, hide);
     this.#map.hidden = true;
@@ -178,15 +197,17 @@ export class CellPanel {
     this.#recovery = el("div", { class: "recovery-words" }, this.#recoveryWords, back);
     this.#recovery.hidden = true;
     const stop = el("div", { class: "row-places", set: { role: "group", "aria-label": "After a stop" } }, "After a stop", joints, el("span", { class: "unit" }, "°"), recover);
-    this.element = el("div", { class: "cell-panel" }, this.#findings, this.#map, this.#list, el("div", { class: "edit-tools" }, add, obstacle, this.#all), this.#hint, stop, this.#recovery);
+    this.element = el("div", { class: "cell-panel" }, this.#findings, this.#map, this.#list, this.#bodyList, el("div", { class: "edit-tools" }, add, this.#addObstacle, this.#all), this.#hint, stop, this.#recovery);
   }
 
   show(cell: Cell, selected: Selection, mapWords: string | null, recoveryWords: string | null): void {
     const { seen, answers, centres } = cell;
-    const now = [seen.drawn, cell.standing.words, answers, centres, selected, mapWords, recoveryWords, seen.preview];
+    const now = [seen.drawn, cell.standing.words, answers, centres, cell.put, selected, this.#commands.body, mapWords, recoveryWords, seen.preview];
     if (now.every((one, k) => one === this.#shown[k])) return;
     this.#shown = now;
-    this.#showRows(centres.map((centre, k) => ({ name: plateName(seen.drawn?.plates, k), centre, state: plateState(answers, k) })), selected);
+    const plates = centres.map((centre, k) => ({ name: plateName(seen.drawn?.plates, k), centre, state: plateState(answers, k), selected: selected === "all" || selected === k, goes: centres.length > 1 }));
+    showRows(this.#list, this.#rows, plates, (plate) => this.#plateRow(plate));
+    this.#showBodies(cell);
     this.#all.setAttribute("aria-pressed", String(selected === "all"));
     this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, "Note: ", isolated(words))));
     this.#map.hidden = mapWords === null;
@@ -194,18 +215,55 @@ export class CellPanel {
     this.#recovery.hidden = recoveryWords === null;
     if (this.#recoveryWords.textContent !== recoveryWords) this.#recoveryWords.textContent = recoveryWords;
     const stuck = cell.unmoved();
-    const drag = "Drag plates in the scene, or choose one with N and move it with the arrow keys; an obstacle once it is clicked.";
+    const drag = "Drag plates in the scene, or choose one with N, or here, and move it with the arrow keys; an obstacle once it is clicked.";
     const hint = stuck ?? (seen.drawn?.listed === false ? `${drag} The seed draws these plates from the region: moving one lists them all where they are.` : drag);
     if (this.#hint.textContent !== hint) this.#hint.textContent = hint;
   }
-  /** Shows every plate. Rows stay what they are, and with them focus and what is being typed. */
-  #showRows(list: readonly RowShown[], selected: Selection): void {
-    while (this.#rows.length > list.length) this.#rows.pop()?.element.remove();
-    while (this.#rows.length < list.length) {
-      const row = new Row(this.#rows.length, this.#commands, this.#actions);
-      this.#rows.push(row);
-      this.#list.append(row.element);
-    }
-    list.forEach((shown, k) => this.#rows[k]!.show(shown, selected === "all" || selected === k, list.length > 1));
+
+  #plateRow(plate: number): Row {
+    const [commands, actions] = [this.#commands, this.#actions];
+    return new Row({
+      select: () => commands.select(plate),
+      place: (centre) => commands.place(plate, centre),
+      remove: () => commands.remove(plate),
+      take: () => commands.take(plate),
+      map: () => actions.map(plate),
+      key: actions.key,
+    });
   }
+
+  /** Shows every obstacle that is moved. */
+  #showBodies(cell: Cell): void {
+    const { drawn } = cell.seen;
+    const commands = this.#commands;
+    this.#bodies = (drawn?.moves?.bodies ?? []).flatMap(({ key }, body) => (key === null ? [] : [body]));
+    const list = this.#bodies.flatMap((body) => {
+      const [centre, name] = [cell.bodyAt(body), drawn?.surroundings.obstacles[body]?.name ?? "obstacle"];
+      return centre === null ? [] : [{ name, centre, state: null, selected: commands.body === body, goes: commands.goes(body) }];
+    });
+    showRows(this.#bodyList, this.#bodyRows, list, (k) => new Row({
+      select: () => commands.selectBody(this.#bodies[k]!),
+      place: (centre) => commands.placeBody(this.#bodies[k]!, centre),
+      remove: () => commands.removeBody(this.#bodies[k]!),
+      key: this.#actions.key,
+    }), this.#addObstacle);
+    // Keys move what was just added.
+    const added = this.#bodyRows[this.#bodies.indexOf(commands.added ?? -1)];
+    if (added !== undefined && commands.shownAdded()) added.element.focus();
+  }
+}
+
+/** Shows rows, which stay what they are, and with them focus and what is being typed. Where the focus was on a row that goes, it is on the last one that stays. */
+function showRows(list: HTMLElement, rows: Row[], shown: readonly RowShown[], make: (k: number) => Row, otherwise: HTMLElement | null = null): void {
+  while (rows.length > shown.length) {
+    const gone = rows.pop()!.element;
+    if (gone.contains(document.activeElement)) (rows.at(-1)?.element ?? otherwise)?.focus();
+    gone.remove();
+  }
+  while (rows.length < shown.length) {
+    const row = make(rows.length);
+    rows.push(row);
+    list.append(row.element);
+  }
+  shown.forEach((one, k) => rows[k]!.show(one));
 }

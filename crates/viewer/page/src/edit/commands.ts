@@ -13,6 +13,14 @@ import type { ToolbarActions } from "./toolbar.ts";
 /** Edges of a box that is added [m]. */
 const BOX_M = [0.08, 0.08, 0.2] as const;
 
+/** Directions in which an obstacle that is added is seen, of 24. */
+const SEEN = 11;
+
+/** The section of the text that has a body among the obstacles; null for another body. */
+function sectionOf(drawn: CellDrawn | null, body: number): string | null {
+  return /^obstacle\[\d+\]/.exec(drawn?.moves.bodies[body]?.key ?? "")?.[0] ?? null;
+}
+
 /** Coordinates in words. */
 function metres(place: readonly number[]): string {
   return place.map((c) => c.toFixed(3)).join(", ");
@@ -29,6 +37,8 @@ export class Commands implements EditActions {
   readonly #say: (words: string) => void;
   /** The body that is selected among those that stand around. */
   #body: number | null = null;
+  /** The body that was added, until it is shown. */
+  #added: number | null = null;
   #selected: Selection = null;
 
   constructor(cell: Cell, view: () => View, scene: () => Editing | null, size: () => Centre, changed: () => void, say: (words: string) => void) {
@@ -57,6 +67,21 @@ export class Commands implements EditActions {
     return this.#selected;
   }
 
+  get body(): number | null {
+    return this.#body;
+  }
+
+  get added(): number | null {
+    return this.#added;
+  }
+
+  /** What was added is shown: whether that is news. */
+  shownAdded(): boolean {
+    const isNews = this.#added !== null;
+    this.#added = null;
+    return isNews;
+  }
+
   select(plate: Selection): void {
     if (plate !== null) this.selectBody(null);
     if (plate === this.#selected) return;
@@ -82,6 +107,10 @@ export class Commands implements EditActions {
     if (phase === "cancel") return this.#cell.cancelDrag();
     if (phase !== "start") this.#cell.dragBody({ body, centre_m });
     if (phase === "end") this.#cell.drop(`Move ${this.#nameOf(body)}`);
+  }
+
+  get moves(): boolean {
+    return this.#cell.unmoved() === null;
   }
 
   mayMove(): boolean {
@@ -143,9 +172,32 @@ export class Commands implements EditActions {
   #shiftBody(body: number, [dx_m, dy_m]: Centre): void {
     const at = this.#cell.bodyAt(body);
     if (at === null) return;
-    const [centre_m] = shifted([at], [0], dx_m, dy_m);
-    this.#cell.placeBody({ body, centre_m: centre_m! }, `Move ${this.#nameOf(body)}`, `move body ${body}`);
-    announce(metres(centre_m!));
+    this.placeBody(body, shifted([at], [0], dx_m, dy_m)[0]!);
+    announce(metres(this.#cell.bodyAt(body)!));
+  }
+
+  placeBody(body: number, centre_m: Centre): void {
+    this.#cell.placeBody({ body, centre_m }, `Move ${this.#nameOf(body)}`, `move body ${body}`);
+  }
+
+  /** Whether a body is one of the obstacles, which can be taken away. */
+  goes(body: number): boolean {
+    return sectionOf(this.#cell.seen.drawn, body) !== null;
+  }
+
+  removeBody(body: number): void {
+    const section = sectionOf(this.#cell.seen.drawn, body);
+    const name = this.#nameOf(body);
+    if (section === null) return this.#say(`${name} is no obstacle: it goes in the text.`);
+    this.selectBody(null);
+    this.#cell.change([{ key: section, value: null }], `Remove ${name}`);
+    this.#say(`${name} removed.`);
+  }
+
+  /** Removes what is selected. */
+  removeSelected(): void {
+    if (this.#body !== null) this.removeBody(this.#body);
+    else this.remove(this.#selected);
   }
 
   turn(angle_rad: number): void {
@@ -169,18 +221,21 @@ export class Commands implements EditActions {
     const { drawn } = this.#cell.seen;
     if (drawn === null) return;
     const { obstacles } = drawn.surroundings;
-    const room = this.#roomIn(drawn, obstacles.map(({ pose: { position_m: [x, y] } }): Centre => [x, y]));
+    // Towards whoever looks, so that the arm does not hide it.
+    const [x, y] = this.#ahead();
+    const room = this.#roomIn(drawn, obstacles.map(({ pose: { position_m: [x, y] } }): Centre => [x, y]), Math.atan2(-y, -x), SEEN);
     const name = Array.from(obstacles, (_, k) => `box ${k + 1}`).find((free) => !obstacles.some((one) => one.name === free)) ?? `box ${obstacles.length + 1}`;
     const at = [...room, stepped(marksHeight(drawn) + BOX_M[2] / 2, 1e3)];
     this.#cell.append(`[[obstacle]]\nname = "${name}"\nshape = "box"\nsize_m = [${BOX_M.join(", ")}]\nat_m = [${at.join(", ")}]\n`, `Add ${name}`);
     this.selectBody(obstacles.length);
-    this.#say(`${name} added at ${metres(at)} m: drag it, or move it with the arrow keys.`);
+    this.#added = obstacles.length;
+    this.#say(`${name} added at ${metres(at)} m: drag it, or move it with the arrow keys; Delete removes it.`);
   }
 
-  /** A free place near the arm, beside all plates and other places. */
-  #roomIn(drawn: CellDrawn, others: readonly Centre[] = []): Centre {
+  /** A free place near the arm, beside all plates and other places; in the front, and how far to either side. */
+  #roomIn(drawn: CellDrawn, others: readonly Centre[] = [], front_rad = 0, ways?: number): Centre {
     const keepOff = (drawn.surroundings.base_circle_m ?? 0.2) + 0.01;
-    return roomFor([...this.#cell.centres, ...others], Math.max(0.001, ...drawn.radius_m), this.#axis(), keepOff);
+    return roomFor([...this.#cell.centres, ...others], Math.max(0.001, ...drawn.radius_m), this.#axis(), keepOff, front_rad, ways);
   }
 
   remove(plate: Selection): void {
@@ -270,10 +325,10 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 export const PLATE_KEYS: [string, string][] = [
   ["Drag", "a plate, or an obstacle once it is clicked: moves it; the ring’s knob turns a plate about the arm"],
   ["N", "in the scene: select the next plate or obstacle; with Shift the one before"],
-  ["↑ ↓ ← →", "on a plate: move it 5 mm along x or y, whichever the arrow points along on the screen; with Shift 50 mm, with Alt 1 mm"],
+  ["↑ ↓ ← →", "on a plate or an obstacle: move it 5 mm along x or y, whichever the arrow points along on the screen; with Shift 50 mm, with Alt 1 mm"],
   ["R", "on a plate: turn it 1° about the arm’s axis, counter-clockwise; with Shift clockwise"],
   ["Enter", "on a plate: take the nearest place that can be washed"],
-  ["Delete", "on a plate: remove it"],
+  ["Delete", "on a plate or an obstacle: remove it"],
   ["Escape", "give up what is being dragged; then select nothing"],
   ["Ctrl+Z Ctrl+Y", "undo, redo"],
   ["Ctrl+S", "save"],
@@ -296,8 +351,8 @@ export function plateKey(event: KeyboardEvent, commands: Commands, cancel: () =>
   if (event.altKey) return false;
   const meanings: Record<string, () => void> = {
     r: () => commands.turn(event.shiftKey ? -TURN_RAD : TURN_RAD),
-    delete: () => commands.remove(commands.selected),
-    backspace: () => commands.remove(commands.selected),
+    delete: () => commands.removeSelected(),
+    backspace: () => commands.removeSelected(),
     enter: () => commands.take(commands.selected),
     escape: cancel,
   };

@@ -358,12 +358,12 @@ export class Editor {
     if (document.title.startsWith("• ") !== unsaved) document.title = unsaved ? `• ${title}` : title;
   }
 
-  /** Keeps the scene where it is while something is dragged: the header keeps its height, however long a verdict is. */
+  /** Keeps the scene where it is while something is dragged: the header lies over it as far as a verdict takes more lines. */
   #steady(dragging: boolean): void {
     const root = document.documentElement;
     if (root.hasAttribute("data-dragging") === dragging) return;
-    const header = byId("header");
-    header.style.height = dragging ? `${header.getBoundingClientRect().height}px` : "";
+    const height = dragging ? `${byId("header").getBoundingClientRect().height}px` : "";
+    document.body.style.paddingTop = byId("header").style.minHeight = height;
     root.toggleAttribute("data-dragging", dragging);
   }
 

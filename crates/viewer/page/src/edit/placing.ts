@@ -38,13 +38,13 @@ export function turned(centres: readonly Centre[], plates: readonly number[], ax
   return moved(centres, plates, (centre) => turnedAbout(centre, axis, angle_rad));
 }
 
-/** A place for one more plate: the nearest to the axis that touches no plate; beside the farthest where there is none. */
-export function roomFor(centres: readonly Centre[], radius_m: number, axis: Centre, keepOff_m: number): Centre {
+/** A place for one more plate: the nearest to the axis that touches no plate, in so many of 24 ways about the front; beside the farthest where there is none. */
+export function roomFor(centres: readonly Centre[], radius_m: number, axis: Centre, keepOff_m: number, front_rad = 0, ways = 24): Centre {
   const apart = 2 * radius_m + 0.02;
   for (let ring = Math.max(keepOff_m + 0.02, apart); ring < keepOff_m + 20 * apart; ring += radius_m / 2) {
-    for (let k = 0; k < 24; k++) {
+    for (let k = 0; k < ways; k++) {
       // From the front alternately to either side.
-      const angle = (k % 2 === 0 ? -1 : 1) * Math.ceil(k / 2) * (Math.PI / 12);
+      const angle = front_rad + (k % 2 === 0 ? -1 : 1) * Math.ceil(k / 2) * (Math.PI / 12);
       const [x, y] = [stepped(axis[0] + ring * Math.cos(angle), 1e3), stepped(axis[1] + ring * Math.sin(angle), 1e3)];
       if (centres.every((one) => Math.hypot(one[0] - x, one[1] - y) > apart)) return [x, y];
     }

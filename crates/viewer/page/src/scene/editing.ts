@@ -23,6 +23,8 @@ export interface EditActions {
   take(plate: number): void;
   /** Whether plates may be moved; says why not. */
   mayMove(): boolean;
+  /** The same, and says nothing. */
+  readonly moves: boolean;
   /** A body that stands around was clicked; null for none. */
   selectBody(body: number | null): void;
   /** Where a body is on its way. */
@@ -203,7 +205,7 @@ export class Editing {
 
   #ringNow(): ReturnType<typeof ringThrough> {
     const centres = this.#selected.map((plate) => centreOf(this.#solids[plate]!));
-    if (centres.length === 0) return null;
+    if (centres.length === 0 || !this.#actions.moves) return null;
     const rim = this.#solids[this.#selected[0]!]!.rim_m;
     return ringThrough(this.#axis, middle(centres), rim);
   }

@@ -2,8 +2,9 @@
 import { type Group, Mesh, MeshBasicMaterial, PerspectiveCamera, Ray, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { ClearanceNow } from "../curves.ts";
+import { matrixOf } from "../motion.ts";
 import type { Theme } from "../palette.ts";
-import type { View } from "../view.ts";
+import type { Plate, View } from "../view.ts";
 import { Content, LABELS, type Layer, LAYERS } from "./content.ts";
 import { type EditActions, Editing } from "./editing.ts";
 import { Retired } from "./graph.ts";
@@ -364,11 +365,14 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** Marks a place and, where asked, looks at it; null takes the mark away. */
-  focus(place_m: readonly [number, number, number] | null, looks = true): void {
+  /** Marks a place and, where asked, looks at it, or at a plate where there is none, from where the plate's face is seen; null takes the mark away. */
+  focus(place_m: readonly [number, number, number] | null, looks = true, plate: Plate | null = null): void {
     const drawn = place_m !== null && place_m.every(Number.isFinite);
     this.#mark.show(drawn ? [...place_m] : null);
-    if (drawn && looks) this.#views.look(new Vector3(...place_m), this.#quick.matches);
+    const at = drawn ? place_m : plate?.pose.position_m;
+    const normal = plate === null ? null : new Vector3(0, 0, 1).transformDirection(matrixOf(plate.pose));
+    if (at !== undefined && looks) this.#views.look(new Vector3(...at), normal, this.#quick.matches);
+    else if (!drawn) this.#views.lookAway(this.#quick.matches);
     this.#dirty = true;
   }
 

@@ -137,6 +137,9 @@ export const PRESETS: readonly { id: Preset; label: string }[] = (Object.keys(DI
 const FILL = 0.94;
 /** Time of a flight from view to view [s]. */
 const FLIGHT_S = 0.55;
+/** Cosine of the angle to a face's normal from which the face is seen well, and how much of the direction of before is kept otherwise. */
+const FACING = 0.75;
+const ASIDE = 0.5;
 /** How far off the tip is followed [m]. */
 const FOLLOW_M = 0.62;
 
@@ -216,6 +219,8 @@ export class Views {
   #owed: (() => void) | null = null;
   #placing = false;
   #room: Room = { top: 0, bottom: 1 };
+  /** Whether a place is looked at that is none of the view's. */
+  #looking = false;
   readonly #tip = new Vector3();
   readonly #step = new Vector3();
 
@@ -237,7 +242,7 @@ export class Views {
   /** Goes to a view, at once or in a flight. */
   go(preset: Preset, atOnce: boolean): void {
     this.#preset = preset;
-    this.#moved = false;
+    this.#moved = this.#looking = false;
     this.#fly(this.#standOf(preset), atOnce);
   }
 
@@ -282,12 +287,20 @@ export class Views {
     });
   }
 
-  /** Turns to a place and comes near. */
-  look(place: Vector3, atOnce: boolean): void {
+  /** Turns to a place and comes near; where it is on a face with that normal, from where the face is seen. */
+  look(place: Vector3, normal: Vector3 | null, atOnce: boolean): void {
     const back = this.#camera.position.clone().sub(this.#controls.target).normalize();
+    if (normal !== null && back.dot(normal) < FACING) back.multiplyScalar(ASIDE).add(normal).normalize();
+    this.#looking = true;
     const near = Math.tan((DIRECTIONS.overview.fov_deg * Math.PI) / 360) / Math.tan((this.#camera.fov * Math.PI) / 360);
     this.#moved = true;
     this.#fly({ target: place.clone(), eye: place.clone().addScaledVector(back, 0.9 * near), fov_deg: this.#camera.fov }, atOnce);
+  }
+
+  /** Follows the tip again, where that is the view and something else was looked at. */
+  lookAway(atOnce: boolean): void {
+    if (this.#looking && this.#preset === "follow") this.go("follow", atOnce);
+    this.#looking = false;
   }
 
   #standOf(preset: Preset): Stand {
@@ -335,7 +348,7 @@ export class Views {
   follow(tip: Vector3): void {
     this.#step.copy(tip).sub(this.#tip);
     this.#tip.copy(tip);
-    if (this.#held || this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return;
+    if (this.#held || this.#looking || this.#preset !== "follow" || this.#step.lengthSq() < 1e-16) return;
     this.#camera.position.add(this.#step);
     this.#controls.target.add(this.#step);
     this.#from?.eye.add(this.#step);

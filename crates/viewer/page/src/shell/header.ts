@@ -62,7 +62,7 @@ export class Header {
   readonly #facts = el("dl", { class: "facts" });
   readonly #toAssumptions: () => void;
   #view: View;
-  /** The last document with a plan. */
+  /** The last document with a plan that is proved. */
   #planned: View;
   /** What is to be said in place of the view's own verdict. */
   #said: Verdict | null = null;
@@ -85,8 +85,7 @@ export class Header {
   /** Is about another document. */
   replace(view: View): void {
     this.#view = view;
-    // While plates are dragged plans come and go that nobody chose.
-    if (view.motion !== null && !document.documentElement.hasAttribute("data-dragging")) this.#planned = view;
+    if (view.certificate?.passes === true) this.#planned = view;
     this.update();
   }
 
@@ -107,9 +106,6 @@ export class Header {
     if (result !== null) this.#badges.append(badge(result, "badge-small"));
     const words = of.sentence.replace(VERDICT, "");
     this.#sentence.replaceChildren(isolated(subject(this.#view, this.#said !== null)), isolated(words));
-    // A smaller clearance of a pair is never cut off.
-    const reduced = this.#view.certificate?.checks.some(({ requirement }) => requirement === "reduced_clearance") ?? false;
-    this.#sentence.classList.toggle("whole", reduced);
     this.#sentence.title = of.sentence.slice(0, TITLE);
     this.#showRests(this.#stale ? [] : assumptions(this.#view.certificate));
     this.#showFacts();
@@ -130,7 +126,8 @@ export class Header {
     const shown = JSON.stringify([this.#stale, view.heading, view.motion === null, view.certificate?.hash]);
     if (shown === this.#factsShown) return;
     this.#factsShown = shown;
-    this.#facts.replaceChildren(...facts(view, this.#stale ? "last valid " : ""));
+    const known = !this.#stale || view.certificate?.passes === true;
+    this.#facts.replaceChildren(...(known ? facts(view, this.#stale ? "last valid " : "") : []));
     this.#facts.classList.toggle("stale", this.#stale);
   }
 }

@@ -43,12 +43,17 @@ export function keyTable(film: boolean, more: readonly [string, string][] = []):
   return el("table", { class: "keys" }, el("tbody", {}, ...rows));
 }
 
+/** Whether something leads to a moment, as a link does: Enter follows it, Space plays from there. */
+function leads(target: EventTarget | null): boolean {
+  return target instanceof Element && target.closest(".where-button, .mark") !== null;
+}
+
 /** Whether the key goes into a control that has a use of its own for it. */
 function isTaken(event: KeyboardEvent): boolean {
   const target = event.target;
   if (!(target instanceof Element)) return false;
   if (target.closest("input, select, textarea, dialog, [contenteditable]") !== null) return true;
-  return event.key === " " && target.closest("button, summary, a") !== null;
+  return event.key === " " && target.closest("button, summary, a") !== null && !leads(target);
 }
 
 /** What a key asks for; undefined for nothing. */
@@ -78,6 +83,9 @@ export function listenToKeys(actions: KeyActions): void {
     if (does === undefined) return;
     event.preventDefault();
     does();
+  });
+  document.addEventListener("keyup", (event) => {
+    if (event.key === " " && leads(event.target)) event.preventDefault();
   });
 }
 

@@ -117,7 +117,8 @@ export class Plates {
     const other = card.maps[kind === "planned" ? "executed" : "planned"];
     if (other !== undefined) delete card.maps[kind === "planned" ? "executed" : "planned"];
     card.maps[kind].paint(t, heat ? "dwell" : "build-up");
-    const share = shareAt(coverage, t);
+    // The heat map is that of the whole motion.
+    const share = shareAt(coverage, heat ? Number.POSITIVE_INFINITY : t);
     card.share.set(percentDown(share));
     card.bar.style.transform = `scaleX(${share.toFixed(4)})`;
   }

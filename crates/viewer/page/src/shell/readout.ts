@@ -8,8 +8,9 @@ import type { Player } from "../player.ts";
 import type { View } from "../view.ts";
 import { el, isolated, TextCell } from "./dom.ts";
 
-/** Half the step of the difference that gives the tip's speed [s]. */
+/** Half the step of the difference that gives the tip's speed [s], and the least. */
 const DIFFERENCE_S = 2e-3;
+const LEAST_DIFFERENCE_S = 1e-6;
 /** Least time between two changes: faster than this nobody reads [ms]. */
 const READABLE_MS = 90;
 
@@ -86,8 +87,10 @@ export class Readout {
 
   #tipSpeed(): number {
     const { time, edge } = this.#player;
-    const from = Math.max(0, time - DIFFERENCE_S);
-    const to = Math.min(edge, time + DIFFERENCE_S);
+    // As far to either side, so that an arm that rests at an end is seen to.
+    const half = Math.max(LEAST_DIFFERENCE_S, Math.min(DIFFERENCE_S, time, edge - time));
+    const from = Math.max(0, time - half);
+    const to = Math.min(edge, time + half);
     if (to <= from) return 0;
     [from, to].forEach((t, end) => this.#player.jointsAt(t, this.#rows.subarray(end * AXES, (end + 1) * AXES)));
     return stepLength(this.#kinematics.places(this.#rows), 1) / (to - from);

@@ -1,9 +1,10 @@
 /** The requirements with their results in groups, broken ones first; what is proved of the contact with each plate; what the verdict rests on, and whose work is in the page. */
+import FORMULAS from "../formulas.json" with { type: "json" };
 import { fixed, fixedShort, percentDown, plateName, quantity } from "../format.ts";
 import { grouped, measureWords, shareOf } from "../limits.ts";
 import { isAssumed, statusWord, summary, verdict } from "../verdict.ts";
 import type { Certificate, Check, Contact, PlateContact, View } from "../view.ts";
-import { button, el, icon, isolated, toneIcon } from "./dom.ts";
+import { button, type Child, el, icon, isolated, toneIcon } from "./dom.ts";
 import { keyTable } from "./keys.ts";
 
 /** Up to so many decimals, never smaller than it is. */
@@ -99,10 +100,23 @@ function isBrief(check: Check): boolean {
   return check.status === "proved" && check.detail === "" && check.place === "" && Object.keys(check.worst).length === 0;
 }
 
+/** A formula of the documentation, drawn where its number is opened. */
+function formula(number: string): HTMLElement {
+  const math = (FORMULAS as Record<string, string>)[number] ?? "";
+  const drawn = [...new DOMParser().parseFromString(math, "text/html").body.childNodes];
+  return el("details", { class: "formula" }, el("summary", {}, el("span", { class: "link" }, `formula (${number})`)), ...drawn);
+}
+
+/** A requirement that opens: its sentence, whose its limit is, and how it is proved. */
+function opened({ why: { sentence, section, formulas, limit } }: Check, ...shown: Child[]): HTMLElement {
+  const words = el("p", {}, `${sentence} ${limit} `, el("span", { class: "cited" }, `Proof: ${section}.`));
+  return el("details", { class: "why" }, el("summary", {}, ...shown), words, ...formulas.map(formula));
+}
+
 function worstButton(check: Check, onSelect: (check: Check) => void): HTMLElement | null {
-  const { time_s, place_m } = check.worst;
+  const { time_s, place_m, plate } = check.worst;
   const when = time_s === undefined ? "" : quantity(time_s, 2, "s");
-  if (time_s === undefined && place_m === undefined) {
+  if (time_s === undefined && place_m === undefined && plate === undefined) {
     return check.place === "" ? null : el("span", { class: "where" }, isolated(check.place));
   }
   return button(
@@ -119,14 +133,32 @@ export class Requirements {
   readonly element = el("div", { class: "requirements" });
   readonly #rows = new Map<Check, HTMLElement>();
   readonly #onSelect: (check: Check) => void;
+  #view: View;
+  /** The last document that was proved. */
+  #valid: View;
+  #stale = false;
 
   constructor(view: View, onSelect: (check: Check) => void) {
     this.#onSelect = onSelect;
-    this.replace(view);
+    this.#view = this.#valid = view;
+    this.#show(view);
   }
 
   /** Shows those of another document. */
   replace(view: View): void {
+    this.#view = view;
+    if (view.certificate?.passes === true) this.#valid = view;
+    this.#show(this.#stale && view.certificate === null ? this.#valid : view);
+  }
+
+  /** Where something is changed that no plan has, and nothing is proved of it, shows those of the last plan that was. */
+  hold(stale: boolean): void {
+    if (stale === this.#stale) return;
+    this.#stale = stale;
+    if (this.#view.certificate === null) this.replace(this.#view);
+  }
+
+  #show(view: View): void {
     this.#rows.clear();
     this.element.replaceChildren();
     if (view.certificate === null) this.#without(view);
@@ -149,14 +181,14 @@ export class Requirements {
       const words = "The plan was changed after it was written: its hash does not match its contents.";
       this.element.append(el("p", { class: "notice tone-violated" }, toneIcon("violated"), words));
     }
-    this.element.append(el("p", { class: "summary" }, `${summary(certificate)}. A bar shows how much of its limit is taken.`));
+    this.element.append(el("p", { class: "summary" }, `${summary(certificate)}. A bar shows how much of its limit is taken. Each opens: what it says, and whose limit it is.`));
     for (const { name, checks } of grouped(certificate.checks)) {
       const kept = checks.filter(({ status }) => status === "proved").length;
       const brief = checks.filter(isBrief);
       this.element.append(
         el("h3", { class: "group-title" }, name, " ", el("span", { class: "group-count" }, `${kept} of ${checks.length} proved`)),
         el("ul", { class: "checks" }, ...checks.filter((check) => !isBrief(check)).map((check) => this.#row(check))),
-        el("ul", { class: "brief", set: { "aria-label": "Proved, with nothing to measure" } }, ...brief.map((check) => el("li", {}, toneIcon("proved"), check.words))),
+        el("ul", { class: "brief", set: { "aria-label": "Proved, with nothing to measure" } }, ...brief.map((check) => el("li", {}, opened(check, toneIcon("proved"), check.words)))),
       );
       if (name === "Washed" && certificate.contact !== null) this.element.append(...contactTable(view, certificate.contact));
     }
@@ -167,9 +199,12 @@ export class Requirements {
     const row = el(
       "li",
       { class: `check tone-${status}` },
-      el("span", { class: "requirement" }, toneIcon(status), el("span", { class: "spoken" }, `${statusWord(status)}: `), words),
-      measure === undefined ? el("span", { class: "measure" }, statusWord(status)) : el("span", { class: "measure" }, measureWords(measure)),
-      measure === undefined ? null : limitBar(shareOf(measure)),
+      opened(
+        check,
+        el("span", { class: "requirement" }, toneIcon(status), el("span", { class: "spoken" }, `${statusWord(status)}: `), words),
+        measure === undefined ? el("span", { class: "measure" }, statusWord(status)) : el("span", { class: "measure" }, measureWords(measure)),
+        measure === undefined ? null : limitBar(shareOf(measure)),
+      ),
       check.detail === "" || (status === "proved" && measure !== undefined) ? null : el("span", { class: "detail" }, isolated(check.detail)),
       worstButton(check, this.#onSelect),
     );

@@ -56,6 +56,8 @@ export class Stage {
   readonly #follow: HTMLSelectElement | null;
   readonly #heat: HTMLButtonElement;
   readonly #toolbarElement: HTMLElement;
+  /** What lies over the scene's upper edge, one below the other. */
+  readonly #over: HTMLElement;
   readonly #readout: HTMLElement | null;
 
   constructor(view: View, theme: Theme, banner: HTMLElement, readout: HTMLElement | null, actions: StageActions) {
@@ -77,7 +79,8 @@ export class Stage {
     this.scene = this.#create(view, theme);
     this.#readout = readout;
     this.#toolbarElement = this.#toolbar(view);
-    const port = el("div", { class: "viewport" }, this.canvas, this.#message, this.#toolbarElement, this.#menu, banner);
+    this.#over = el("div", { class: "over" }, el("div", { class: "over-bar" }, banner, this.#toolbarElement), this.#menu);
+    const port = el("div", { class: "viewport" }, this.canvas, this.#message, this.#over);
     this.root.replaceChildren(port, ...(readout === null ? [] : [readout]));
     this.#fillMenu();
     this.#watch();
@@ -108,10 +111,11 @@ export class Stage {
     return bottom - top > LEAST_ROOM ? { top, bottom } : { top: 0, bottom: 1 };
   }
 
-  /** Adds a tool, and what it shows over the scene. */
-  addTool(tool: HTMLElement, ...shown: HTMLElement[]): void {
+  /** Adds a tool, what it shows over the scene's upper edge, and what it shows anywhere on the scene. */
+  addTool(tool: HTMLElement, shown: HTMLElement, ...anywhere: HTMLElement[]): void {
     this.#heat.before(tool);
-    this.#menu.after(...shown);
+    this.#over.append(shown);
+    this.#over.after(...anywhere);
   }
 
   camera(preset: string): void {

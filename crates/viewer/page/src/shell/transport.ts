@@ -195,8 +195,8 @@ export class Scrubber {
   }
 
   #mark(group: Cluster): HTMLElement {
-    const lines = group.checks.map((check) => `${check.words}: ${statusWord(check.status).toLowerCase()}`);
-    const label = `${lines.join(", ")}; worst at ${spokenTime(group.time)}`;
+    const lines = group.checks.map(({ words, status, worst }) => `${words}: ${statusWord(status).toLowerCase()}, worst at ${spokenTime(worst.time_s ?? group.time)}`);
+    const label = lines.join("; ");
     let next = 0;
     const choose = (): void => {
       this.#actions.choose(group.checks[next % group.checks.length]!);
