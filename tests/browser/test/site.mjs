@@ -18,10 +18,10 @@ async function places() {
   return [...new Set(["", ...items.map((item) => item.location.split("#")[0])])];
 }
 
-/** The places of pages with formulas. */
-async function withFormulas() {
+/** The places of pages with some text in them. */
+async function placesWith(words) {
   const texts = await Promise.all((await places()).map(async (place) => [place, await readFile(join(SITE, place, "index.html"), "utf8")]));
-  return texts.filter(([, text]) => text.includes('class="katex"')).map(([place]) => place);
+  return texts.filter(([, text]) => text.includes(words)).map(([place]) => place);
 }
 
 /** How wide all of a page is [px]. */
@@ -82,7 +82,7 @@ for (const size of SCREENS) {
     // Any file of the website's address, so that the blank page may load the fonts.
     await blank.goto(`${url}site.css`);
     let [numbers, signs] = [0, 0];
-    for (const place of await withFormulas()) {
+    for (const place of await placesWith('class="katex"')) {
       await page.goto(url + place);
       const drawn = await page.evaluate(formulasOf);
       const alone = drawn.map(({ html, size_px }) => `<div style="font-size: ${size_px}px">${html}</div>`);
@@ -108,6 +108,34 @@ for (const size of SCREENS) {
       assert.ok(width <= size.width, `${place}: ${width} pixels wide`);
     }
     assert.ok(numbers > 25 && signs > 5, `${numbers} numbers, ${signs} signs such as roots`);
+    quiet();
+  });
+}
+
+for (const size of SCREENS) {
+  test(`pictures are as wide as the text and open in full size, ${size.width} px wide`, { timeout: 900_000 }, async (t) => {
+    const { url } = await serveFolder(t, SITE);
+    const { page, quiet } = await watch(t, url, { size });
+    const seen = new Set();
+    for (const place of await placesWith("<img ")) {
+      await page.goto(url + place);
+      const pictures = await page.locator("article img").evaluateAll((images) => images.map((image) => {
+        const link = image.closest("a");
+        const gallery = link?.parentElement.querySelectorAll("img").length > 1;
+        const text = image.closest("article").querySelector("h1").clientWidth;
+        return { file: image.src, leads: link?.href, gallery, width: image.clientWidth, text };
+      }));
+      for (const { file, leads, gallery, width, text } of pictures) {
+        assert.equal(leads, file, place);
+        // Two pictures of a gallery stand beside each other where there is room.
+        assert.ok(width >= (gallery && size.width > 1000 ? 0.45 : 1) * text, `${file}: ${width} of ${text} pixels wide`);
+        seen.add(file);
+      }
+      const width = await widthOf(page);
+      assert.ok(width <= size.width, `${place}: ${width} pixels wide`);
+    }
+    assert.ok(seen.size > 20, `${seen.size} pictures`);
+    for (const file of seen) assert.equal((await fetch(file)).status, 200, file);
     quiet();
   });
 }
