@@ -60,7 +60,7 @@ def draw(rows, to):
     to.mkdir(parents=True, exist_ok=True)
     for name, (value, by) in MAPS.items():
         axes = read.map(PLACE, value, by=by, region="kitchen")
-        axes[0].figure.savefig(to / name, dpi=80, metadata={"Software": None})
+        axes[0].figure.savefig(to / name, dpi=160, metadata={"Software": None})
 
 
 def main():

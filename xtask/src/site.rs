@@ -42,7 +42,12 @@ pub fn built() -> Result<()> {
     let site = folder.join("site");
     copied(&target().join("doc"), &site.join("rust"))?;
     copied(&web::folder()?, &site.join("playground"))?;
-    for (name, script) in [("formulas", "formulas"), ("links of the website", "links")] {
+    let scripts = [
+        ("formulas", "formulas"),
+        ("pictures", "pictures"),
+        ("links of the website", "links"),
+    ];
+    for (name, script) in scripts {
         node.npm(name, folder, &["run", "--silent", script]).run()?;
     }
     formulas_of_page(&node, folder)?;
