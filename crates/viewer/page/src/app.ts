@@ -93,6 +93,7 @@ export class App {
     this.#requirements = new Requirements(view, (check) => this.#choose(check));
     this.#plots = new Plots(this.#player, () => this.#theme.palette, (t) => this.#controls.seek(t));
     this.#plates = new Plates(this.#player, coverages, (plate) => this.#toPlate(plate));
+    this.#stage.cover(this.#plates.scale);
     this.#editor = edit === null ? null : this.#makeEditor(edit, view, playground);
     this.#about.replaceChildren(about(view));
     const { scene } = this.#stage;
@@ -248,6 +249,7 @@ export class App {
   #changed(): void {
     this.#transport?.setSpeed(this.#player.clock.speed);
     this.#stage.showMotion(this.#player.follows, this.#player.shown.heat);
+    this.#plates.showScale(this.#player.shown.heat);
     this.#show();
     this.#address.touch();
   }

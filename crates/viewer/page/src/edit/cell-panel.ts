@@ -31,15 +31,8 @@ interface RowShown {
   goes: boolean;
 }
 
-/** What is done with the thing of a row. */
-interface RowActions extends Pick<PanelActions, "key"> {
-  select(): void;
-  place(centre: Centre): void;
-  remove(): void;
-  /** Of plates alone. */
-  take?(): void;
-  map?(): void;
-}
+/** What is done with the thing of a row; with plates alone the last two. */
+type RowActions = Pick<PanelActions, "key"> & { select(): void; place(centre: Centre): void; remove(): void; take?(): void; map?(): void };
 
 /** Coordinates farther than this are refused by every scenario [m]. */
 const FARTHEST_M = 10;
@@ -206,7 +199,11 @@ export class CellPanel {
     if (now.every((one, k) => one === this.#shown[k])) return;
     this.#shown = now;
     const plates = centres.map((centre, k) => ({ name: plateName(seen.drawn?.plates, k), centre, state: plateState(answers, k), selected: selected === "all" || selected === k, goes: centres.length > 1 }));
-    showRows(this.#list, this.#rows, plates, (plate) => this.#plateRow(plate));
+    const commands = this.#commands;
+    const { key, map } = this.#actions;
+    showRows(this.#list, this.#rows, plates, (plate) => new Row({
+      key, select: () => commands.select(plate), place: (centre) => commands.place(plate, centre), remove: () => commands.remove(plate), take: () => commands.take(plate), map: () => map(plate),
+    }));
     this.#showBodies(cell);
     this.#all.setAttribute("aria-pressed", String(selected === "all"));
     this.#findings.replaceChildren(...(seen.drawn?.findings ?? []).map(({ words }) => el("li", {}, "Note: ", isolated(words))));
@@ -220,18 +217,6 @@ export class CellPanel {
     if (this.#hint.textContent !== hint) this.#hint.textContent = hint;
   }
 
-  #plateRow(plate: number): Row {
-    const [commands, actions] = [this.#commands, this.#actions];
-    return new Row({
-      select: () => commands.select(plate),
-      place: (centre) => commands.place(plate, centre),
-      remove: () => commands.remove(plate),
-      take: () => commands.take(plate),
-      map: () => actions.map(plate),
-      key: actions.key,
-    });
-  }
-
   /** Shows every obstacle that is moved. */
   #showBodies(cell: Cell): void {
     const { drawn } = cell.seen;
@@ -239,17 +224,17 @@ export class CellPanel {
     this.#bodies = (drawn?.moves?.bodies ?? []).flatMap(({ key }, body) => (key === null ? [] : [body]));
     const list = this.#bodies.flatMap((body) => {
       const [centre, name] = [cell.bodyAt(body), drawn?.surroundings.obstacles[body]?.name ?? "obstacle"];
-      return centre === null ? [] : [{ name, centre, state: null, selected: commands.body === body, goes: commands.goes(body) }];
+      return centre === null ? [] : [{ name, centre, state: null, selected: commands.body === body, goes: commands.sectionOf(body) !== null }];
     });
+    const at = (k: number): number => this.#bodies[k]!;
     showRows(this.#bodyList, this.#bodyRows, list, (k) => new Row({
-      select: () => commands.selectBody(this.#bodies[k]!),
-      place: (centre) => commands.placeBody(this.#bodies[k]!, centre),
-      remove: () => commands.removeBody(this.#bodies[k]!),
-      key: this.#actions.key,
+      key: this.#actions.key, select: () => commands.selectBody(at(k)), place: (centre) => commands.placeBody(at(k), centre), remove: () => commands.removeBody(at(k)),
     }), this.#addObstacle);
     // Keys move what was just added.
     const added = this.#bodyRows[this.#bodies.indexOf(commands.added ?? -1)];
-    if (added !== undefined && commands.shownAdded()) added.element.focus();
+    if (added === undefined) return;
+    commands.added = null;
+    added.element.focus();
   }
 }
 

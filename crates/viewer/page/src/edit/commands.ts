@@ -16,11 +16,6 @@ const BOX_M = [0.08, 0.08, 0.2] as const;
 /** Directions in which an obstacle that is added is seen, of 24. */
 const SEEN = 11;
 
-/** The section of the text that has a body among the obstacles; null for another body. */
-function sectionOf(drawn: CellDrawn | null, body: number): string | null {
-  return /^obstacle\[\d+\]/.exec(drawn?.moves.bodies[body]?.key ?? "")?.[0] ?? null;
-}
-
 /** Coordinates in words. */
 function metres(place: readonly number[]): string {
   return place.map((c) => c.toFixed(3)).join(", ");
@@ -38,7 +33,7 @@ export class Commands implements EditActions {
   /** The body that is selected among those that stand around. */
   #body: number | null = null;
   /** The body that was added, until it is shown. */
-  #added: number | null = null;
+  added: number | null = null;
   #selected: Selection = null;
 
   constructor(cell: Cell, view: () => View, scene: () => Editing | null, size: () => Centre, changed: () => void, say: (words: string) => void) {
@@ -71,17 +66,6 @@ export class Commands implements EditActions {
     return this.#body;
   }
 
-  get added(): number | null {
-    return this.#added;
-  }
-
-  /** What was added is shown: whether that is news. */
-  shownAdded(): boolean {
-    const isNews = this.#added !== null;
-    this.#added = null;
-    return isNews;
-  }
-
   select(plate: Selection): void {
     if (plate !== null) this.selectBody(null);
     if (plate === this.#selected) return;
@@ -109,18 +93,14 @@ export class Commands implements EditActions {
     if (phase === "end") this.#cell.drop(`Move ${this.#nameOf(body)}`);
   }
 
-  get moves(): boolean {
-    return this.#cell.unmoved() === null;
-  }
-
-  mayMove(): boolean {
-    return this.#isFree(this.#cell.centres.length);
+  mayMove(quiet = false): boolean {
+    return this.#isFree(this.#cell.centres.length, quiet);
   }
 
   /** Whether so many plates can be where hands put them; says why not. */
-  #isFree(count: number): boolean {
+  #isFree(count: number, quiet = false): boolean {
     const words = this.#cell.unmoved(count);
-    if (words !== null) this.#say(words);
+    if (words !== null && !quiet) this.#say(words);
     return words === null;
   }
 
@@ -180,14 +160,13 @@ export class Commands implements EditActions {
     this.#cell.placeBody({ body, centre_m }, `Move ${this.#nameOf(body)}`, `move body ${body}`);
   }
 
-  /** Whether a body is one of the obstacles, which can be taken away. */
-  goes(body: number): boolean {
-    return sectionOf(this.#cell.seen.drawn, body) !== null;
+  /** The section of the text that has a body among the obstacles; null for another body, which cannot be taken away. */
+  sectionOf(body: number): string | null {
+    return /^obstacle\[\d+\]/.exec(this.#cell.seen.drawn?.moves.bodies[body]?.key ?? "")?.[0] ?? null;
   }
 
   removeBody(body: number): void {
-    const section = sectionOf(this.#cell.seen.drawn, body);
-    const name = this.#nameOf(body);
+    const [section, name] = [this.sectionOf(body), this.#nameOf(body)];
     if (section === null) return this.#say(`${name} is no obstacle: it goes in the text.`);
     this.selectBody(null);
     this.#cell.change([{ key: section, value: null }], `Remove ${name}`);
@@ -228,7 +207,7 @@ export class Commands implements EditActions {
     const at = [...room, stepped(marksHeight(drawn) + BOX_M[2] / 2, 1e3)];
     this.#cell.append(`[[obstacle]]\nname = "${name}"\nshape = "box"\nsize_m = [${BOX_M.join(", ")}]\nat_m = [${at.join(", ")}]\n`, `Add ${name}`);
     this.selectBody(obstacles.length);
-    this.#added = obstacles.length;
+    this.added = obstacles.length;
     this.#say(`${name} added at ${metres(at)} m: drag it, or move it with the arrow keys; Delete removes it.`);
   }
 

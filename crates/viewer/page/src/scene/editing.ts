@@ -21,10 +21,8 @@ export interface EditActions {
   move(to: { plates: number[]; centres_m: Centre[] }, phase: Phase): void;
   /** The ghost of a plate was clicked. */
   take(plate: number): void;
-  /** Whether plates may be moved; says why not. */
-  mayMove(): boolean;
-  /** The same, and says nothing. */
-  readonly moves: boolean;
+  /** Whether plates may be moved; says why not, unless it is to be quiet. */
+  mayMove(quiet?: boolean): boolean;
   /** A body that stands around was clicked; null for none. */
   selectBody(body: number | null): void;
   /** Where a body is on its way. */
@@ -205,7 +203,7 @@ export class Editing {
 
   #ringNow(): ReturnType<typeof ringThrough> {
     const centres = this.#selected.map((plate) => centreOf(this.#solids[plate]!));
-    if (centres.length === 0 || !this.#actions.moves) return null;
+    if (centres.length === 0 || !this.#actions.mayMove(true)) return null;
     const rim = this.#solids[this.#selected[0]!]!.rim_m;
     return ringThrough(this.#axis, middle(centres), rim);
   }

@@ -6,9 +6,6 @@ import { assumptions, statusWord, type Verdict, verdict, washed, VERDICT } from 
 import type { View } from "../view.ts";
 import { announce, button, byId, type Child, el, icon, isolated, TextCell, toneIcon } from "./dom.ts";
 
-/** Characters of a tooltip at most. */
-const TITLE = 300;
-
 /** A verdict as a badge: sign, word and colour. */
 function badge(of: Verdict, extra = ""): HTMLElement {
   return el("span", { class: `badge tone-${of.tone} ${extra}`.trim(), title: of.sentence }, toneIcon(of.tone), of.word);
@@ -106,7 +103,6 @@ export class Header {
     if (result !== null) this.#badges.append(badge(result, "badge-small"));
     const words = of.sentence.replace(VERDICT, "");
     this.#sentence.replaceChildren(isolated(subject(this.#view, this.#said !== null)), isolated(words));
-    this.#sentence.title = of.sentence.slice(0, TITLE);
     this.#showRests(this.#stale ? [] : assumptions(this.#view.certificate));
     this.#showFacts();
     document.documentElement.dataset["verdict"] = of.tone;

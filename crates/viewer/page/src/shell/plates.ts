@@ -69,7 +69,8 @@ export class Plates {
   readonly #player: Player;
   #coverages: Coverages;
   readonly #onPlate: (plate: number) => void;
-  readonly #scale = el("p", { class: "heat-scale" });
+  /** Of the heat map's colours. */
+  readonly scale = el("p", { class: "heat-scale" });
   #observer: IntersectionObserver | null = null;
   #cards: Card[] | null = null;
   #dwell_s = 1;
@@ -99,8 +100,18 @@ export class Plates {
     if (!anew && now >= this.#painted && now - this.#painted < PAINT_MS) return;
     this.#painted = now;
     const { time, coverageKind, shown } = this.#player;
-    this.#scale.hidden = !shown.heat;
     for (const card of this.#cards) if (card.seen) this.#paint(card, time, coverageKind, shown.heat);
+  }
+
+  /** Shows or hides the scale of the heat map, which lies over the scene. */
+  showScale(on: boolean): void {
+    this.scale.hidden = !on;
+    if (!on) return;
+    const { all } = this.#coverages;
+    const heat = el("span", { class: "heat-bar", set: { "aria-hidden": "true" } });
+    heat.style.background = cssGradient();
+    const what = all.every(({ counted }) => counted !== null) ? "in contact for 0 s" : "under the sponge for 0 s";
+    this.scale.replaceChildren(el("span", {}, what), heat, el("span", {}, quantity(dwellScale(all), 1, "s and more")));
   }
 
   /** Paints all, in sight or not. */
@@ -125,13 +136,6 @@ export class Plates {
 
   #make(): void {
     this.#dwell_s = dwellScale(this.#coverages.all);
-    const heat = el("span", { class: "heat-bar", set: { "aria-hidden": "true" } });
-    heat.style.background = cssGradient();
-    this.#scale.replaceChildren(
-      el("span", {}, this.#coverages.all.every(({ counted }) => counted !== null) ? "in contact for 0 s" : "under the sponge for 0 s"),
-      heat,
-      el("span", {}, quantity(this.#dwell_s, 1, "s and more")),
-    );
     const order = this.#player.view.paths.map((path) => path.plate);
     const plates = this.#coverages.plates.sort((a, b) => order.indexOf(a) - order.indexOf(b));
     this.#cards = plates.map((plate, k) => this.#card(plate, k < FIRST_SEEN));
@@ -150,7 +154,6 @@ export class Plates {
     if (this.#cards.length === 0) return this.element.replaceChildren(el("p", { class: "summary" }, "No plate is washed: there is no plan."));
     this.element.replaceChildren(
       el("p", { class: "summary" }, words),
-      this.#scale,
       el("ul", { class: "cards" }, ...this.#cards.map(({ element }) => element)),
     );
   }

@@ -7,17 +7,9 @@ import type { Certificate, Check, Contact, PlateContact, View } from "../view.ts
 import { button, type Child, el, icon, isolated, toneIcon } from "./dom.ts";
 import { keyTable } from "./keys.ts";
 
-/** Up to so many decimals, never smaller than it is. */
-function up(value: number, decimals: number): string {
-  const scale = 10 ** decimals;
-  return fixed(Math.ceil(value * scale - 1e-9) / scale, decimals);
-}
-
-/** Up to so many decimals, never larger than it is. */
-function down(value: number, decimals: number): string {
-  const scale = 10 ** decimals;
-  return fixed(Math.floor(value * scale + 1e-9) / scale, decimals);
-}
+/** So many decimals, never smaller or never larger than it is. */
+const up = (value: number, decimals: number): string => fixed(Math.ceil(value * 10 ** decimals - 1e-9) / 10 ** decimals, decimals);
+const down = (value: number, decimals: number): string => fixed(Math.floor(value * 10 ** decimals + 1e-9) / 10 ** decimals, decimals);
 
 /** Least and greatest force in words, rounded outwards. */
 export function forceWords(least: number | undefined, greatest: number | undefined): string {

@@ -111,10 +111,15 @@ export class Stage {
     return bottom - top > LEAST_ROOM ? { top, bottom } : { top: 0, bottom: 1 };
   }
 
+  /** Puts something over the scene's upper edge. */
+  cover(shown: HTMLElement): void {
+    this.#over.append(shown);
+  }
+
   /** Adds a tool, what it shows over the scene's upper edge, and what it shows anywhere on the scene. */
   addTool(tool: HTMLElement, shown: HTMLElement, ...anywhere: HTMLElement[]): void {
     this.#heat.before(tool);
-    this.#over.append(shown);
+    this.cover(shown);
     this.#over.after(...anywhere);
   }
 

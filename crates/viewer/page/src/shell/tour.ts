@@ -13,6 +13,8 @@ import { button, el, isolated, TextCell, toneIcon } from "./dom.ts";
 const MOMENTS = 48;
 /** How long the film takes [s], without its stops. */
 const FILM_S = 12;
+/** How far the label is from its place, on both of its sides together [px]. */
+const BESIDE_PX = 28;
 /** How long it stops where a requirement is worst [ms]. */
 const STOP_MS = 850;
 
@@ -136,7 +138,8 @@ export class Tour {
   /** Keeps the label beside its place. */
   #place(): void {
     const [x, y] = this.#scene.project(this.#at?.worst.place_m ?? this.#scene.tip()) ?? [0, 0];
-    this.label.style.translate = `${x.toFixed(0)}px ${y.toFixed(0)}px`;
-    this.label.classList.toggle("to-left", x > innerWidth / 2);
+    const [room, width] = [this.label.parentElement?.clientWidth ?? 0, this.label.offsetWidth + BESIDE_PX];
+    const left = Math.max(0, Math.min(x > room / 2 ? x - width : x, room - width));
+    this.label.style.translate = `${left.toFixed(0)}px ${y.toFixed(0)}px`;
   }
 }
