@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { folder, platewash, serve, shipped } from "../lib/command.mjs";
-import { address, open, seek, text } from "../lib/watched.mjs";
+import { address, open, seek, text, watch } from "../lib/watched.mjs";
 
 /** Draws a few moments and sees that something is there to be read. */
 async function looksRight({ page, quiet }) {
@@ -31,5 +31,24 @@ test("a narrow page has no room that one must scroll sideways for", async (t) =>
   const { page, quiet } = await open(t, address(file), { size: { width: 360, height: 640 } });
   const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
   assert.ok(wide <= window, `${wide} px in a window of ${window} px`);
+  quiet();
+});
+
+test("before its first frame the scene says what is going on, and is not black", async (t) => {
+  const url = address(await shipped());
+  const { page, quiet } = await watch(t, url);
+  await page.addInitScript(() => {
+    new MutationObserver((_, observer) => {
+      const canvas = document.querySelector("canvas.scene");
+      if (canvas === null) return;
+      const port = getComputedStyle(canvas.parentElement, "::before");
+      window.atFirst = [getComputedStyle(canvas).visibility, port.content];
+      observer.disconnect();
+    }).observe(document, { childList: true, subtree: true });
+  });
+  await page.goto(url);
+  await page.evaluate(() => window.platewash.ready);
+  assert.deepEqual(await page.evaluate(() => window.atFirst), ["hidden", '"Drawing the cell …"']);
+  assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector("canvas.scene")).visibility), "visible");
   quiet();
 });
