@@ -1,7 +1,7 @@
 //! The benchmarks, and a test that they measure.
 
+use crate::step::Step;
 use anyhow::{Result, bail};
-use platewash_bundler::Step;
 
 /// What must be among the benchmarks at the root: the IK loop, and the certified job's stages.
 const WANTED: [&str; 10] = [

@@ -1,15 +1,16 @@
 //! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
+use crate::step::Step;
 use crate::{command, web};
 use anyhow::{Context, Result};
-use platewash_bundler::{Node, Packages, Step, Workshop, root, target};
+use platewash_bundler::{Node, Packages, Workshop, root, target};
 use std::fs;
 
 /// Runs the tests of pages with the release build of the command, which has the page in it.
 pub fn pages() -> Result<()> {
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "pages"];
-    with_command(node.npm("tests in a browser", workshop.folder(), &line)).run()
+    with_command(Step::of("tests in a browser", node.npm(workshop.folder(), &line))).run()
 }
 
 /// Runs the tests of the playground, with its folder and the release build of the command.
@@ -17,7 +18,7 @@ pub fn playground() -> Result<()> {
     let playground = web::folder()?;
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "playground"];
-    let step = with_command(node.npm("playground in a browser", workshop.folder(), &line));
+    let step = with_command(Step::of("playground in a browser", node.npm(workshop.folder(), &line)));
     step.with("PLATEWASH_WEB", playground).run()
 }
 
@@ -25,7 +26,7 @@ pub fn playground() -> Result<()> {
 pub fn read_site() -> Result<()> {
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "site"];
-    let step = node.npm("website in a browser", workshop.folder(), &line);
+    let step = Step::of("website in a browser", node.npm(workshop.folder(), &line));
     step.with("PLATEWASH_SITE", target().join("site")).run()
 }
 
@@ -50,7 +51,7 @@ fn script(title: &'static str, name: &str, arguments: &[String]) -> Result<()> {
     let (node, workshop) = workshop()?;
     let mut line = vec!["run", "--silent", name, "--"];
     line.extend(arguments.iter().map(String::as_str));
-    with_command(node.npm(title, workshop.folder(), &line)).run()
+    with_command(Step::of(title, node.npm(workshop.folder(), &line))).run()
 }
 
 /// Node, and the sources and packages of what looks at pages.

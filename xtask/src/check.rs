@@ -1,10 +1,10 @@
 //! `cargo xtask check`: what must hold besides the tests before a change goes in.
 
+use crate::step::Step;
 use crate::steps::{all, beside};
 use crate::test::BrowserTests;
 use crate::{benches, browser, command, ledger, packages, page, python, site, wheel};
 use anyhow::{Result, bail};
-use platewash_bundler::Step;
 use std::time::Instant;
 
 /// A part of the checks that can be run alone.

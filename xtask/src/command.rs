@@ -1,8 +1,9 @@
 //! The release build of the command.
 
+use crate::step::Step;
 use crate::wheel;
 use anyhow::Result;
-use platewash_bundler::{Step, target};
+use platewash_bundler::target;
 use std::path::PathBuf;
 
 /// Largest command \[bytes\].

@@ -3,8 +3,9 @@
 //! Counts are callgrind's, on one thread. They do not drift with the load of the machine.
 
 use crate::command;
+use crate::step::Step;
 use anyhow::{Context, Result, bail};
-use platewash_bundler::{Step, root, target};
+use platewash_bundler::{root, target};
 use std::fs;
 use std::path::Path;
 use std::process::Command;

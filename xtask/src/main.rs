@@ -30,6 +30,7 @@ mod programs;
 mod python;
 mod site;
 mod sources;
+mod step;
 mod steps;
 mod test;
 mod web;

@@ -1,9 +1,10 @@
 //! The crates as packages: what they hold, and, before a release, whether a program can use them.
 
+use crate::step::Step;
 use crate::wheel::{emptied, outside, text};
 use crate::{python, sources};
 use anyhow::{Context, Result, bail};
-use platewash_bundler::{Step, root, target};
+use platewash_bundler::{root, target};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

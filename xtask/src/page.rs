@@ -1,5 +1,6 @@
 //! The page: its bundle, its own tests, and whether it is made twice alike.
 
+use crate::step::Step;
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{Node, Outcome, Packages, Workshop, alone, bundle, removed, sources, stamp, target, workshop};
 use std::fs;
@@ -17,8 +18,7 @@ pub fn make() -> Result<()> {
 pub fn types() -> Result<()> {
     let _alone = alone()?;
     let (node, workshop) = everything()?;
-    node.npm("types of the page", workshop.folder(), &["run", "check"])
-        .run()
+    Step::of("types of the page", node.npm(workshop.folder(), &["run", "check"])).run()
 }
 
 /// Node, and the page's sources with all their packages.
@@ -33,7 +33,7 @@ fn everything() -> Result<(Node, Workshop)> {
 pub fn tested() -> Result<()> {
     let _alone = alone()?;
     let (node, workshop) = everything()?;
-    let tests = node.npm("tests of the page", workshop.folder(), &["test"]);
+    let tests = Step::of("tests of the page", node.npm(workshop.folder(), &["test"]));
     // Later versions run TypeScript without being told to.
     tests.with("NODE_OPTIONS", "--experimental-strip-types").run()
 }

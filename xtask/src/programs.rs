@@ -3,8 +3,8 @@
 //! `cargo test` runs one program after the other. Most end with one slow test, during which the other core is idle.
 
 use crate::command;
+use crate::step::Step;
 use anyhow::{Context, Result, bail};
-use platewash_bundler::Step;
 use serde_json::Value;
 use std::collections::{HashSet, VecDeque};
 use std::path::{Path, PathBuf};

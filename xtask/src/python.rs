@@ -1,8 +1,9 @@
 //! The Python tests, in a virtual environment of their own.
 
 use crate::command;
+use crate::step::Step;
 use anyhow::{Context, Result, bail};
-use platewash_bundler::{Step, interpreter, python_program, root, target};
+use platewash_bundler::{interpreter, python_program, root, target};
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};

@@ -1,8 +1,9 @@
 //! The documentation as a website: pages, Rust and Python API, playground. Links that lead nowhere are errors.
 
+use crate::step::Step;
 use crate::{check, page, python, web, wheel};
 use anyhow::{Context, Result, bail};
-use platewash_bundler::{Node, Packages, Step, Workshop, copied, removed, root, target};
+use platewash_bundler::{Node, Packages, Workshop, copied, removed, root, target};
 use std::path::Path;
 use std::{env, fs};
 
@@ -48,7 +49,7 @@ pub fn built() -> Result<()> {
         ("links of the website", "links"),
     ];
     for (name, script) in scripts {
-        node.npm(name, folder, &["run", "--silent", script]).run()?;
+        Step::of(name, node.npm(folder, &["run", "--silent", script])).run()?;
     }
     formulas_of_page(&node, folder)?;
     removed(&target().join("site"))?;
@@ -60,7 +61,7 @@ fn formulas_of_page(node: &Node, folder: &Path) -> Result<()> {
     let new = folder.join("formulas.json");
     let out = new.to_string_lossy();
     let line = ["mathml.mjs", &out, "pages/docs/certificate.md", "pages/docs/contact.md"];
-    node.node("formulas of the page", folder, &line).run()?;
+    Step::of("formulas of the page", node.node(folder, &line)).run()?;
     let kept = root().join("crates/viewer/page/src/formulas.json");
     let read = |file: &Path| fs::read_to_string(file).with_context(|| file.display().to_string());
     if read(&new)? == read(&kept)? {

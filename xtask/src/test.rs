@@ -1,9 +1,9 @@
 //! `cargo xtask test`: every test in Rust, in Python, of the page and of the playground.
 
+use crate::step::Step;
 use crate::steps::{all, beside};
 use crate::{browser, command, page, programs, python, web, wheel};
 use anyhow::{Result, bail};
-use platewash_bundler::Step;
 use std::time::Instant;
 
 /// A part of the tests that can be run alone.

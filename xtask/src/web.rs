@@ -1,8 +1,9 @@
 //! The playground: the engine as a WebAssembly module, the folder of the page around it, and the test of the module.
 
 use crate::browser;
+use crate::step::Step;
 use anyhow::{Context, Result};
-use platewash_bundler::{Node, Packages, Step, alone, python_program, root, target, workshop};
+use platewash_bundler::{Node, Packages, alone, python_program, root, target, workshop};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -30,7 +31,7 @@ pub fn folder() -> Result<PathBuf> {
     let folder = target().join("playground");
     let (module, out) = (module.to_string_lossy(), folder.to_string_lossy());
     let line = ["build.mjs", "--playground", &module, "--out", &out];
-    node.node("playground", workshop.folder(), &line).run()?;
+    Step::of("playground", node.node(workshop.folder(), &line)).run()?;
     Ok(folder)
 }
 
@@ -56,7 +57,7 @@ pub fn tested() -> Result<()> {
     let module = module()?;
     let node = Node::found(Packages::All)?;
     let line = ["--test", "--test-reporter=spec", "tests/playground/same.mjs"];
-    let step = node.node("module and command side by side", &root(), &line);
+    let step = Step::of("module and command side by side", node.node(&root(), &line));
     browser::with_command(step).with("PLATEWASH_MODULE", module).run()
 }
 

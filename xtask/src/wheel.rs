@@ -1,8 +1,9 @@
 //! The Python wheel: built from the checkout for the tests, and from its source package outside of it.
 
+use crate::step::Step;
 use crate::{python, sources};
 use anyhow::{Context, Result, bail};
-use platewash_bundler::{Step, root, target};
+use platewash_bundler::{root, target};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 

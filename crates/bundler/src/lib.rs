@@ -4,13 +4,14 @@
 
 mod make;
 mod node;
+mod place;
 mod python;
+mod run;
 pub mod stamp;
-mod step;
 mod workshop;
 
 pub use make::{Outcome, alone, bundle, make, sources, workshop};
 pub use node::{Node, Packages};
+pub use place::{root, target};
 pub use python::{interpreter, program as python_program};
-pub use step::{Step, root, target};
 pub use workshop::{Workshop, copied, removed};

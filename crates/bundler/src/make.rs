@@ -1,8 +1,8 @@
 //! The bundle, made where it is missing or old.
 
 use crate::node::{Node, Packages};
+use crate::place::{root, target};
 use crate::stamp;
-use crate::step::{root, target};
 use crate::workshop::{Workshop, removed};
 use anyhow::{Context, Result};
 use std::fs::{self, File};

@@ -1,7 +1,8 @@
 //! Node and npm: those on the PATH where they are new enough, else those that a Python package carries.
 
+use crate::place::target;
 use crate::python;
-use crate::step::{Step, target};
+use crate::run::run;
 use anyhow::{Context, Result, anyhow, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -72,30 +73,29 @@ impl Node {
     }
 
     /// A call of Node in a folder.
-    pub fn node(&self, title: &'static str, folder: &Path, arguments: &[&str]) -> Step {
-        self.with_path(Step::program(title, &self.node, arguments).at(folder))
+    pub fn node(&self, folder: &Path, arguments: &[&str]) -> Command {
+        self.call(&self.node, folder, arguments)
     }
 
     /// A call of npm in a folder.
-    pub fn npm(&self, title: &'static str, folder: &Path, arguments: &[&str]) -> Step {
+    pub fn npm(&self, folder: &Path, arguments: &[&str]) -> Command {
         let (program, script) = &self.npm;
         let script = script.as_ref().map(|script| script.to_string_lossy());
         let line: Vec<&str> = script.as_deref().into_iter().chain(arguments.iter().copied()).collect();
-        self.with_path(Step::program(title, program, &line).at(folder))
+        self.call(program, folder, &line)
     }
 
-    /// The programs that npm starts find this Node first.
-    fn with_path(&self, step: Step) -> Step {
+    /// A call of a program, which finds this Node first, and so do the programs that it starts.
+    fn call(&self, program: &Path, folder: &Path, arguments: &[&str]) -> Command {
+        let mut command = Command::new(program);
+        command.args(arguments).current_dir(folder);
         let inherited = std::env::var_os("PATH").unwrap_or_default();
         let own = self.node.parent().filter(|folder| folder.is_absolute());
-        let folders = own
-            .map(Path::to_path_buf)
-            .into_iter()
-            .chain(std::env::split_paths(&inherited));
-        match std::env::join_paths(folders) {
-            Ok(path) => step.with("PATH", path),
-            Err(_) => step,
+        let own = own.map(Path::to_path_buf).into_iter();
+        if let Ok(path) = std::env::join_paths(own.chain(std::env::split_paths(&inherited))) {
+            command.env("PATH", path);
         }
+        command
     }
 
     /// Reason why this Node cannot be used: it is missing, too old or without npm. `None` where it can be used.
@@ -153,25 +153,14 @@ fn packaged_node() -> Result<Node> {
 }
 
 fn fetch(environment: &Path, interpreter: &Path) -> Result<()> {
-    let place = environment.to_string_lossy();
-    let line = ["-m", "venv", "--clear", &place];
-    let made = Step::program("environment of Node", python::program(), &line)
-        .within(LONGEST)
-        .run();
-    made.context("no environment can be made with it")?;
-    let pip = [
-        "-m",
-        "pip",
-        "--quiet",
-        "--disable-pip-version-check",
-        "--retries",
-        "1",
-        "install",
-    ];
+    let mut python = Command::new(python::program());
+    let make = python.args(["-m", "venv", "--clear"]).arg(environment);
+    run("environment of Node", make, LONGEST).context("no environment can be made with it")?;
     // Compiling Node would take hours.
-    let line = [&pip[..], &["--only-binary=:all:"], &CARRIED_BY].concat();
-    let fetched = Step::program("Node from its Python package", interpreter, &line);
-    fetched.within(LONGEST).run().context("its package cannot be fetched")
+    let line = "-m pip --quiet --disable-pip-version-check --retries 1 install --only-binary=:all:";
+    let mut pip = Command::new(interpreter);
+    pip.args(line.split(' ')).args(CARRIED_BY);
+    run("Node from its Python package", &mut pip, LONGEST).context("its package cannot be fetched")
 }
 
 #[cfg(test)]

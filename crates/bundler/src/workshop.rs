@@ -1,6 +1,7 @@
 //! A copy of the page's sources with the packages that they need: whatever is fetched stays out of the sources.
 
 use crate::node::{Node, Packages};
+use crate::run::run;
 use crate::stamp;
 use anyhow::{Context, Result, bail};
 use std::fs;
@@ -51,26 +52,13 @@ impl Workshop {
         if found == with_all || (found == lock && packages == Packages::Bundled) {
             return Ok(());
         }
-        let line = [
-            "ci",
-            "--ignore-scripts",
-            "--no-audit",
-            "--no-fund",
-            "--no-update-notifier",
-        ];
-        let patience = [
-            "--fetch-retries=1",
-            "--fetch-retry-mintimeout=1000",
-            "--fetch-timeout=60000",
-        ];
-        let left_out: &[&str] = if packages == Packages::All {
-            &[]
-        } else {
-            &["--omit=dev"]
-        };
-        let line = [&line[..], &patience, left_out].concat();
-        let fetched = node.npm("packages", &self.folder, &line).within(LONGEST).run();
-        if fetched.is_err() {
+        let line = "ci --ignore-scripts --no-audit --no-fund --no-update-notifier --fetch-retries=1 --fetch-retry-mintimeout=1000 \
+                    --fetch-timeout=60000";
+        let mut npm = node.npm(&self.folder, &line.split(' ').collect::<Vec<_>>());
+        if packages == Packages::Bundled {
+            npm.arg("--omit=dev");
+        }
+        if run("packages", &mut npm, LONGEST).is_err() {
             bail!(
                 "npm cannot fetch the packages of {}: connect to a network, then run this again",
                 self.what
@@ -87,8 +75,11 @@ impl Workshop {
         const LONGEST: Duration = Duration::from_secs(60);
         removed(folder)?;
         let place = folder.to_string_lossy();
-        let made = node.node("page", &self.folder, &["build.mjs", "--out", &place]);
-        made.within(LONGEST).run()?;
+        run(
+            "page",
+            &mut node.node(&self.folder, &["build.mjs", "--out", &place]),
+            LONGEST,
+        )?;
         for name in stamp::FILES {
             if !folder.join(name).is_file() {
                 bail!("crates/viewer/page/build.mjs makes no {name}");
