@@ -20,7 +20,7 @@ const ONLY_THE_FILM = `
   body { grid-template: minmax(0, 1fr) / minmax(0, 1fr) !important; }
   #main { grid-template: "stage" minmax(0, 1fr) "transport" auto / minmax(0, 1fr) !important; }
   #header, #panels, .toolbar, .readout, #transport > :not(.scrubber), .tour p, .tour .button { display: none !important; }
-  .tour { width: auto !important; }
+  .tour { width: max-content !important; }
   .proof-card { overflow: hidden; outline: none !important; }
   .proof-card > :not(canvas) { display: none !important; }`;
 

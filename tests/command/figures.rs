@@ -61,8 +61,6 @@ fn refuses_impossible_figures_and_writes_nothing() {
         assert!(!folder.path().join("figures").exists(), "{arguments:?}");
     };
     refused(&["--only", "layuot"], &["layuot", "layout, joints, coverage, spiral"]);
-    refused(&["--only", "moment"], &["\"moment\" is gone", "platewash view"]);
-    refused(&["--only", "sheet"], &["\"sheet\" is gone", "report.txt"]);
     refused(&["--scenario", "kitchen"], &["--scenario"]);
     std::fs::write(folder.path().join("none.json"), "{}").unwrap();
     platewash(folder.path(), &["figures", "none.json"]).refused(2, &["none.json"]);

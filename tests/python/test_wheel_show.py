@@ -272,8 +272,6 @@ def test_figures_of_hostile_names(hostile: pw.Plan) -> None:
 def test_figures_report_errors(kitchen: pw.Plan, root: Path) -> None:
     with pytest.raises(pw.InputError, match='kind: there is no figure "pie"; there are layout, joints, coverage, spiral'):
         kitchen.figure("pie")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
-    with pytest.raises(pw.InputError, match='kind: .* "tip" is gone: it is a part of the figure "joints"'):
-        kitchen.figure("tip")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
     other = pw.Robot.load(root / "crates/kinematics/tests/fixtures/ur5_lengths.urdf")
     with pytest.raises(pw.InputError, match="robot: the plan was made for another arm, 'irb120'"):
         kitchen.figure(robot=other)

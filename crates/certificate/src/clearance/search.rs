@@ -29,9 +29,6 @@ const COARSE_OF_MANY: f64 = 0.35;
 /// Shortest interval that is halved \[s\].
 const SHORTEST_S: f64 = 1e-7;
 
-/// Value for an unknown direction.
-const NO_NORMAL: [f64; 3] = [0.0; 3];
-
 /// Clearance that a pair must keep, and the accuracy that is needed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Goal {
@@ -99,7 +96,7 @@ struct Candidate {
     part: usize,
     interval: Interval,
     /// Direction from one part to the other, in the frame of the earlier one, at some moment in the interval or near it.
-    normal: [f64; 3],
+    normal: Option<[f64; 3]>,
 }
 
 impl Ord for Candidate {
@@ -225,7 +222,7 @@ impl<'a> Search<'a> {
         };
         for interval in during.iter().flat_map(|pieces| timeline.cover(pieces)) {
             for part in parts.outermost() {
-                search.bound_interval(part, interval, f64::NEG_INFINITY, NO_NORMAL);
+                search.bound_interval(part, interval, f64::NEG_INFINITY, None);
             }
         }
         search.refine();
@@ -279,7 +276,7 @@ impl<'a> Search<'a> {
     }
 
     /// Bounds an interval. `inherited` and `normal` are the bound and the direction of an interval around it.
-    fn bound_interval(&mut self, part: usize, interval: Interval, inherited: f64, normal: [f64; 3]) {
+    fn bound_interval(&mut self, part: usize, interval: Interval, inherited: f64, normal: Option<[f64; 3]>) {
         self.looked_at += 1;
         let Some(pair) = self.parts.get(part) else { return };
         let (bound, normal) = self.bound(part, pair, &interval, normal);
@@ -294,7 +291,13 @@ impl<'a> Search<'a> {
 
     /// Returns a lower bound over an interval, and the direction that led to it. Tries spheres around the parts, then the known direction,
     /// then the nearest points, until a bound is good enough.
-    fn bound(&mut self, part: usize, pair: &PartPair<'a>, interval: &Interval, known: [f64; 3]) -> (f64, [f64; 3]) {
+    fn bound(
+        &mut self,
+        part: usize,
+        pair: &PartPair<'a>,
+        interval: &Interval,
+        known: Option<[f64; 3]>,
+    ) -> (f64, Option<[f64; 3]>) {
         let extent = self.timeline.extent(interval);
         let (time_s, q) = self.timeline.middle(interval);
         let poses = self.poses.middle(interval, &q);
@@ -314,12 +317,11 @@ impl<'a> Search<'a> {
             let [a, b] = ends.each_ref().map(|poses| pair.gap_along(normal, poses));
             a.min(b)
         };
-        if known != NO_NORMAL {
-            let gap = along(known);
-            // If the gap itself is enough, shorter intervals will be enough: no nearest points are needed.
-            if self.accepts(part, gap) {
-                return (gap - sag, known);
-            }
+        // If the gap itself is enough, shorter intervals will be enough: no nearest points are needed.
+        if let Some(gap) = known.map(along)
+            && self.accepts(part, gap)
+        {
+            return (gap - sag, known);
         }
         let measured = pair.measure(&mover);
         if !self.parts.within(part).is_empty() {
@@ -339,11 +341,9 @@ impl<'a> Search<'a> {
         }
         self.see(&measured, time_s);
         let displaced = measured.at_least_m - fall;
-        let settled = measured.normal == NO_NORMAL || self.accepts(part, displaced);
-        if settled || measured.distance_m - sag <= displaced {
-            return (displaced, measured.normal);
-        }
-        (displaced.max(along(measured.normal) - sag), measured.normal)
+        let settled = self.accepts(part, displaced) || measured.distance_m - sag <= displaced;
+        let aside = measured.normal.filter(|_| !settled).map(|normal| along(normal) - sag);
+        (aside.map_or(displaced, |aside| displaced.max(aside)), measured.normal)
     }
 
     /// Returns a lower bound over an interval on the distance of the pairs of parts that a pair holds. The nearest are examined first,
@@ -357,7 +357,7 @@ impl<'a> Search<'a> {
         let mut queue = Queue::new();
         queue.add(parts, parts.within(part), stay, self.needed(part));
         let mut bound = f64::INFINITY;
-        let mut direction = NO_NORMAL;
+        let mut direction = None;
         while let Some(QueuedPair { gap_m, inner }) = queue.open.pop() {
             if self.accepts(part, gap_m - stay.fall) {
                 return bound.min(gap_m - stay.fall).min(queue.far);
@@ -371,19 +371,21 @@ impl<'a> Search<'a> {
                 let [a, b] = (stay.ends.each_ref()).map(|end| pair.gap_along_in_base(normal, &pair.mover_as(end)));
                 a.min(b) - stay.sag
             };
-            if direction != NO_NORMAL {
-                let known = along(direction);
-                if self.accepts(part, known) {
-                    bound = bound.min(known);
-                    continue;
-                }
+            if let Some(known) = direction.map(along)
+                && self.accepts(part, known)
+            {
+                bound = bound.min(known);
+                continue;
             }
             let measured = pair.measure(&pair.mover_as(stay.mover));
             self.see(&measured, stay.time_s);
             let mut found = measured.at_least_m - stay.fall;
-            if measured.normal != NO_NORMAL && !self.accepts(part, found) {
-                direction = pair.in_base(measured.normal, stay.mover.poses());
-                found = found.max(along(direction));
+            if let Some(normal) = measured.normal
+                && !self.accepts(part, found)
+            {
+                let in_base = pair.in_base(normal, stay.mover.poses());
+                direction = Some(in_base);
+                found = found.max(along(in_base));
             }
             bound = bound.min(found);
             if !self.accepts(part, found) {

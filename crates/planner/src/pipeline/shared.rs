@@ -28,7 +28,7 @@ const MOST_ARC_POINTS: f64 = 1e4;
 const DIRECTIONS: u32 = 16;
 
 /// Data that the phases of planning share.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Pipeline<'a> {
     pub robot: &'a RobotModel,
     /// `T_world_base`: everything else is in the frame of the base.
@@ -178,24 +178,11 @@ impl<'a> Pipeline<'a> {
     where
         'a: 'b,
     {
-        Pipeline {
-            plates,
-            clearance: self.clearance.among(plates),
-            watch: Watch::silent(self.watch.cancel),
-            robot: self.robot,
-            mount: self.mount,
-            terms: self.terms,
-            settings: self.settings,
-            place_search: self.place_search,
-            patterns: self.patterns.clone(),
-            asked_order: self.asked_order.clone(),
-            asked_paths: self.asked_paths.clone(),
-            near_rad: self.near_rad,
-            tilt_reserve_rad: self.tilt_reserve_rad,
-            explains: self.explains,
-            washing: self.washing,
-            transit: self.transit,
-        }
+        let mut among: Pipeline<'b> = self.clone();
+        among.plates = plates;
+        among.clearance.lay(plates);
+        among.watch = Watch::silent(self.watch.cancel);
+        among
     }
 
     /// The arm among the plates.

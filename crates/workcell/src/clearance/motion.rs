@@ -121,8 +121,8 @@ pub struct PartDistance {
     pub at_least_m: f64,
     /// Midpoint between the nearest points \[m\], base frame.
     pub place_m: [f64; 3],
-    /// Direction from the fixed part to the moving one, in the frame of the fixed part; zero if they overlap.
-    pub normal: [f64; 3],
+    /// Direction from the fixed part to the moving one, in the frame of the fixed part; `None` if they overlap.
+    pub normal: Option<[f64; 3]>,
 }
 
 impl ClearanceModel {
@@ -257,12 +257,12 @@ impl<'a> PartPair<'a> {
     pub fn measure(&self, mover: &Mover<'_>) -> PartDistance {
         let (fixed, moving) = (self.fixed.place(mover.poses), mover.placed());
         let (found, at_least) = bracketed(&fixed, moving);
-        let normal = fixed.pose.rotation.inverse() * Vector::from_array(found.normal);
+        let normal = (fixed.pose.rotation.inverse() * Vector::from_array(found.normal)).to_array();
         PartDistance {
             distance_m: found.distance,
             at_least_m: at_least - ROUNDING_M,
             place_m: found.place,
-            normal: normal.to_array(),
+            normal: (normal != [0.0; 3]).then_some(normal),
         }
     }
 
