@@ -572,7 +572,11 @@ impl RobotSuggestions {
         };
         let [radius, height, square] = [self.plate_radius_m, self.plate_height_m, self.square_m].map(|m| 1e3 * m);
         let (robot, scenario, start_deg, clear) = (&self.robot, &self.scenario, self.start_deg, self.clear);
-        let (margin, tilt, area) = (self.margin_deg, self.tilt_deg, self.washable_area_m2);
+        let (tilt, area) = (self.tilt_deg, self.washable_area_m2);
+        let margin = match self.margin_deg.is_finite() {
+            true => format!("{:.0}° from the nearest limit", self.margin_deg),
+            false => "no joint has a limit".to_owned(),
+        };
         let from_axis = self.washable_rho_m.map_or_else(String::new, |[near, far]| {
             format!(" from {near:.2} to {far:.2} m from axis 1,")
         });
@@ -608,7 +612,7 @@ impl RobotSuggestions {
         let written: String = written.collect();
         format!(
             "{robot} with the tool of {scenario}\n\n\
-             home\n  start_deg = {start_deg:?}\n  {near}; {margin:.0}° from the nearest limit; \
+             home\n  start_deg = {start_deg:?}\n  {near}; {margin}; \
              the tool {tilt:.1}° from straight onto the plates; the best of {clear} that are clear\n\n\
              plates of radius {radius:.0} mm with their faces at {height:.0} mm, by squares of {square:.0} mm\n  {washed}\n{sector}\n\
              pairs of links that need no check: {adjacent} adjacent, {touching} that touch in each of {samples} configurations{own}\n\

@@ -97,3 +97,15 @@ fn another_arm_alone_is_enough_for_a_proved_wash() {
     let again: Value = serde_json::from_str(&std::fs::read_to_string(dir.join("again/plan.json")).unwrap()).unwrap();
     assert_eq!(own["hash"], again["hash"]);
 }
+
+#[test]
+fn a_home_of_joints_without_limits_names_none() {
+    let folder = folder();
+    let dir = folder.path();
+    let endless = include_str!("../../urdf/irb120.urdf").replace("type=\"revolute\"", "type=\"continuous\"");
+    std::fs::write(dir.join("endless.urdf"), endless).unwrap();
+    let line = ["robot", "--suggest", "--urdf", "endless.urdf", "--tool-mount", "tool0"];
+    let ran = platewash(dir, &line);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    assert!(ran.stdout.contains("; no joint has a limit; "), "{}", ran.stdout);
+}
