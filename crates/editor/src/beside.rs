@@ -22,5 +22,5 @@ pub fn paper_beside(plan: &Plan, arm: &RobotModel) -> Option<Beside> {
     let report = run.report().ok()?;
     let is_swept = report.verdict == Verdict::Swept;
     let executed = ExecutedMotion::followed(&run.executed, job.simulation.law, &report.headline, is_swept);
-    Beside::new(&run.plan().ok()?, arm, &executed).ok()
+    Beside::new(run.plan().ok()?, arm, &executed).ok()
 }

@@ -303,7 +303,6 @@ fn keys_of_sections_that_are_not_there_are_refused() {
     assert!(matches!(nested, EditError::Blocked { line: 2, .. }), "{nested}");
 }
 
-/// Joints that are held still are a table: in braces, with a header of its own, or with dots.
 #[test]
 fn a_section_is_taken_out_with_its_comments() {
     let without = |text: &str, key: &str| {
@@ -347,6 +346,7 @@ fn a_section_is_taken_out_with_its_comments() {
     assert_eq!(draft.text(), text);
 }
 
+/// Joints that are held still are a table: in braces, with a header of its own, or with dots.
 #[test]
 fn positions_of_joints_are_a_table() {
     let all = json!({"rail": 0.3, "tip/finger 2": -2.0});

@@ -13,7 +13,7 @@ use crate::error::{Problem, ScenarioError};
 use crate::keys::fits::{check, unknown};
 use crate::keys::key::{Domain, Key};
 use crate::keys::value::{describe, describe_json, json_of};
-use crate::keys::{KEYS, LISTS, own_name};
+use crate::keys::{KEYS, LISTS, List, own_name};
 use crate::load::MAX_BYTES;
 use crate::scenario::Scenario;
 use platewash_workcell::words::printable;
@@ -70,7 +70,7 @@ impl Draft {
     /// [`EditError`]; the text stays as it was.
     pub fn set(&mut self, key: &str, value: Option<&Value>) -> Result<(), EditError> {
         let (text, key) = match (value, row(key)) {
-            (None, Some(row)) => (change::without_row(&self.text, row)?, key.to_owned()),
+            (None, Some((list, index))) => (change::without_row(&self.text, (list.name, index))?, key.to_owned()),
             _ => {
                 let (target, value) = Target::with_value(key, value)?;
                 let Some(text) = change::changed(&self.text, &target, value.as_ref())? else {
@@ -141,12 +141,12 @@ fn json_or_words(value: &DeValue<'_>) -> Value {
 }
 
 /// The list and the index of a section, as `obstacle[0]`; `None` for anything else.
-fn row(path: &str) -> Option<(&'static str, usize)> {
-    let (name, index) = path.strip_suffix(']')?.split_once('[')?;
+fn row(section: &str) -> Option<(&'static List, usize)> {
+    let (name, index) = section.strip_suffix(']')?.split_once('[')?;
     let list = LISTS.iter().find(|list| list.name == name)?;
     // No sign, and one way to write a number.
     let index = index.parse().ok().filter(|k: &usize| k.to_string() == index)?;
-    Some((list.name, index))
+    Some((list, index))
 }
 
 /// A key that is changed.
@@ -163,14 +163,11 @@ impl Target {
         if let Some(key) = KEYS.iter().find(|key| key.path == path) {
             return Some(Self { key, row: None });
         }
-        let (section, own) = path.split_once("].")?;
-        let (name, index) = row(&format!("{section}]"))?;
-        let list = LISTS.iter().find(|list| list.name == name)?;
+        let (section, own) = path.split_once('.')?;
+        let (list, index) = row(section)?;
         let key = list.keys.iter().find(|key| own_name(key) == own)?;
-        Some(Self {
-            key,
-            row: Some((name, index)),
-        })
+        let row = Some((list.name, index));
+        Some(Self { key, row })
     }
 
     /// The key that a path names, and a value as the key takes it: JSON has one type of numbers, so that where a whole one is wanted, one

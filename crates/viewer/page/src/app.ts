@@ -176,7 +176,7 @@ export class App {
     this.#controls.hold(stale);
     this.#stage.scene?.setStale(stale);
     this.#transport?.hold(stale);
-    this.#requirements.hold(stale);
+    this.#requirements.showInstead(stale ? this.#header.valid : null);
   }
 
   #makeTransport(): Transport {

@@ -140,3 +140,12 @@ test("foreign stored data are ignored", () => {
   tab.entries.set(key!, JSON.stringify({ steps: steps(2, 1), at: 99 }));
   assert.equal(new Keeper(tab, "a").load()?.at, 1);
 });
+
+test("sections are taken out after all other changes, those behind first", () => {
+  const remove = (k: number): { key: string; value: null } => ({ key: `obstacle[${k}]`, value: null });
+  const move = { key: "obstacle[1].at_m", value: [0.1, 0.2, 0.3] };
+  const reset = { key: "wash.turns", value: null };
+  const one = changed(changed({ text: "a", edits: [] }, [remove(0)]), [reset, move]);
+  assert.deepEqual(one.edits, [reset, move, remove(0)]);
+  assert.deepEqual(changed(one, [remove(2)]).edits, [reset, move, remove(2), remove(0)]);
+});

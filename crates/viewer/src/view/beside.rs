@@ -36,19 +36,15 @@ impl Beside {
     ///
     /// # Errors
     /// [`ViewError`] for a plan that is no motion, or another plan's motion.
-    pub fn new(plan: &Plan, robot: &RobotModel, executed: &ExecutedMotion) -> Result<Self, ViewError> {
-        let motion = plan.knots.motion()?;
-        let mut plan = plan.clone();
-        for segment in plan
+    pub fn new(mut plan: Plan, robot: &RobotModel, executed: &ExecutedMotion) -> Result<Self, ViewError> {
+        let washes = plan
             .segments
             .iter_mut()
-            .filter(|segment| segment.kind == SegmentKind::Wash)
-        {
-            // The program's report measures the way from the first waypoint of a plate on, without the step that leads there.
-            segment.t_start_s += JUST_AFTER_S;
-        }
-        let plan = &plan;
-        let shown = Execution::new(executed, plan, &Tips::new(plan, robot, &motion), None, CELLS)?;
+            .filter(|segment| segment.kind == SegmentKind::Wash);
+        // The program's report measures the way from the first waypoint of a plate on, without the step that leads there.
+        washes.for_each(|segment| segment.t_start_s += JUST_AFTER_S);
+        let motion = plan.knots.motion()?;
+        let shown = Execution::new(executed, &plan, &Tips::new(&plan, robot, &motion), None, CELLS)?;
         Ok(Self {
             headline: shown.told.headline.unwrap_or_default(),
             duration_s: plan.duration_s(),

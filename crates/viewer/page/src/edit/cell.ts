@@ -185,15 +185,9 @@ export class Cell {
     this.change(edits, label, burst);
   }
 
-  /** The changes that put a body there; none while another is taken away, behind which all are numbered anew. */
-  #putting(put: Put): Edit[] {
-    const removing = this.version.edits.some(({ key, value }) => value === null && key.endsWith("]"));
-    return removing ? [] : putting(this.seen.drawn?.moves?.bodies[put.body], put.centre_m);
-  }
-
   /** A body that stands around is somewhere else. */
   placeBody(put: Put, label: string, burst: string | null = null): void {
-    const edits = this.#putting(put);
+    const edits = putting(this.seen.drawn?.moves?.bodies[put.body], put.centre_m);
     if (edits.length === 0) return;
     this.#put = put;
     this.change(edits, label, burst);
@@ -218,7 +212,7 @@ export class Cell {
 
   /** A body that stands around is on its way. */
   dragBody(put: Put): void {
-    const edits = this.#putting(put);
+    const edits = putting(this.seen.drawn?.moves?.bodies[put.body], put.centre_m);
     if (edits.length === 0) return;
     this.#carry(edits);
     this.#put = put;

@@ -21,12 +21,18 @@ export function sameVersion(a: Version, b: Version): boolean {
   return a.edits.every((edit, k) => edit.key === b.edits[k]!.key && sameValue(edit.value, b.edits[k]!.value));
 }
 
-/** The version with more changes: the last change of a key counts. */
+/** Whether a change takes out a whole section, and when: the one behind first, so that the others keep their numbers. */
+function takenAt({ key, value }: Edit): number {
+  const section = value === null ? /\[(\d+)\]$/.exec(key)?.[1] : undefined;
+  return section === undefined ? 0 : Number.MAX_SAFE_INTEGER - Number(section);
+}
+
+/** The version with more changes: the last change of a key counts. Sections are taken out last: until then keys count them as they are drawn. */
 export function changed(version: Version, edits: readonly Edit[]): Version {
   const keys = new Set(edits.map(({ key }) => key));
   const kept = version.edits.filter(({ key }) => !keys.has(key));
   const last = edits.filter(({ key }, k) => edits.findLastIndex((one) => one.key === key) === k);
-  return { text: version.text, edits: [...kept, ...last] };
+  return { text: version.text, edits: [...kept, ...last].sort((a, b) => takenAt(a) - takenAt(b)) };
 }
 
 export interface Step {

@@ -59,8 +59,7 @@ export class Header {
   readonly #facts = el("dl", { class: "facts" });
   readonly #toAssumptions: () => void;
   #view: View;
-  /** The last document with a plan that is proved. */
-  #planned: View;
+  #valid: View;
   /** What is to be said in place of the view's own verdict. */
   #said: Verdict | null = null;
   /** Whether something is changed that the plan does not have. */
@@ -68,7 +67,7 @@ export class Header {
   #factsShown = "";
 
   constructor(view: View, tools: readonly HTMLElement[], toAssumptions: () => void) {
-    this.#view = this.#planned = view;
+    this.#view = this.#valid = view;
     this.#toAssumptions = toAssumptions;
     this.#root.replaceChildren(
       this.#badges,
@@ -82,8 +81,13 @@ export class Header {
   /** Is about another document. */
   replace(view: View): void {
     this.#view = view;
-    if (view.certificate?.passes === true) this.#planned = view;
+    if (view.certificate?.passes === true) this.#valid = view;
     this.update();
+  }
+
+  /** The last document that was proved; the first one where none was. */
+  get valid(): View {
+    return this.#valid;
   }
 
   /** Says a verdict in place of the document's own; null for that again. `stale`: something is changed that the plan does not have. */
@@ -118,7 +122,7 @@ export class Header {
 
   /** Cycle time and hash: made anew only where they differ, so that a button keeps its focus. */
   #showFacts(): void {
-    const view = this.#stale ? this.#planned : this.#view;
+    const view = this.#stale ? this.#valid : this.#view;
     const shown = JSON.stringify([this.#stale, view.heading, view.motion === null, view.certificate?.hash]);
     if (shown === this.#factsShown) return;
     this.#factsShown = shown;

@@ -80,11 +80,13 @@ export class Plates {
     this.#player = player;
     this.#coverages = coverages;
     this.#onPlate = onPlate;
+    this.scale.hidden = true;
   }
 
   /** The player shows another document: its plates are painted when they are shown. */
   replace(coverages: Coverages): void {
     this.#coverages = coverages;
+    this.scale.hidden = true;
     this.#observer?.disconnect();
     this.#cards = null;
   }
@@ -105,6 +107,7 @@ export class Plates {
 
   /** Shows or hides the scale of the heat map, which lies over the scene. */
   showScale(on: boolean): void {
+    if (on === !this.scale.hidden) return;
     this.scale.hidden = !on;
     if (!on) return;
     const { all } = this.#coverages;

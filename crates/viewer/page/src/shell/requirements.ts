@@ -92,11 +92,12 @@ function isBrief(check: Check): boolean {
   return check.status === "proved" && check.detail === "" && check.place === "" && Object.keys(check.worst).length === 0;
 }
 
-/** A formula of the documentation, drawn where its number is opened. */
+/** A formula of the documentation, drawn once its number is opened. */
 function formula(number: string): HTMLElement {
+  const element = el("details", { class: "formula" }, el("summary", {}, el("span", { class: "link" }, `formula (${number})`)));
   const math = (FORMULAS as Record<string, string>)[number] ?? "";
-  const drawn = [...new DOMParser().parseFromString(math, "text/html").body.childNodes];
-  return el("details", { class: "formula" }, el("summary", {}, el("span", { class: "link" }, `formula (${number})`)), ...drawn);
+  element.addEventListener("toggle", () => element.append(...new DOMParser().parseFromString(math, "text/html").body.childNodes), { once: true });
+  return element;
 }
 
 /** A requirement that opens: its sentence, whose its limit is, and how it is proved. */
@@ -126,27 +127,25 @@ export class Requirements {
   readonly #rows = new Map<Check, HTMLElement>();
   readonly #onSelect: (check: Check) => void;
   #view: View;
-  /** The last document that was proved. */
-  #valid: View;
-  #stale = false;
+  /** What is shown in place of a document of which nothing is proved; null for itself. */
+  #instead: View | null = null;
 
   constructor(view: View, onSelect: (check: Check) => void) {
     this.#onSelect = onSelect;
-    this.#view = this.#valid = view;
+    this.#view = view;
     this.#show(view);
   }
 
   /** Shows those of another document. */
   replace(view: View): void {
     this.#view = view;
-    if (view.certificate?.passes === true) this.#valid = view;
-    this.#show(this.#stale && view.certificate === null ? this.#valid : view);
+    this.#show(view.certificate === null ? (this.#instead ?? view) : view);
   }
 
-  /** Where something is changed that no plan has, and nothing is proved of it, shows those of the last plan that was. */
-  hold(stale: boolean): void {
-    if (stale === this.#stale) return;
-    this.#stale = stale;
+  /** Shows those of another document where nothing is proved of this one; null for none. */
+  showInstead(instead: View | null): void {
+    if (instead === this.#instead) return;
+    this.#instead = instead;
     if (this.#view.certificate === null) this.replace(this.#view);
   }
 
