@@ -16,7 +16,9 @@ for (const page of pages) {
     const math = /<math.*<\/math>/s.exec(set)[0].replace(/<annotation.*?<\/annotation>/s, "").replace(/<\/?semantics>/g, "");
     // Letters that slant by style: many machines have no font with slanted letters of their own.
     const plain = math.replace(/<mi>(.)<\/mi>/gu, '<mi class="letter" mathvariant="normal">$1</mi>');
-    formulas[number] = plain.replace('xmlns="http://www.w3.org/1998/Math/MathML" ', "");
+    // Signs that fonts for text have, too.
+    const common = plain.replaceAll("∥", "||").replaceAll("∣", "|").replaceAll("⋅", "·");
+    formulas[number] = common.replace('xmlns="http://www.w3.org/1998/Math/MathML" ', "");
   }
 }
 if (Object.keys(formulas).length === 0) throw new Error(`no formula with a number in ${pages.join(", ")}`);
