@@ -59,7 +59,8 @@ export class Header {
   readonly #facts = el("dl", { class: "facts" });
   readonly #toAssumptions: () => void;
   #view: View;
-  #valid: View;
+  /** The last document that was proved; the first one where none was. */
+  valid: View;
   /** What is to be said in place of the view's own verdict. */
   #said: Verdict | null = null;
   /** Whether something is changed that the plan does not have. */
@@ -67,7 +68,7 @@ export class Header {
   #factsShown = "";
 
   constructor(view: View, tools: readonly HTMLElement[], toAssumptions: () => void) {
-    this.#view = this.#valid = view;
+    this.#view = this.valid = view;
     this.#toAssumptions = toAssumptions;
     this.#root.replaceChildren(
       this.#badges,
@@ -81,13 +82,8 @@ export class Header {
   /** Is about another document. */
   replace(view: View): void {
     this.#view = view;
-    if (view.certificate?.passes === true) this.#valid = view;
+    if (view.certificate?.passes === true) this.valid = view;
     this.update();
-  }
-
-  /** The last document that was proved; the first one where none was. */
-  get valid(): View {
-    return this.#valid;
   }
 
   /** Says a verdict in place of the document's own; null for that again. `stale`: something is changed that the plan does not have. */
@@ -122,7 +118,7 @@ export class Header {
 
   /** Cycle time and hash: made anew only where they differ, so that a button keeps its focus. */
   #showFacts(): void {
-    const view = this.#stale ? this.#valid : this.#view;
+    const view = this.#stale ? this.valid : this.#view;
     const shown = JSON.stringify([this.#stale, view.heading, view.motion === null, view.certificate?.hash]);
     if (shown === this.#factsShown) return;
     this.#factsShown = shown;
