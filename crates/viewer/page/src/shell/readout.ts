@@ -9,8 +9,7 @@ import type { View } from "../view.ts";
 import { el, isolated, TextCell } from "./dom.ts";
 
 /** Half the step of the difference that gives the tip's speed [s], and the least. */
-const DIFFERENCE_S = 2e-3;
-const LEAST_DIFFERENCE_S = 1e-6;
+const [DIFFERENCE_S, LEAST_DIFFERENCE_S] = [2e-3, 1e-6] as const;
 /** Least time between two changes: faster than this nobody reads [ms]. */
 const READABLE_MS = 90;
 
