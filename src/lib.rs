@@ -21,7 +21,6 @@ mod motion_proof;
 mod motion_stop;
 mod report;
 mod spirals;
-mod sweep;
 
 // The command is written as a user of this library would write it.
 #[cfg(feature = "command")]
@@ -47,9 +46,9 @@ pub use platewash_certificate::{Certificate, Certified, Check, ProveError, Requi
 pub use platewash_planner::{PlanError, PlannedJob, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};
 pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};
+pub use platewash_study::sweep;
 pub use report::WashReport;
 pub use spirals::paper_spirals;
-pub use sweep::{SWEEP_HEADER, SweepRow, sweep, sweep_csv, sweep_each};
 
 // What they speak of.
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};

@@ -3,14 +3,14 @@
 use platewash::certificate::{Certificate, Requirement};
 use platewash::planner::{Activity, PlannedJob, Watch, plan_with};
 use platewash::scenario::RegionName;
-use platewash::study::Outcome;
+use platewash::study::{Outcome, Row};
 use platewash::workcell::cancel::CancelToken;
 use platewash::workcell::fixtures::is_thorough;
 use platewash::workcell::job::{OrderRule, Overlap};
 use platewash::workcell::verdict::Infeasibility;
-use platewash::{Failure, PlanError, Scenario, plan, prove, sweep};
+use platewash::{Failure, PlanError, Scenario, plan, prove};
 use rayon::prelude::*;
-use std::ops::RangeInclusive;
+use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::Mutex;
 
 fn planned(scenario: &Scenario) -> Result<PlannedJob, Failure> {
@@ -24,6 +24,11 @@ fn judged(scenario: &Scenario) -> (PlannedJob, Certificate) {
     (planned, certificate)
 }
 
+/// A row of each seed.
+pub fn rows(scenario: &Scenario, seeds: RangeInclusive<u64>) -> Result<Vec<Row>, Failure> {
+    platewash::sweep(scenario, seeds, &CancelToken::new(), &mut |_| ControlFlow::Continue(()))
+}
+
 /// Seeds of which each has a layout of its own.
 fn seeds() -> RangeInclusive<u64> {
     1..=if is_thorough() { 6 } else { 2 }
@@ -33,13 +38,13 @@ fn seeds() -> RangeInclusive<u64> {
 #[test]
 fn the_shipped_scenarios_are_proved() {
     for name in ["kitchen", "kitchen-spiral", "kitchen-roomy", "kitchen-rim", "sink"] {
-        let rows = sweep(&Scenario::load(name).unwrap(), seeds()).unwrap();
-        for row in rows {
+        let all = rows(&Scenario::load(name).unwrap(), seeds()).unwrap();
+        for row in all {
             assert_eq!(
                 row.outcome,
                 Outcome::Proved,
                 "{name}, seed {}: {:?}",
-                row.seed,
+                row.axes["seed"],
                 row.reason
             );
             assert!(
@@ -88,12 +93,12 @@ fn the_papers_spacing_is_washed_too() {
     scenario.layout.overlap = Overlap::Report;
     for region in [RegionName::Text, RegionName::Appendix] {
         scenario.layout.region = Some(region);
-        for row in sweep(&scenario, seeds()).unwrap() {
+        for row in rows(&scenario, seeds()).unwrap() {
             assert_eq!(
                 row.outcome,
                 Outcome::Proved,
                 "{region:?}, seed {}: {:?}",
-                row.seed,
+                row.axes["seed"],
                 row.reason
             );
         }
@@ -213,8 +218,8 @@ fn layouts_are_drawn_until_they_can_be_washed_where_the_scenario_asks() {
     scenario.layout.azimuth_deg = Some([-90.0, 90.0]);
     scenario.layout.count = 2;
     let proved = |scenario: &Scenario| {
-        let rows = sweep(scenario, 1..=8).unwrap();
-        rows.iter().filter(|row| row.outcome == Outcome::Proved).count()
+        let all = rows(scenario, 1..=8).unwrap();
+        all.iter().filter(|row| row.outcome == Outcome::Proved).count()
     };
     assert!(proved(&scenario) < 8);
     scenario.layout.only_washable = true;

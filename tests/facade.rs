@@ -84,7 +84,7 @@ fn the_facade_stays_small() {
         "{:?}",
         found.modules
     );
-    for name in ["Scenario", "plan", "prove", "simulate", "sweep_each"] {
+    for name in ["Scenario", "plan", "prove", "simulate", "sweep"] {
         assert!(
             found.items.iter().any(|item| item == name),
             "{name} is none of {:?}",

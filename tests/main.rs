@@ -18,6 +18,7 @@ mod faces;
 mod knots;
 mod looser_limits;
 mod mutation;
+mod page_types;
 mod plan_kinds;
 mod plate_files;
 mod programs;

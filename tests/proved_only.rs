@@ -1,9 +1,10 @@
 //! What must not be proved: jobs that would look washed if less were asked of a proof.
 
+use crate::certified::rows;
 use platewash::certificate::{Certificate, Requirement, Status, prove};
 use platewash::planner::{PlannedJob, plan};
 use platewash::workcell::job::Overlap;
-use platewash::{Plan, RobotModel, Scenario, WashReport, sweep};
+use platewash::{Plan, RobotModel, Scenario, WashReport};
 use serde_json::Value;
 use std::path::Path;
 
@@ -173,7 +174,7 @@ fn waived_requirements_are_in_the_first_line_and_data() {
             "{line}"
         );
     }
-    let rows = sweep(&scenario, 1..=1).unwrap();
+    let rows = rows(&scenario, 1..=1).unwrap();
     assert_eq!(rows[0].outcome.code(), "proved");
     assert!(rows[0].reason.as_ref().unwrap().contains(apart), "{:?}", rows[0].reason);
     // Nothing of the kind where nothing is waived.
@@ -455,7 +456,7 @@ fn rejects_seeds_and_indices_beyond_the_exact_integers_of_json() {
         said.contains("'job.seed' is 9007199254740993; expected a whole number from 0 to"),
         "{said}"
     );
-    let error = sweep(&one_plate(), ABOVE..=ABOVE).unwrap_err().to_string();
+    let error = rows(&one_plate(), ABOVE..=ABOVE).unwrap_err().to_string();
     assert!(error.contains("9007199254740991"), "{error}");
 }
 

@@ -2,7 +2,7 @@
 
 The page stands in a frame that `_cell.js` makes. Its questions come through the kernel's messages, are answered on threads, line by
 line, and what came of them are the traits of the cell. What page and planner say to each other is stated in
-`crates/viewer/page/src/edit/protocol.ts`; what `_cell.js` says beside it stands at its head.
+`crates/editor/src/protocol.rs`; what `_cell.js` says beside it stands at its head.
 """
 
 from __future__ import annotations

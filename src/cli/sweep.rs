@@ -8,14 +8,17 @@ use super::output::{self, Progress, Reader};
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use platewash::scenario::Program;
-use platewash::study::Outcome;
+use platewash::study::{Outcome, Row};
 use platewash::workcell::job::MAX_SEED;
-use platewash::{SWEEP_HEADER, Scenario, SweepRow, sweep_csv, sweep_each};
+use platewash::{Scenario, sweep};
 use std::io::IsTerminal;
 use std::ops::{ControlFlow, RangeInclusive};
 
 /// Most layouts of one call.
 const MOST_LAYOUTS: u64 = 100_000;
+
+/// First line of the table.
+const HEADER: &str = "seed,outcome,duration_s,swept,pressed,clearance_m,reason\n";
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
@@ -54,12 +57,15 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode> {
         // Nobody wants the other rows, nor a verdict about them.
         return Ok(ExitCode::Done);
     }
-    files.add("sweep.csv", sweep_csv(&rows));
+    files.add(
+        "sweep.csv",
+        HEADER.to_owned() + &rows.iter().map(csv_line).collect::<String>(),
+    );
     files.write(&options.cancel)?;
     if options.json {
         output::print(&output::json(&rows)?)?;
     }
-    let count = |outcome| rows.iter().filter(|row: &&SweepRow| row.outcome == outcome).count();
+    let count = |outcome| rows.iter().filter(|row: &&Row| row.outcome == outcome).count();
     let (total, proved, not_proved) = (rows.len(), count(Outcome::Proved), count(Outcome::NotProved));
     let [infeasible, not_found, failed] = [Outcome::Infeasible, Outcome::NotFound, Outcome::Error].map(count);
     options.say(&format!(
@@ -75,15 +81,28 @@ pub fn run(options: &Options, arguments: &SweepArguments) -> Result<ExitCode> {
     Ok(code.job(scenario.job.on_failure))
 }
 
+/// A row as a line of the table.
+fn csv_line(row: &Row) -> String {
+    let number = |v: Option<f64>| v.map(|v| v.to_string()).unwrap_or_default();
+    let numbers = [row.duration_s, row.swept, row.pressed, row.clearance_m]
+        .map(number)
+        .join(",");
+    let reason = row.reason.as_deref().unwrap_or_default().replace('"', "\"\"");
+    format!("{},{},{numbers},\"{reason}\"\n", row.axes["seed"], row.outcome.code())
+}
+
 /// The row to look at first, in words: one that is not proved, or else the one of the least clearance; and the slowest of those proved.
-fn worst_row_text(rows: &[SweepRow]) -> Option<String> {
+fn worst_row_text(rows: &[Row]) -> Option<String> {
     let others = rows.iter().filter(|row| row.outcome != Outcome::Proved);
     if let Some(row) = others.max_by_key(|row| row.outcome) {
         let reason = row.reason.as_ref().map(|reason| format!(": {reason}"));
-        let (seed, outcome) = (row.seed, row.outcome.code());
+        let (seed, outcome) = (&row.axes["seed"], row.outcome.code());
         return Some(format!("worst: seed {seed}, {outcome}{}", reason.unwrap_or_default()));
     }
-    let of = |number: fn(&SweepRow) -> Option<f64>| rows.iter().filter_map(move |row| Some((number(row)?, row.seed)));
+    let of = |number: fn(&Row) -> Option<f64>| {
+        rows.iter()
+            .filter_map(move |row| Some((number(row)?, &row.axes["seed"])))
+    };
     let (clearance_m, nearest) = of(|row| row.clearance_m).min_by(|a, b| a.0.total_cmp(&b.0))?;
     let (duration_s, slowest) = of(|row| row.duration_s).max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
@@ -94,13 +113,13 @@ fn worst_row_text(rows: &[SweepRow]) -> Option<String> {
 
 /// The rows; as text they are printed one by one, in the order of the seeds, as JSON in the end. Where nothing is written to a
 /// file, the rows end when the reader of standard output leaves.
-fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> Result<(Vec<SweepRow>, Reader)> {
+fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> Result<(Vec<Row>, Reader)> {
     let shows_rows = !options.json && std::io::stdout().is_terminal();
     let _progress = Progress::new(options.quiet || shows_rows, "planning and proving");
-    let (mut printed, mut header) = (Ok(Reader::There), Some(SWEEP_HEADER));
-    let mut print = |row: &SweepRow| {
+    let (mut printed, mut header) = (Ok(Reader::There), Some(HEADER));
+    let mut print = |row: &Row| {
         if !options.json && matches!(printed, Ok(Reader::There)) {
-            let line = header.take().unwrap_or_default().to_owned() + &row.csv_line();
+            let line = header.take().unwrap_or_default().to_owned() + &csv_line(row);
             printed = output::print(&output::text(&line));
         }
         match printed {
@@ -109,7 +128,7 @@ fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> R
             _ => ControlFlow::Break(()),
         }
     };
-    let rows = sweep_each(scenario, arguments.seeds.clone(), &options.cancel, &mut print);
+    let rows = sweep(scenario, arguments.seeds.clone(), &options.cancel, &mut print);
     let rows = rows.map_err(|error| options.failure(error))?;
     Ok((rows, printed?))
 }

@@ -51,11 +51,7 @@ PYTHON = {
     "WashReport": "Planned.report",
     "paper_spirals": "Plan.figure",
     "judged_motion": None,  # what `prove_motion` judges; its record says how long the stop takes
-    "SWEEP_HEADER": None,  # the columns are the records' keys
-    "SweepRow": "sweep",
     "sweep": "sweep",
-    "sweep_csv": None,  # pandas.DataFrame makes a table of the records
-    "sweep_each": "sweep",
     # What they speak of.
     "Axes": "Robot.jacobian",  # axes="base" or "local"
     "CancelToken": None,  # Ctrl-C

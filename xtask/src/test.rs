@@ -89,14 +89,12 @@ fn pages(in_browser: BrowserTests) -> Result<()> {
 
 /// Writes the pages that are made from the program: their tests write before they compare.
 pub fn docs() -> Result<()> {
-    let line = [
-        "test",
-        "--release",
-        "-p",
-        "platewash-scenario",
-        "--test",
-        "scenario",
-        "the_committed_page_is_current",
-    ];
-    Step::cargo("pages", &line).with("PLATEWASH_WRITE_DOCS", "1").run()
+    for (package, suite, test) in [
+        ("platewash-scenario", "scenario", "the_committed_page_is_current"),
+        ("platewash", "main", "the_types_of_the_page_are_those_of_rust"),
+    ] {
+        let line = ["test", "--release", "-p", package, "--test", suite, test];
+        Step::cargo("pages", &line).with("PLATEWASH_WRITE_DOCS", "1").run()?;
+    }
+    Ok(())
 }

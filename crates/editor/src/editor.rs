@@ -17,6 +17,7 @@ use platewash_workcell::cancel::{CancelToken, Clock, system_clock};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use ts_rs::TS;
 
 /// Reason that there is nothing to edit.
 #[derive(Debug, thiserror::Error)]
@@ -277,7 +278,7 @@ fn read<'a, Q: Deserialize<'a>>(question: &'a [u8]) -> Result<Q, String> {
 }
 
 /// Channel for the page's questions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 enum Channel {
     /// Questions go to the page's own address.
@@ -289,21 +290,28 @@ enum Channel {
 }
 
 /// First contents of a page: the arm at home, and the block of the live cell.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct FirstContents<'a> {
     view: View,
     edit: EditDocument<'a>,
 }
 
-/// The block.
-#[derive(Debug, Serialize)]
+/// The block of the live cell in a page.
+#[derive(Debug, Serialize, TS)]
 struct EditDocument<'a> {
+    /// [`FORMAT`].
     format: &'static str,
+    /// Channel for the page's questions.
     channel: Channel,
+    /// File that it is saved in, in words; `None` where it cannot be saved.
     file: Option<String>,
+    /// SHA-256 of that file's contents on disk; `None` where there are none.
     disk: Option<String>,
+    /// Contents of that file, where they are text.
     saved: Option<String>,
+    /// The scenario.
     text: &'a str,
+    /// The table of keys.
     keys: Vec<FormKey>,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The page holds the scenario, as the text of its file; an [`Editor`] answers its questions, each of which carries all that its
 //! answer needs. An answer is lines of JSON that are sent as they are known: the scenario, the parts of the cell, an outlook, the
-//! plan, its proof. `crates/viewer/page/src/edit/protocol.ts` states the same words for the page.
+//! plan, its proof. The page's TypeScript types are made from `protocol.rs`.
 //!
 //! | concept | file |
 //! | --- | --- |

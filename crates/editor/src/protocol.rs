@@ -1,4 +1,4 @@
-//! Questions of the page and lines of answers, as JSON: `platewash-edit/1`.
+//! Questions of the page and lines of answers, as JSON: `platewash-edit/1`. The page's TypeScript types are made from these.
 
 use crate::answer_writer::Milliseconds;
 use platewash_planner::Chance;
@@ -8,15 +8,16 @@ use platewash_workcell::trajectory::PlanSegment;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
+use ts_rs::TS;
 
 /// The format of the words.
 pub const FORMAT: &str = "platewash-edit/1";
 
 /// Question for the scenario with some changes, planned and proved.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct CellQuestion {
-    /// The page that asks.
+    /// The page that asks, by at most 64 letters and digits: its question ends those that it asked before.
     pub session: String,
     /// The scenario.
     pub text: String,
@@ -32,17 +33,18 @@ pub struct CellQuestion {
 }
 
 /// A change to a scenario.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Edit {
     /// The key.
     pub key: String,
     /// Its new value; `None` takes it out.
+    #[ts(type = "Value | null")]
     pub value: Option<Value>,
 }
 
 /// Last stage of the work for a question.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum LastStage {
     /// Up to the outlook.
@@ -52,7 +54,7 @@ pub enum LastStage {
 }
 
 /// Question for the places at which a plate could be washed, with the others in place.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct MapQuestion {
     /// The page that asks.
@@ -64,7 +66,7 @@ pub struct MapQuestion {
 }
 
 /// Question for the way on after a stop of the scenario's plan.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct RecoveryQuestion {
     /// The page that asks.
@@ -78,7 +80,7 @@ pub struct RecoveryQuestion {
 }
 
 /// Request to write the scenario, and its results beside it.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SaveQuestion {
     /// The page that asks.
@@ -92,7 +94,7 @@ pub struct SaveQuestion {
 }
 
 /// Question whether the file on disk has changed.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct DiskQuestion {
     /// The page that asks.
@@ -102,7 +104,7 @@ pub struct DiskQuestion {
 }
 
 /// A line of the answer to a [`CellQuestion`].
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum CellLine<'a> {
     /// The scenario with the changes.
@@ -110,15 +112,17 @@ pub enum CellLine<'a> {
         /// Its text, comments and order kept.
         text: &'a str,
         /// Values that the text states.
+        #[ts(type = "Record<string, Value>")]
         stated: &'a BTreeMap<String, Value>,
         /// Values in effect, defaults filled in; empty where it is no scenario.
+        #[ts(type = "Record<string, Value>")]
         values: &'a BTreeMap<String, Value>,
         /// Time that it took.
         ms: Milliseconds,
     },
     /// Parts of the cell that are known before anything is planned.
     Cell(Box<CellParts<'a>>),
-    /// A guess, plate by plate.
+    /// A guess, plate by plate: not planned, not proved.
     Preview {
         /// The plates.
         plates: Vec<PlateChance>,
@@ -165,7 +169,7 @@ pub enum CellLine<'a> {
 }
 
 /// Early end of an answer; nothing follows.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum EndLine<'a> {
     /// The text is no scenario, or states no job, or not the subject of the question.
@@ -186,7 +190,7 @@ pub enum EndLine<'a> {
 }
 
 /// Reason that a scenario is refused.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Refusal {
     /// In words.
     pub words: String,
@@ -197,7 +201,7 @@ pub struct Refusal {
 }
 
 /// Parts of a cell that are known before anything is planned.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct CellParts<'a> {
     /// Heading of the page.
     pub heading: &'a view::Heading,
@@ -228,7 +232,7 @@ pub struct CellParts<'a> {
 }
 
 /// Keys that move the things of a cell.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Moves {
     /// Plates.
     pub plates: PlateMoves,
@@ -237,7 +241,7 @@ pub struct Moves {
 }
 
 /// Part of the text that states the positions of plates.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 #[serde(tag = "by", rename_all = "snake_case")]
 pub enum PlateMoves {
     /// `layout.positions_m`, which lists all of them.
@@ -257,7 +261,7 @@ pub enum PlateMoves {
 }
 
 /// Key that states the position of a body around the arm.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct BodyMove {
     /// The key; none where it is not moved.
     pub key: Option<String>,
@@ -270,7 +274,7 @@ pub struct BodyMove {
 }
 
 /// An arm and its id.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct ArmLine<'a> {
     /// The id.
     pub id: &'a str,
@@ -279,7 +283,7 @@ pub struct ArmLine<'a> {
 }
 
 /// Finding on the layout of the plates.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct FindingLine {
     /// In words.
     pub words: String,
@@ -288,7 +292,7 @@ pub struct FindingLine {
 }
 
 /// Outlook for a plate.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct PlateChance {
     /// The plate.
     pub plate: usize,
@@ -299,7 +303,7 @@ pub struct PlateChance {
 }
 
 /// A plan as it is shown.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct PlanParts<'a> {
     /// Heading of the page.
     pub heading: &'a view::Heading,
@@ -320,7 +324,7 @@ pub struct PlanParts<'a> {
 }
 
 /// Area of a plate that is proved to be swept or, where the job states what counts as contact, pressed.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 pub struct PlateProof {
     /// The plate.
     pub plate: usize,
@@ -329,7 +333,7 @@ pub struct PlateProof {
 }
 
 /// A plate that cannot be washed, or that no way to wash was found for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct UnwashableReport {
     /// The plate.
     pub plate: usize,
@@ -348,10 +352,10 @@ pub struct UnwashableReport {
 }
 
 /// A line of the answer to a [`MapQuestion`].
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum MapLine<'a> {
-    /// Squares of one size.
+    /// Squares of one size; coarse ones come first.
     Map {
         /// Their edge \[m\].
         step_m: f64,
@@ -374,7 +378,7 @@ pub enum MapLine<'a> {
 }
 
 /// The answer to a [`RecoveryQuestion`].
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum RecoveryLine {
     /// The way home, and what is left.
@@ -393,7 +397,7 @@ pub enum RecoveryLine {
 }
 
 /// The answer to a [`SaveQuestion`].
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SaveLine<'a> {
     /// The text is on disk.
@@ -419,7 +423,7 @@ pub enum SaveLine<'a> {
 }
 
 /// The answer to a [`DiskQuestion`].
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename = "disk")]
 pub struct DiskLine<'a> {
     /// SHA-256 of the file on disk; `None` where there is none.
@@ -431,7 +435,7 @@ pub struct DiskLine<'a> {
 }
 
 /// Facts that a page needs after its server was replaced by another one.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename = "hello")]
 pub struct HelloLine<'a> {
     /// [`FORMAT`].

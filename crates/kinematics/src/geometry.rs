@@ -4,10 +4,12 @@ use crate::Pose;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+use ts_rs::TS;
 
 /// Convex shape in its own frame; lengths in metres.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[ts(rename = "Solid")]
 pub enum Shape {
     /// Box centred at the origin.
     Box {
@@ -36,6 +38,7 @@ pub enum Shape {
     /// Convex hull of points; collision meshes are treated as this.
     Hull {
         /// The mesh's vertices \[m\].
+        #[ts(as = "Vec<[f64; 3]>")]
         points: Vec<Point3<f64>>,
     },
 }

@@ -11,8 +11,9 @@ use numpy::PyArrayDyn;
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
 use platewash::scenario::Program;
+use platewash::study::Row;
 use platewash::workcell::words::{count_with_noun, quoted};
-use platewash::{Failure, PlannedJob, SweepRow, WashReport, sweep_each};
+use platewash::{Failure, PlannedJob, WashReport};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use rayon::prelude::*;
@@ -111,8 +112,9 @@ pub fn plan(py: Python<'_>, job: &Bound<'_, PyAny>, seed: Option<&Bound<'_, PyAn
     })
 }
 
-/// Plans and proves a scenario once a seed: one record a seed with `seed`, `outcome` (`"proved"`, `"not_proved"`,
-/// `"infeasible"`, `"not_found"`, `"error"`), `duration_s`, `transits_s`, `coverage`, `clearance_m` and `reason`. Works on all processors.
+/// Plans and proves a scenario once a seed: one record a seed, with the fields of a study's rows: `axes` (`{"seed": n}`), `outcome`
+/// (`"proved"`, `"not_proved"`, `"infeasible"`, `"not_found"`, `"error"`), `duration_s`, `swept`, `pressed`, `clearance_m`, `reason`
+/// and so on. Works on all processors.
 ///
 /// Raises InputError for a scenario of the paper's program; ScenarioError or PlanError for one that is wrong for every seed.
 #[pyfunction]
@@ -127,12 +129,9 @@ pub fn sweep<'py>(
     let rows = patiently(py, move |cancel| {
         let one = |&seed: &u64| {
             cancel.check()?;
-            sweep_each(&scenario, seed..=seed, cancel, &mut |_| ControlFlow::Continue(()))
+            platewash::sweep(&scenario, seed..=seed, cancel, &mut |_| ControlFlow::Continue(()))
         };
-        seeds
-            .par_iter()
-            .map(one)
-            .collect::<Result<Vec<Vec<SweepRow>>, Failure>>()
+        seeds.par_iter().map(one).collect::<Result<Vec<Vec<Row>>, Failure>>()
     })?;
     records(py, &rows.map_err(|e| errors::failure(py, &e))?.concat())
 }

@@ -37,7 +37,7 @@ mod units;
 pub use crate::draft::{Draft, EditError};
 pub use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, TextKind};
 pub use crate::failure::Failure;
-pub use crate::keys::document::{FormDomain, FormKey, form, reference};
+pub use crate::keys::document::{FormDomain, FormKey, FormRange, form, reference};
 pub use crate::keys::value::values_of;
 pub use crate::keys::{LISTS, List};
 pub use crate::load::{ScenarioSource, source};

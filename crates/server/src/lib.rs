@@ -36,7 +36,7 @@ pub use cell::cell_site;
 pub use error::ServerError;
 pub use feed::Feed;
 pub use listener::{Listener, Server};
-pub use live::{LiveEnd, LiveRun};
+pub use live::{LiveEnd, LiveRun, SamplesEvent, StateEvent};
 pub use service::{NoListener, QuestionLimits, Service};
 pub use site::{Page, PageMaker, Site};
 pub use token::token;

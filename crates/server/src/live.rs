@@ -4,11 +4,11 @@ use crate::answer::{self, Refusal};
 use crate::deadline::{Deadline, HEARTBEAT, LOOK, SHORT};
 use platewash_workcell::cancel::CancelToken;
 use serde::Serialize;
-use serde_json::json;
 use std::io::{Result, Write};
 use std::net::TcpStream;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use ts_rs::TS;
 
 /// A sample as the page takes it: t \[s\], six q \[rad\], six q̇ \[rad/s\], six torques \[N·m\], distance of the tip from the planned one \[m\].
 pub type Row = [f64; 20];
@@ -26,9 +26,9 @@ const ROWS_AN_EVENT: usize = 500;
 const RETRY_MS: u32 = 500;
 
 /// Progress of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
-enum LiveState {
+pub enum LiveState {
     /// The run has not begun.
     Waiting,
     /// The run is under way.
@@ -37,8 +37,22 @@ enum LiveState {
     Done,
 }
 
-/// Result of a run.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+/// Event `state`.
+#[derive(Debug, Serialize, TS)]
+pub struct StateEvent {
+    /// Progress of the run.
+    state: LiveState,
+}
+
+/// Event `samples`: its `id` is the index of the last one, so that a page that connects again gets what it missed.
+#[derive(Debug, Serialize, TS)]
+pub struct SamplesEvent {
+    /// Rows of `t_s`, six `q_rad`, six `qd_rad_s`, six `torque_n_m` (zeros under a kinematic law), `error_m`.
+    samples: Vec<Row>,
+}
+
+/// Result of a run, as the event `done`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, TS)]
 pub struct LiveEnd {
     /// The report's first line, or why there is none.
     pub headline: String,
@@ -152,21 +166,21 @@ impl LiveRun {
             let woken = self.changed.wait_timeout_while(told, HEARTBEAT, is_old);
             let told = woken.unwrap_or_else(PoisonError::into_inner).0;
             let (state, is_closed) = (told.state, told.is_closed);
-            let rows: Vec<Row> = told.rows.iter().skip(next).take(ROWS_AN_EVENT).copied().collect();
-            let end = told.end.clone().filter(|_| rows.is_empty());
+            let samples: Vec<Row> = told.rows.iter().skip(next).take(ROWS_AN_EVENT).copied().collect();
+            let end = told.end.clone().filter(|_| samples.is_empty());
             drop(told);
             if is_closed {
                 return Ok(());
             }
             // The end is sent after all samples.
-            let is_due = known != Some(state) && (state != LiveState::Done || rows.is_empty());
+            let is_due = known != Some(state) && (state != LiveState::Done || samples.is_empty());
             if is_due {
                 known = Some(state);
-                event(&mut out(), "state", None, &json!({ "state": state }))?;
+                event(&mut out(), "state", None, &StateEvent { state })?;
             }
-            if !rows.is_empty() {
-                next += rows.len();
-                event(&mut out(), "samples", Some(next - 1), &json!({ "samples": rows }))?;
+            if !samples.is_empty() {
+                next += samples.len();
+                event(&mut out(), "samples", Some(next - 1), &SamplesEvent { samples })?;
             } else if let Some(end) = end {
                 event(&mut out(), "done", None, &end)?;
                 self.tell(|told| told.know_the_end += 1);

@@ -9,6 +9,7 @@
 //! | the study: its file, axes and rows | `study`, `statement`, `axis` |
 //! | one row, planned and proved | `resolve`, `row` |
 //! | many rows at once | `run` |
+//! | a study of seeds alone, without a folder | `sweep` |
 //! | the folder: which rows are done, and how it goes on after a stop | `journal`, `lines`, `manifest`, `folder_reader` |
 //! | summary; errors | `summary`, `error` |
 
@@ -24,6 +25,7 @@ mod run;
 mod statement;
 mod study;
 mod summary;
+mod sweep;
 
 pub use axis::{Axis, AxisKind};
 pub use error::StudyError;
@@ -35,3 +37,4 @@ pub use row::{Outcome, Place, PlanChoice, ROW_SCHEMA, Row, RowWithPlan};
 pub use run::{Progress, run};
 pub use study::{Base, MOST_ROWS, PartsFile, RowAddress, Study, StudyParts};
 pub use summary::{AxisValue, Summary, summary};
+pub use sweep::sweep;

@@ -44,6 +44,18 @@ pub fn judged(
     Ok((planned, certificate))
 }
 
+/// A row with the results of its layout, and the plan where there is one; `None` where it was given up.
+pub(crate) fn row_of(
+    row: Row,
+    judged: Result<(PlannedJob, Certificate), Failure>,
+) -> Option<(Row, Option<PlannedJob>)> {
+    match judged {
+        Ok((planned, certificate)) => Some((row.planned(&planned, &certificate), Some(planned))),
+        Err(error) if error.is_cancelled() => None,
+        Err(error) => Some((row.failed(&error), None)),
+    }
+}
+
 /// Makes rows of a study. It keeps data that many rows share: arms, and the scenario of rows that differ in their seed alone.
 pub struct Resolver {
     study: Arc<Study>,
@@ -94,10 +106,9 @@ impl Resolver {
         let judged = self
             .arm(&scenario)
             .and_then(|arm| (self.judge)(&scenario, &arm, cancel));
-        match judged {
-            Ok((planned, certificate)) => Some(self.row_with_plan(row.planned(&planned, &certificate), &planned)),
-            Err(error) if error.is_cancelled() => None,
-            Err(error) => Some(row.failed(&error).into()),
+        match row_of(row, judged)? {
+            (row, Some(planned)) => Some(self.row_with_plan(row, &planned)),
+            (row, None) => Some(row.into()),
         }
     }
 

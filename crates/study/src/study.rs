@@ -70,6 +70,16 @@ pub struct RowAddress {
     pub key: String,
 }
 
+impl RowAddress {
+    /// Address of the row with these values; `name` is that of its scenario.
+    pub(crate) fn new(base: usize, name: &str, axes: BTreeMap<String, Value>) -> Self {
+        let values: Vec<_> = axes.iter().map(|(key, v)| format!("{key}={}", canonical(v))).collect();
+        let words = format!("{name}\n{}", values.join("\n"));
+        let key = sha256_hex(words.as_bytes())[..16].to_owned();
+        Self { base, axes, key }
+    }
+}
+
 /// A study as data, for a reader without its files.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -284,10 +294,7 @@ impl Study {
             rest /= count;
         }
         let base = rest as usize;
-        let values: Vec<_> = axes.iter().map(|(key, v)| format!("{key}={}", canonical(v))).collect();
-        let words = format!("{}\n{}", self.bases[base].name, values.join("\n"));
-        let key = sha256_hex(words.as_bytes())[..16].to_owned();
-        Ok(RowAddress { base, axes, key })
+        Ok(RowAddress::new(base, &self.bases[base].name, axes))
     }
 
     /// A row that is not worked on, with why.

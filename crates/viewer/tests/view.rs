@@ -490,55 +490,6 @@ fn rejects_invalid_plans_and_shows_unusual_ones() {
     assert_eq!(followed.paths.len(), 4);
 }
 
-/// Every field that `view.ts` states of a type is in the document, but for those that it says may be left out.
-#[test]
-fn the_document_has_the_fields_that_its_readers_expect() {
-    let source = include_str!("../page/src/view.ts");
-    let fields = |name: &str| -> BTreeSet<String> {
-        let (_, body) = source
-            .split_once(&format!("export interface {name} {{\n"))
-            .unwrap_or_else(|| panic!("{name}"));
-        let (body, _) = body.split_once("\n}").unwrap();
-        let field = |line: &str| {
-            let (name, _) = line.strip_prefix("  ")?.split_once(": ")?;
-            name.chars()
-                .all(|c| c.is_ascii_alphanumeric() || c == '_')
-                .then(|| name.to_owned())
-        };
-        body.lines().filter_map(field).collect()
-    };
-    let document = KITCHEN.document();
-    let at = [
-        ("View", ""),
-        ("Heading", "/heading"),
-        ("Certificate", "/certificate"),
-        ("Check", "/certificate/checks/0"),
-        ("Arm", "/arm"),
-        ("Joint", "/arm/joints/0"),
-        ("Link", "/arm/links/0"),
-        ("Body", "/arm/links/0/visuals/0"),
-        ("Pose", "/arm/flange"),
-        ("Tool", "/tool"),
-        ("Surroundings", "/surroundings"),
-        ("Plate", "/plates/0"),
-        ("WashPath", "/paths/0"),
-        ("Segment", "/segments/0"),
-        ("Motion", "/motion"),
-        ("Clearance", "/clearance"),
-        ("PlateCoverage", "/coverage/0"),
-        ("Execution", "/execution"),
-    ];
-    for (name, pointer) in at {
-        let found = document.pointer(pointer).unwrap_or_else(|| panic!("{pointer}"));
-        let found: BTreeSet<String> = found.as_object().unwrap().keys().cloned().collect();
-        let missing: Vec<_> = fields(name)
-            .into_iter()
-            .filter(|field| !found.contains(field))
-            .collect();
-        assert!(missing.is_empty() && !found.is_empty(), "{name}: {missing:?}");
-    }
-}
-
 /// Whatever the plan is called: what it states of itself is told.
 #[test]
 fn the_document_of_a_dry_run_says_so() {

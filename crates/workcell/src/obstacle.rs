@@ -5,12 +5,13 @@ use nalgebra::{Point3, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Greatest margin of an obstacle \[m\].
 const GREATEST_MARGIN_M: f64 = 1.0;
 
 /// Fixed body that must not be touched.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// Name, for messages.
@@ -19,6 +20,7 @@ pub struct Obstacle {
     pub shape: ObstacleShape,
     /// Pose in the world frame, `T_world_obstacle`.
     #[serde(with = "pose")]
+    #[ts(as = "pose::PoseFields")]
     pub pose: Pose,
     /// Margin added around the shape, beyond the clearance that the job requires \[m\]. Distances to the obstacle are measured from the
     /// grown shape. Left out of files if it is 0.
@@ -30,7 +32,7 @@ pub struct Obstacle {
 }
 
 /// Shape of an obstacle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum ObstacleShape {
     /// Half-space z ≤ 0.
@@ -38,7 +40,7 @@ pub enum ObstacleShape {
     /// Convex body.
     Convex(Shape),
     /// Union of the convex hulls of some lists of points \[m\].
-    Parts(Vec<Vec<Point3<f64>>>),
+    Parts(#[ts(as = "Vec<Vec<[f64; 3]>>")] Vec<Vec<Point3<f64>>>),
 }
 
 impl ObstacleShape {

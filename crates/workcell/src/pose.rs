@@ -4,6 +4,7 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash_kinematics::Pose;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use ts_rs::TS;
 
 /// Greatest difference of a quaternion's norm from 1.
 const UNIT: f64 = 1e-9;
@@ -18,10 +19,14 @@ fn is_unit(q: &Quaternion<f64>) -> bool {
     (q.norm() - 1.0).abs() <= UNIT
 }
 
-#[derive(Serialize, Deserialize)]
+/// `T_a_b`: pose of b in the frame a.
+#[derive(Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
-struct PoseFields {
+#[ts(rename = "Pose")]
+pub struct PoseFields {
+    /// Origin of b \[m\].
     position_m: [f64; 3],
+    /// Axes of b, as a unit quaternion.
     quaternion_wxyz: [f64; 4],
 }
 

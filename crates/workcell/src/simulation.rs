@@ -2,6 +2,7 @@
 
 use crate::tool::Sponge;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Control law, gains and plant of a simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,7 +31,7 @@ impl SimulationSettings {
 }
 
 /// Control laws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum ControlLawName {
     /// The paper's law, unchanged: it moves positions, without a plant.

@@ -10,12 +10,13 @@ use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_1_SQRT_2;
+use ts_rs::TS;
 
 /// Greatest overlap of bodies that counts as touching: the rounding of positions \[m\].
 const ROUNDING_M: f64 = 1e-9;
 
 /// Tool of an arm.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
     /// Link behind joint 6 that carries the tool, and its axis along which the tool leaves it, as the text of a
@@ -28,13 +29,14 @@ pub struct Tool {
     pub sponge: Sponge,
     /// Pose of the tip, `T_flange_tip`: the centre of the sponge's far face, with z out of the tool; the mounting frame without a tool.
     #[serde(with = "pose")]
+    #[ts(as = "pose::PoseFields")]
     pub tip: Pose,
     /// Mass of all bodies together; `None` for none.
     pub mass: Option<ToolMass>,
 }
 
 /// Body of a tool.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ToolBody {
     /// Name, for messages.
@@ -43,12 +45,14 @@ pub struct ToolBody {
     pub shape: Shape,
     /// Pose in the mounting frame, `T_flange_body`.
     #[serde(with = "pose")]
+    #[ts(as = "pose::PoseFields")]
     pub pose: Pose,
 }
 
 /// Sponge: a cylinder whose height can be compressed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
+#[ts(optional_fields)]
 pub struct Sponge {
     /// Radius \[m\]. It also determines coverage.
     pub radius_m: f64,
@@ -62,6 +66,7 @@ pub struct Sponge {
     pub stiffness_pa: Option<[f64; 2]>,
     /// Pose while it washes, `T_flange_sponge`: its middle, with z along its axis.
     #[serde(with = "pose")]
+    #[ts(as = "pose::PoseFields")]
     pub pose: Pose,
 }
 
@@ -77,7 +82,7 @@ pub enum Touch {
 }
 
 /// Mass properties of a tool.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ToolMass {
     /// Mass \[kg\]: an assumption.

@@ -7,6 +7,7 @@
 
 use platewash_kinematics::{AXES, JointVector};
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Knots of a motion; times ascend strictly from 0.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -248,7 +249,7 @@ impl Cubic {
 }
 
 /// Kind of a segment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum SegmentKind {
     /// From the start to the first approach, or to the first waypoint.
@@ -287,7 +288,7 @@ impl SegmentKind {
 }
 
 /// Segment of a plan in time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct PlanSegment {
     /// Kind of the segment.

@@ -4,9 +4,10 @@ use crate::report::requirement::Requirement;
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::SegmentKind;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Result of a check.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// The requirement holds at every moment.
@@ -28,7 +29,7 @@ impl Status {
 }
 
 /// Unit of a measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
 pub enum Unit {
     /// Radians.
     #[serde(rename = "rad")]
@@ -60,7 +61,7 @@ pub enum Unit {
 }
 
 /// Side of its limit on which a measure must stay.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Sense {
     /// Not above the limit.
@@ -72,7 +73,7 @@ pub enum Sense {
 }
 
 /// A quantity bounded over the whole motion. The true extreme lies between `seen` and `bound`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 pub struct Measure {
     /// Proved bound; `None` where nothing finite is proved.
     pub bound: Option<f64>,
@@ -87,8 +88,9 @@ pub struct Measure {
 }
 
 /// Position and time of the worst case. Fields that do not apply are `None`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, TS)]
 #[serde(default)]
+#[ts(optional_fields)]
 pub struct WorstCase {
     /// Time \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,7 +113,7 @@ pub struct WorstCase {
 }
 
 /// Statement of a plan that is not as it must be for its job and the arm.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error, TS)]
 #[error("{what}: {stated}; expected {expected}")]
 pub struct Discrepancy {
     /// Name of the field, as in the file.
@@ -123,9 +125,11 @@ pub struct Discrepancy {
 }
 
 /// A requirement with the result of its check.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
+#[ts(optional_fields)]
 pub struct Check {
     /// The requirement.
+    #[ts(as = "String")]
     pub requirement: Requirement,
     /// Result of the check.
     pub status: Status,
@@ -136,9 +140,11 @@ pub struct Check {
     pub worst: WorstCase,
     /// Discrepancies, for requirements about statements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[ts(as = "Option<Vec<Discrepancy>>")]
     pub discrepancies: Vec<Discrepancy>,
     /// Number of further discrepancies beyond those listed.
     #[serde(default, skip_serializing_if = "is_none")]
+    #[ts(as = "Option<usize>")]
     pub more_discrepancies: usize,
 }
 

@@ -5,9 +5,10 @@ use crate::report::requirement::Requirement;
 use crate::report::verdict_basis::VerdictBasis;
 use platewash_kinematics::trig::atan2;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Explanation of a requirement to readers of its check.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, TS)]
 pub struct Explanation {
     /// The requirement in a sentence.
     pub sentence: &'static str,

@@ -19,6 +19,7 @@ use platewash_workcell::coverage::reaches;
 use platewash_workcell::job::{ContactRequirements, HolderTerms};
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Edges of the smallest cells \[m\]. Each is used where the ones before it do not suffice.
 pub(crate) const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
@@ -28,7 +29,8 @@ pub(crate) const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 const SMALLEST_CELL_M: f64 = 6.25e-5;
 
 /// Proved share of a plate's face.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
+#[ts(optional_fields)]
 pub struct ProvedShare {
     /// Lower bound on the share of the face, by area, that gets `threshold` or more.
     pub at_least: f64,
@@ -45,7 +47,8 @@ pub struct ProvedShare {
 }
 
 /// Extreme of a quantity over a wash: a proved bound and an attained value.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
+#[ts(optional_fields)]
 pub struct ProvedExtreme {
     /// Proved bound of the quantity; `None` where nothing is proved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -61,7 +64,8 @@ pub struct ProvedExtreme {
 
 /// Proved bounds of the contact between the sponge and a plate from approach to retreat. They hold for every plate height within the stated
 /// error and every sponge stiffness in the stated range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
+#[ts(optional_fields)]
 pub struct PlateContact {
     /// Index of the plate.
     pub plate: usize,

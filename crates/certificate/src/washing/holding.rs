@@ -36,6 +36,7 @@ use platewash_workcell::contact::Foundation;
 use platewash_workcell::job::{HolderTerms, RingTerms};
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Acceleration of gravity, down in the world \[m/s²\].
 const GRAVITY_M_S2: f64 = 9.81;
@@ -45,7 +46,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// Upper bounds of the load on what holds a plate, from approach to retreat: for every plate height within the stated error and every sponge
 /// stiffness in the stated range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
+#[ts(optional_fields)]
 pub struct HolderLoad {
     /// Friction coefficients of the sponge on the plate, least and greatest: assumptions. The loads below are for each of both.
     pub sponge_friction: [f64; 2],
@@ -62,7 +64,8 @@ pub struct HolderLoad {
 }
 
 /// Upper bounds of what a ring bears, as shares of what it can. Each is `None` where nothing is proved.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, TS)]
+#[ts(optional_fields)]
 pub struct RingShares {
     /// Distance from the axis of the centre of what presses the plate down, over the ring's radius. At 1 the plate may tip.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -18,6 +18,7 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
 use serde::Serialize;
 use std::f64::consts::TAU;
+use ts_rs::TS;
 
 /// Plate for which another place is checked.
 #[derive(Debug, Clone, Copy)]
@@ -204,7 +205,7 @@ pub(crate) fn on_grid(place: &Vector2<f64>) -> Vector2<f64> {
 const BOUND_SLACK_M: f64 = 1e-9;
 
 /// The chance that a plate can be washed whole: nothing is planned, nothing proved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Chance {
     /// A policy of tilts washes it from end to end. The way of the arm there and back was not checked.

@@ -7,8 +7,9 @@ use crate::keys::value::{on_one_line, values_of};
 use crate::keys::{KEYS, LISTS};
 use crate::scenario::Scenario;
 use serde::Serialize;
-use serde_json::{Number, Value};
+use serde_json::Value;
 use std::fmt::Write;
+use ts_rs::TS;
 
 /// Markdown reference of every key: unit, default, range, meaning.
 #[must_use]
@@ -69,7 +70,7 @@ the floor is at z = 0 unless floor.height_m does. Where a key is in another fram
 ";
 
 /// A row of the table of keys.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct FormKey {
     /// Dotted path.
     pub path: &'static str,
@@ -82,23 +83,66 @@ pub struct FormKey {
     /// Meaning of the key.
     pub meaning: &'static str,
     /// Its value where a file states none; `None` where it has no default.
+    #[ts(type = "Value | null")]
     pub default: Option<Value>,
 }
 
-/// Domain of a key's values.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FormDomain {
-    /// The kind of [`Domain`], in lower case with underscores.
-    pub kind: &'static str,
-    /// The words that it can be, where it is one of some.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub words: Option<&'static [&'static str]>,
+/// Domain of a key's values, with the control that it asks for.
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum FormDomain {
+    /// Text.
+    Text,
+    /// A path.
+    Path,
+    /// Paths or names, which are typed alike.
+    Paths,
+    /// `true` or `false`.
+    Bool,
+    /// One of some words.
+    Word {
+        /// The words.
+        words: &'static [&'static str],
+    },
+    /// A whole number.
+    Integer {
+        /// The least one.
+        least: i64,
+        /// The greatest one.
+        most: i64,
+    },
+    /// A number.
+    Number(FormRange),
+    /// A number above the least one.
+    NumberAbove(FormRange),
+    /// Two numbers, the first below the second.
+    Range(FormRange),
+    /// Six numbers.
+    Joints(FormRange),
+    /// Six numbers, each above the least one.
+    JointsAbove(FormRange),
+    /// Two numbers.
+    Pair(FormRange),
+    /// Two numbers, each above the least one.
+    PairAbove(FormRange),
+    /// Three numbers.
+    Triple(FormRange),
+    /// Three numbers, each above the least one.
+    TripleAbove(FormRange),
+    /// Pairs of numbers; which of them are knots is for the scenario to say.
+    Points(FormRange),
+    /// Numbers by name.
+    Positions(FormRange),
+}
+
+/// Range of numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, TS)]
+pub struct FormRange {
     /// The least number; of kinds that end in `_above` it is not reached.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub least: Option<Number>,
+    pub least: f64,
     /// The greatest number.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub most: Option<Number>,
+    pub most: f64,
 }
 
 /// Every key, in the order of the reference.
@@ -117,47 +161,26 @@ pub fn form() -> Vec<FormKey> {
 }
 
 fn form_domain(domain: Domain) -> FormDomain {
-    let bare = |kind| FormDomain {
-        kind,
-        words: None,
-        least: None,
-        most: None,
-    };
-    let between = |kind, least, most| FormDomain {
-        least: Number::from_f64(least),
-        most: Number::from_f64(most),
-        ..bare(kind)
-    };
+    let range = |least, most| FormRange { least, most };
     match domain {
-        Domain::Text => bare("text"),
-        Domain::Path => bare("path"),
-        // Names are typed as paths are.
-        Domain::Paths | Domain::Names => bare("paths"),
-        Domain::Positions(least, most) => between("positions", least, most),
-        Domain::Bool => bare("bool"),
-        Domain::Word(words) => FormDomain {
-            words: Some(words),
-            ..bare("word")
-        },
-        Domain::Integer(least, most) => FormDomain {
-            least: Some(least.into()),
-            most: Some(most.into()),
-            ..bare("integer")
-        },
-        Domain::Number(least, most) => between("number", least, most),
-        Domain::NumberAbove(above, most) => between("number_above", above, most),
-        Domain::Range(least, most) => between("range", least, most),
-        Domain::Joints(least, most) => between("joints", least, most),
-        Domain::JointsAbove(above, most) => between("joints_above", above, most),
-        Domain::Points(least, most) => between("points", least, most),
-        Domain::PairAbove(above, most) => between("pair_above", above, most),
-        Domain::Pair(least, most) => between("pair", least, most),
-        Domain::Scale(least, most) => between("triple", least, most),
-        Domain::Plates => bare("text"),
-        Domain::Triple(least, most) => between("triple", least, most),
-        Domain::TripleAbove(above, most) => between("triple_above", above, most),
-        // Pairs, too; which of them are knots is for the scenario to say.
-        Domain::Knots(most_m, most_deg) => between("points", -most_m.max(most_deg), most_m.max(most_deg)),
+        Domain::Text | Domain::Plates => FormDomain::Text,
+        Domain::Path => FormDomain::Path,
+        Domain::Paths | Domain::Names => FormDomain::Paths,
+        Domain::Positions(least, most) => FormDomain::Positions(range(least, most)),
+        Domain::Bool => FormDomain::Bool,
+        Domain::Word(words) => FormDomain::Word { words },
+        Domain::Integer(least, most) => FormDomain::Integer { least, most },
+        Domain::Number(least, most) => FormDomain::Number(range(least, most)),
+        Domain::NumberAbove(above, most) => FormDomain::NumberAbove(range(above, most)),
+        Domain::Range(least, most) => FormDomain::Range(range(least, most)),
+        Domain::Joints(least, most) => FormDomain::Joints(range(least, most)),
+        Domain::JointsAbove(above, most) => FormDomain::JointsAbove(range(above, most)),
+        Domain::Points(least, most) => FormDomain::Points(range(least, most)),
+        Domain::PairAbove(above, most) => FormDomain::PairAbove(range(above, most)),
+        Domain::Pair(least, most) => FormDomain::Pair(range(least, most)),
+        Domain::Triple(least, most) | Domain::Scale(least, most) => FormDomain::Triple(range(least, most)),
+        Domain::TripleAbove(above, most) => FormDomain::TripleAbove(range(above, most)),
+        Domain::Knots(most_m, most_deg) => FormDomain::Points(range(-most_m.max(most_deg), most_m.max(most_deg))),
     }
 }
 

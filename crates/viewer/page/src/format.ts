@@ -1,5 +1,5 @@
 /** Numbers and the parts of a motion in words, for people. */
-import type { Plate, Segment, SegmentKind, View } from "./view.ts";
+import type { PlanSegment, Plate, SegmentKind, View } from "./view.ts";
 
 const MINUS = "\u2212";
 const NARROW_SPACE = "\u202f";
@@ -80,7 +80,7 @@ export function plateNumber(plates: readonly Plate[], index: number): string {
 }
 
 /** What the arm does in a segment. */
-export function segmentWords(segment: Segment, { heading, plates }: Pick<View, "heading" | "plates">): string {
+export function segmentWords(segment: PlanSegment, { heading, plates }: Pick<View, "heading" | "plates">): string {
   const names = heading.dry_run === null ? NAMES : IN_AIR;
   const plate = plates[segment.plate];
   if (segment.kind === "depart" || segment.kind === "return") return names[segment.kind];
@@ -89,7 +89,7 @@ export function segmentWords(segment: Segment, { heading, plates }: Pick<View, "
 }
 
 /** The segment at `t`, searched from `hint` on; -1 where there is none. Segments are in order of time. */
-export function segmentAt(segments: readonly Segment[], t: number, hint: number): number {
+export function segmentAt(segments: readonly PlanSegment[], t: number, hint: number): number {
   const fits = (k: number): boolean => {
     const segment = segments[k];
     return segment !== undefined && segment.t_start_s <= t && t < segment.t_end_s;

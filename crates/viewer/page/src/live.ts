@@ -1,7 +1,7 @@
 /** A live run's events (see the end of `view.ts`), and how its samples get into the player and the scene. */
 import { AXES } from "./motion.ts";
 import type { Player } from "./player.ts";
-import type { LiveEnd, LiveSamples, LiveState } from "./view.ts";
+import type { LiveEnd, LiveState, SamplesEvent } from "./view.ts";
 
 /** How it stands: `connecting` before the first word of the server, `reconnecting` after a connection that was lost. */
 export type LivePhase = "connecting" | "waiting" | "running" | "reconnecting" | "done";
@@ -41,13 +41,13 @@ function parse(data: unknown): Record<string, unknown> | null {
 }
 
 /** A `state` event; null for what is none. */
-export function parseState(data: unknown): LiveState["state"] | null {
+export function parseState(data: unknown): LiveState | null {
   const state = parse(data)?.["state"];
   return state === "waiting" || state === "running" || state === "done" ? state : null;
 }
 
 /** The rows of a `samples` event: only those that are lists of numbers. */
-export function parseSamples(data: unknown): LiveSamples["samples"] {
+export function parseSamples(data: unknown): SamplesEvent["samples"] {
   const rows = parse(data)?.["samples"];
   if (!Array.isArray(rows)) return [];
   return rows.filter((row): row is number[] => Array.isArray(row) && row.every((value) => typeof value === "number"));

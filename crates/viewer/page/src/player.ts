@@ -6,7 +6,7 @@ import type { LivePhase } from "./live.ts";
 import { AXES, type JointState, Motion, newState } from "./motion.ts";
 import { Recording } from "./recording.ts";
 import type { Shown } from "./scene/index.ts";
-import type { Segment, View } from "./view.ts";
+import type { PlanSegment, View } from "./view.ts";
 
 /** Whose joints the arm shows. */
 export type Follows = "planned" | "executed";
@@ -134,7 +134,7 @@ export class Player {
   }
 
   /** The segment at the time shown; null between segments. */
-  get segment(): Segment | null {
+  get segment(): PlanSegment | null {
     const found = segmentAt(this.view.segments, this.time, this.#segment);
     if (found >= 0) this.#segment = found;
     return this.view.segments[found] ?? null;

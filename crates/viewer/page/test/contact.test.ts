@@ -5,15 +5,18 @@ import { fixedShort } from "../src/format.ts";
 import { contactWords, forceWords } from "../src/shell/requirements.ts";
 import { meaning } from "../src/shell/plates.ts";
 import type { Coverage } from "../src/coverage.ts";
-import type { Contact, Counted, Plate } from "../src/view.ts";
+import type { Contact, Plate, PressedRule, ProvedExtreme, ProvedShare } from "../src/view.ts";
 import { pose } from "./irb120.ts";
+
+const share = (at_least: number): ProvedShare => ({ at_least, required: 0.98, threshold: 0 });
+const extreme = (bound: number): ProvedExtreme => ({ bound, time_s: 0, place_m: [0, 0, 0] });
 
 const CONTACT: Contact = {
   asked: {
     compression_m: 0.001, height_error_m: 0.0015, share: 0.995, strain: 0.6, force_n: [1, 40], time_s: 0.05, time_share: 0.98, dose_pa_m: 25, dose_share: 0.98,
   },
-  plates: [{ plate: 0, pressed: { at_least: 1 }, time: { at_least: 0.99 }, dose: { at_least: 0.99 }, strain: { bound: 0.41 }, least_force_n: { bound: 4.06 },
-    greatest_force_n: { bound: 22.01 }, friction_torque_nm: [0.0912, 0.301], }],
+  plates: [{ plate: 0, pressed: share(1), time: share(0.99), dose: share(0.99), strain: extreme(0.41), least_force_n: extreme(4.06),
+    greatest_force_n: extreme(22.01), friction_torque_nm: [0.0912, 0.301], }],
 };
 
 test("numbers are as short as they can be", () => {
@@ -37,7 +40,7 @@ test("a torque is stated only where it is proved of every plate", () => {
 });
 
 test("maps say what they show", () => {
-  const of = (...counted: (Counted | null)[]): string => meaning(counted.map((one) => ({ counted: one }) as Coverage));
+  const of = (...counted: (PressedRule | null)[]): string => meaning(counted.map((one) => ({ counted: one }) as Coverage));
   const promised = { compression_m: 0.001, height_error_m: 0.001, is_promised: true };
   const touched = { compression_m: 0, height_error_m: 0, is_promised: false };
   assert.match(of(promised), /pressed by 1\u202fmm or more, wherever within ±1\u202fmm/);
@@ -58,7 +61,7 @@ function lowest(plate: Plate, radius: number): [number, number] {
 }
 
 test("a foot stands below the body under the pole, and its side ends at the body", () => {
-  const plate: Plate = { name: "plate", pose: pose([0, 0, 0]), meridian_m: [[0, 0], [0.06, 0], [0.1, 0.02]], thickness_m: 0.005, foot: { radius_m: 0.05, height_m: 0.004 } };
+  const plate: Plate = { name: "plate", pose: pose([0, 0, 0]), surface: { meridian: "disc", radius_m: 0.1 }, meridian_m: [[0, 0], [0.06, 0], [0.1, 0.02]], thickness_m: 0.005, foot: { radius_m: 0.05, height_m: 0.004 } };
   const [there, all] = lowest(plate, 0.05);
   assert.ok(Math.abs(all + 0.009) < 1e-7 && there === all, `${there} ${all}`);
   const { foot: _, ...bare } = plate;

@@ -52,4 +52,5 @@ export const TOOL: Tool = {
   bodies: [],
   sponge: { radius_m: 0.025, height_m: 0.025, compression_m: 0.005, pose: pose([0, 0, 0.1375]) },
   tip: pose([0, 0, 0.15]),
+  mass: null,
 };

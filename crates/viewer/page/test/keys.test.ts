@@ -2,9 +2,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { distance, readNumber, readValue, stepped, suggestions, valueText } from "../src/edit/domain.ts";
 import { roomFor, shifted, turned } from "../src/edit/placing.ts";
-import type { Domain } from "../src/edit/protocol.ts";
+import type { FormDomain } from "../src/edit/protocol.ts";
 
-const read = (domain: Domain, text: string): unknown => {
+const read = (domain: FormDomain, text: string): unknown => {
   const found = readValue({ domain }, text);
   return "value" in found ? found.value : "wrong";
 };
@@ -16,7 +16,7 @@ test("numbers as people type them, and nothing else", () => {
 });
 
 test("values out of their domain are invalid", () => {
-  const closed: Domain = { kind: "number", least: 0, most: 2 };
+  const closed: FormDomain = { kind: "number", least: 0, most: 2 };
   assert.deepEqual(["0", "2", "2.1", "-0.1", "x", ""].map((text) => read(closed, text)), [0, 2, "wrong", "wrong", "wrong", "wrong"]);
   assert.deepEqual(["0", "1e-9"].map((text) => read({ kind: "number_above", least: 0, most: 2 }, text)), ["wrong", 1e-9]);
   assert.deepEqual(["3", "3.5", "1e300"].map((text) => read({ kind: "integer", least: 1, most: Number.MAX_VALUE }, text)), [3, "wrong", "wrong"]);
@@ -31,7 +31,7 @@ test("values out of their domain are invalid", () => {
 });
 
 test("positions of joints are names with a number each", () => {
-  const domain: Domain = { kind: "positions", least: -1000, most: 1000 };
+  const domain: FormDomain = { kind: "positions", least: -1000, most: 1000 };
   assert.deepEqual(read(domain, "rail = 0.3, tip/finger=-2e-3"), { rail: 0.3, "tip/finger": -0.002 });
   assert.deepEqual(read(domain, ""), {});
   for (const text of ["rail", "= 1", "rail = ", "rail = x", "rail = 1001", "rail = 1, rail = 2", "a\u0007 = 1"]) assert.equal(read(domain, text), "wrong", text);

@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { grouped, measureWords, shareOf } from "../src/limits.ts";
-import type { Check, Measure, Status } from "../src/view.ts";
+import type { Check, Measure, Status, Unit } from "../src/view.ts";
 
 const check = (requirement: string, status: Status = "proved"): Check => ({ requirement, words: requirement, status, detail: "", worst: {}, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } });
-const atMost = (bound: number | null, limit: number, unit: string): Measure => ({ bound, limit, sense: "at_most", unit });
-const atLeast = (bound: number | null, limit: number, unit: string): Measure => ({ bound, limit, sense: "at_least", unit });
+const atMost = (bound: number | null, limit: number, unit: Unit): Measure => ({ bound, seen: null, limit, sense: "at_most", unit });
+const atLeast = (bound: number | null, limit: number, unit: Unit): Measure => ({ bound, seen: null, limit, sense: "at_least", unit });
 
 test("requirements come in three groups, the joints last, and unknown ones are within limits", () => {
   const groups = grouped(["joint_speed", "clearance", "news", "tip_speed", "swept", "pressed"].map((name) => check(name)));

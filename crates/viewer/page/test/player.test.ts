@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Controls } from "../src/controls.ts";
 import { LIVE_COLUMNS } from "../src/recording.ts";
 import { Player } from "../src/player.ts";
-import type { Execution, Numbers, Plate, Segment, View } from "../src/view.ts";
+import type { Execution, Numbers, PlanSegment, Plate, View } from "../src/view.ts";
 
 const f64 = (rows: number[], ...shape: number[]): Numbers => ({ shape, f64: Buffer.from(Float64Array.from(rows).buffer).toString("base64") });
 const six = (value: number): number[] => new Array<number>(6).fill(value);
@@ -25,7 +25,7 @@ function execution(source: Execution["source"], times: number[]): Execution {
   };
 }
 
-const SEGMENTS: Segment[] = [
+const SEGMENTS: PlanSegment[] = [
   { kind: "depart", plate: 7, t_start_s: 0, t_end_s: 2 },
   { kind: "wash", plate: 1, t_start_s: 2, t_end_s: 8 },
   { kind: "return", plate: 1, t_start_s: 8, t_end_s: 10 },

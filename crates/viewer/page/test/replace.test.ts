@@ -9,7 +9,7 @@ import type { Plate, View } from "../src/view.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";
 
 function plate(x: number, rim = 0.145): Plate {
-  return { name: "plate", pose: pose([x, 0, 0.03]), meridian_m: [[0, 0], [rim, 0]], thickness_m: 0.02 };
+  return { name: "plate", pose: pose([x, 0, 0.03]), surface: { meridian: "disc", radius_m: rim }, meridian_m: [[0, 0], [rim, 0]], thickness_m: 0.02 };
 }
 
 function view(): View {

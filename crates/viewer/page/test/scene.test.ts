@@ -9,10 +9,10 @@ import { geometryOf, plateGeometry, segmentsOfQuarter, segmentsRound } from "../
 import { Studio } from "../src/scene/stage.ts";
 import { ToolGraph } from "../src/scene/tool.ts";
 import { clusters, MARK_PX } from "../src/shell/transport.ts";
-import type { Body, Check, Plate, Shape, Status, Tool } from "../src/view.ts";
+import type { Check, Plate, Shape, Status, Tool, ToolBody } from "../src/view.ts";
 import { irb120, pose, TOOL } from "./irb120.ts";
 
-const HANDLE: Body = { shape: { cylinder: { radius_m: 0.02, half_length_m: 0.0625 } }, pose: pose([0, 0, 0.0625]) };
+const HANDLE: ToolBody = { name: "handle", shape: { cylinder: { radius_m: 0.02, half_length_m: 0.0625 } }, pose: pose([0, 0, 0.0625]) };
 const HELD: Tool = { ...TOOL, bodies: [HANDLE] };
 
 function graphs(plates: Plate[]): { arm: ArmGraph; tool: ToolGraph } {
@@ -36,7 +36,7 @@ test("the tip of the scene graph is that of the kinematics", () => {
 
 /** The tool alone, pointing down, its tip at a height over a plate and at a distance from its axis [m]. */
 function pressedAt(height: number, distance: number): number {
-  const plate: Plate = { name: "plate", pose: pose([1, 0, 0.5]), meridian_m: [[0, 0], [0.1, 0], [0.145, 0.02]], thickness_m: 0.02 };
+  const plate: Plate = { name: "plate", pose: pose([1, 0, 0.5]), surface: { meridian: "disc", radius_m: 0.145 }, meridian_m: [[0, 0], [0.1, 0], [0.145, 0.02]], thickness_m: 0.02 };
   const tool = new ToolGraph(HELD, [plate], new Studio());
   tool.root.rotation.x = Math.PI;
   tool.root.position.set(1 + distance, 0, 0.5 + height + 0.15);
@@ -88,7 +88,7 @@ test("shapes that cannot be drawn leave nothing rather than fail", () => {
 });
 
 test("a plate's face is its meridian and looks up", () => {
-  const plate: Plate = { name: "plate", pose: pose([0, 0, 0]), meridian_m: [[0, 0], [0.145, 0]], thickness_m: 0.02 };
+  const plate: Plate = { name: "plate", pose: pose([0, 0, 0]), surface: { meridian: "disc", radius_m: 0.145 }, meridian_m: [[0, 0], [0.145, 0]], thickness_m: 0.02 };
   const geometry = plateGeometry(plate, 32);
   const [place, normal, face] = ["position", "normal", "face"].map((name) => geometry.getAttribute(name));
   let area = 0;
@@ -109,7 +109,7 @@ test("the patch is below an arm on the floor, and the marks under the plates whe
   assert.deepEqual(patchAt(on([1, 2, 0], [Math.SQRT1_2, 0, 0, Math.SQRT1_2])), [1, 2]);
   assert.equal(patchAt(on([1, 2, 0.7])), null);
   assert.equal(patchAt(on([0, 0, 0], [0, 1, 0, 0])), null);
-  const plate = (z: number, tilted = false): Plate => ({ name: "p", pose: pose([0.3, 0, z], tilted ? [Math.SQRT1_2, Math.SQRT1_2, 0, 0] : undefined), meridian_m: [[0, 0], [0.1, 0]], thickness_m: 0.02 });
+  const plate = (z: number, tilted = false): Plate => ({ name: "p", pose: pose([0.3, 0, z], tilted ? [Math.SQRT1_2, Math.SQRT1_2, 0, 0] : undefined), surface: { meridian: "disc", radius_m: 0.1 }, meridian_m: [[0, 0], [0.1, 0]], thickness_m: 0.02 });
   const height = (...plates: Plate[]): number => Number(marksHeight({ plates }).toFixed(6));
   assert.deepEqual([height(), height(plate(0.03)), height(plate(0.72), plate(0.92)), height(plate(0.72, true))], [0.0015, 0.0015, 0.7015, 0.0015]);
 });

@@ -5,7 +5,7 @@ import { canTour, stopsOf } from "../src/shell/tour.ts";
 import type { Check, Status, View } from "../src/view.ts";
 
 function check(words: string, status: Status, time_s?: number): Check {
-  const measure = { bound: 0.8, limit: 1, sense: "at_most", unit: "m/s" } as const;
+  const measure = { bound: 0.8, seen: null, limit: 1, sense: "at_most", unit: "m/s" } as const;
   return { requirement: words, words, status, measure, detail: "", worst: time_s === undefined ? {} : { time_s }, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } };
 }
 

@@ -4,7 +4,7 @@ import { linkTo, parseLink } from "../src/address.ts";
 import { clockTime, fixed, percentDown, segmentAt, segmentWords } from "../src/format.ts";
 import { decode, floats, NumbersError } from "../src/numbers.ts";
 import { verdict, washed } from "../src/verdict.ts";
-import { type Certificate, type Check, DocumentError, type Execution, type Numbers, parseView, type Plate, type Segment, type Status, type View } from "../src/view.ts";
+import { type Certificate, type Check, DocumentError, type Execution, type Numbers, parseView, type PlanSegment, type Plate, type Status, type View } from "../src/view.ts";
 
 const check = (status: Status): Check => ({ requirement: "tilt", words: "tilt", status, detail: "", worst: {}, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } });
 
@@ -92,7 +92,7 @@ test("numbers read as numbers are written", () => {
 });
 
 const PLATES = [{ name: "plate 1" }] as unknown as Plate[];
-const SEGMENTS: Segment[] = [
+const SEGMENTS: PlanSegment[] = [
   { kind: "depart", plate: 0, t_start_s: 0, t_end_s: 1 },
   { kind: "wash", plate: 0, t_start_s: 1, t_end_s: 3 },
   { kind: "transit", plate: 7, t_start_s: 4, t_end_s: 5 },
@@ -112,7 +112,7 @@ const shown = (dryRun: string | null): View => ({ heading: { dry_run: dryRun }, 
 test("segments say what the arm does, with a plate that exists or none", () => {
   assert.deepEqual(SEGMENTS.map((segment) => segmentWords(segment, shown(null))), ["Leaving home", "Washing plate 1", "On the way"]);
   assert.deepEqual(SEGMENTS.map((segment) => segmentWords(segment, shown(IN_AIR))), ["Leaving home", "In the air over plate 1", "On the way"]);
-  const nowhere: Segment = { kind: "wash", plate: 7, t_start_s: 0, t_end_s: 1 };
+  const nowhere: PlanSegment = { kind: "wash", plate: 7, t_start_s: 0, t_end_s: 1 };
   assert.equal(segmentWords(nowhere, shown(IN_AIR)), "In the air");
 });
 

@@ -4,14 +4,16 @@ use super::body::{Body, Shape};
 use platewash_kinematics::{AXES, Frame, Link as ModelLink, Pose, RobotModel};
 use platewash_workcell::pose;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// An arm where it is mounted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Arm {
     /// Its name.
     pub name: String,
     /// `T_world_base`.
     #[serde(serialize_with = "pose::serialize")]
+    #[ts(as = "platewash_workcell::pose::PoseFields")]
     pub mount: Pose,
     /// The joints from the base to the tip.
     pub joints: Vec<Joint>,
@@ -19,16 +21,18 @@ pub struct Arm {
     pub links: Vec<Link>,
     /// `T_6_flange`: the mounting frame behind joint 6.
     #[serde(serialize_with = "pose::serialize")]
+    #[ts(as = "platewash_workcell::pose::PoseFields")]
     pub flange: Pose,
 }
 
 /// A joint: `T_parent_joint(q) = origin · Rot_z(q)`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Joint {
     /// Its name.
     pub name: String,
     /// `T_parent_joint` at 0.
     #[serde(serialize_with = "pose::serialize")]
+    #[ts(as = "platewash_workcell::pose::PoseFields")]
     pub origin: Pose,
     /// Lowest and highest position \[rad\]; `None` where it turns without end.
     pub position_rad: Option<[f64; 2]>,
@@ -39,12 +43,13 @@ pub struct Joint {
 }
 
 /// A link, fixed to the frame behind some joints.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Link {
     /// Number of joints between it and the base.
     pub joints: usize,
     /// `T_frame_link`.
     #[serde(serialize_with = "pose::serialize")]
+    #[ts(as = "platewash_workcell::pose::PoseFields")]
     pub pose: Pose,
     /// Visual bodies, link frame; where none are known, the page shows the shapes that count for the proof.
     pub visuals: Vec<Body>,

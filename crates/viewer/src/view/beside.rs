@@ -9,6 +9,7 @@ use platewash_kinematics::RobotModel;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Cells of all rasters together, about.
 const CELLS: usize = 9_000;
@@ -17,7 +18,7 @@ const CELLS: usize = 9_000;
 const JUST_AFTER_S: f64 = 1e-9;
 
 /// Executed motion of another program, with the arm of the plan and no tool.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Beside {
     /// First line of the report on it.
     pub headline: String,

@@ -5,9 +5,10 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::{self, VisualShape};
 use platewash_workcell::pose;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// A shape of a link in its own frame; cylinders and capsules lie along z.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A surface of triangles.
@@ -34,12 +35,13 @@ impl From<&VisualShape> for Shape {
 }
 
 /// A shape in the frame of a link.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Body {
     /// Its shape.
     pub shape: Shape,
     /// Pose of the body.
     #[serde(serialize_with = "pose::serialize")]
+    #[ts(as = "platewash_workcell::pose::PoseFields")]
     pub pose: Pose,
     /// Red, green, blue and alpha, from 0 to 1, where they are stated.
     pub rgba: Option<[f64; 4]>,

@@ -4,9 +4,10 @@ use platewash_certificate::{self as proved, Explanation, Status, VerdictBasis, W
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::words::printable;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// The proof.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Certificate {
     /// True where every requirement is kept, and the hash is that of the contents.
     pub passes: bool,
@@ -23,7 +24,7 @@ pub struct Certificate {
 }
 
 /// Requirements on the contact with plates, and the proof of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Contact {
     /// Requirements.
     pub asked: ContactRequirements,
@@ -32,7 +33,7 @@ pub struct Contact {
 }
 
 /// A requirement and its result.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Check {
     /// The certificate's.
     #[serde(flatten)]

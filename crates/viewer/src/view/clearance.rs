@@ -9,6 +9,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::trajectory::Trajectory;
 use rayon::prelude::*;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Number of moments that are sampled, besides the boundaries of segments and the proof's worst one.
 const MOMENTS: usize = 400;
@@ -17,7 +18,7 @@ const MOMENTS: usize = 400;
 const LEAST_STEP_S: f64 = 0.02;
 
 /// The smallest distance over time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Clearance {
     /// Clearance required \[m\].
     pub margin_m: f64,

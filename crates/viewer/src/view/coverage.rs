@@ -14,6 +14,7 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use rayon::prelude::*;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Cells of all rasters of a motion together, about.
 pub(super) const CELLS: usize = 80_000;
@@ -28,7 +29,7 @@ const STEP_M: f64 = 2e-3;
 const STROKE_M: f64 = 4e-3;
 
 /// Swept area of a plate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct PlateCoverage {
     /// Index of the plate.
     pub plate: usize,

@@ -9,6 +9,7 @@ use platewash_certificate as proved;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::plan::Plan;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Cells of all rasters together, about.
 const CELLS: usize = 10_000;
@@ -17,7 +18,8 @@ const CELLS: usize = 10_000;
 const EDGE: [usize; 2] = [24, 64];
 
 /// Dirt on a plate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
+#[ts(optional_fields)]
 pub struct PlateDirt {
     /// Index of the plate.
     pub plate: usize,

@@ -12,6 +12,7 @@ use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::ControlLawName;
 use platewash_workcell::trajectory::Trajectory;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Time between two samples at least \[s\].
 const LEAST_STEP_S: f64 = 0.01;
@@ -26,7 +27,7 @@ const WASH_STEP_S: f64 = 4e-3;
 const SLACK_S: f64 = 1.0;
 
 /// Source of an execution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// A simulation.
@@ -38,7 +39,7 @@ pub enum Source {
 }
 
 /// Facts about an execution besides its samples.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct ExecutionFacts {
     /// Source of the execution.
     pub source: Source,
@@ -145,7 +146,7 @@ fn all(limits: [Option<f64>; 6]) -> Option<[f64; 6]> {
 }
 
 /// Executed motion, as it is shown.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Execution {
     /// Facts about it.
     #[serde(flatten)]

@@ -4,9 +4,10 @@ use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::{JobTerms, Treatment, WashJob};
 use platewash_workcell::plan::{Plan, Process};
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Heading of a page.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Heading {
     /// Name of the scenario; the arm's for one configuration.
     pub scenario: String,

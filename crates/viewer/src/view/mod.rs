@@ -1,4 +1,4 @@
-//! Contents of a page: the document `platewash-view/2`. `page/src/view.ts` states the same for its readers.
+//! Contents of a page: the document `platewash-view/2`. The page's TypeScript types are made from these.
 //!
 //! Units are SI and radians. Data are in the world frame unless stated otherwise. Only the parts of a document that repeat the
 //! certificate are proved: distances and swept areas over time are sampled for display.
@@ -62,12 +62,13 @@ use platewash_workcell::tool::Tool;
 use platewash_workcell::trajectory::{PlanSegment, Trajectory};
 use serde::Serialize;
 use tips::Tips;
+use ts_rs::TS;
 
 /// The format of the document.
 pub const FORMAT: &str = "platewash-view/2";
 
 /// Contents of a page.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct View {
     /// [`FORMAT`].
     pub format: &'static str,
@@ -108,7 +109,7 @@ pub struct View {
 }
 
 /// Bodies around an arm, and the region in which plates may lie.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, TS)]
 pub struct Surroundings {
     /// World frame.
     pub obstacles: Vec<Obstacle>,
@@ -118,7 +119,7 @@ pub struct Surroundings {
 }
 
 /// The planned motion: between two knots each joint is the cubic of their positions and speeds (Hermite).
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Motion {
     /// \[n\], from 0 \[s\].
     pub t_s: Numbers,

@@ -4,9 +4,10 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use nalgebra::SVector;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// An array of numbers, row by row.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, TS)]
 pub struct Numbers {
     /// Its extent along each axis.
     pub shape: Vec<usize>,
@@ -16,7 +17,7 @@ pub struct Numbers {
 }
 
 /// The bytes of an array in base64, under the type of its numbers.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Data {
     /// Double precision.

@@ -9,6 +9,7 @@ use platewash_workcell::plate;
 use platewash_workcell::wash_path::{self, WashCurve};
 use platewash_workcell::words::plate_name;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Largest deviation of a chord from a wash path \[m\].
 const CHORD_M: f64 = 5e-5;
@@ -23,7 +24,8 @@ const MOST_RIMS: f64 = 10.0;
 const TURN_RAD: f64 = 0.06;
 
 /// A plate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
+#[ts(optional_fields)]
 pub struct Plate {
     /// Its name, as the pairs of bodies have it.
     pub name: String,
@@ -41,7 +43,7 @@ pub struct Plate {
 }
 
 /// Path that the tip follows on a plate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct WashPath {
     /// Index of the plate.
     pub plate: usize,

@@ -11,9 +11,10 @@ use platewash_workcell::job::{JobTerms, Treatment};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Contact that counts as pressed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, TS)]
 pub struct PressedRule {
     /// Least compression of the foam \[m\].
     pub compression_m: f64,

@@ -2,6 +2,7 @@
 
 use super::numbers::Numbers;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// The mark of a cell that the disc is never over.
 const NEVER: u16 = u16::MAX;
@@ -35,14 +36,14 @@ pub(crate) struct Raster {
 }
 
 /// A raster as the page reads it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, TS)]
 pub struct Marks {
     /// \[rows, columns\], y then x ascending in the plate's frame: when the cell's middle first counts, in steps of `step_s`;
     /// 65535 for never, 65534 for cells with their middle outside the rim.
     pub first: Numbers,
     /// \[s\]
     pub step_s: f64,
-    /// \[rows, columns\]: for how long, in steps of `dwell_step_s`.
+    /// \[rows, columns\]: for how long it counts, in steps of `dwell_step_s`, at most 255.
     pub dwell: Numbers,
     /// \[s\]
     pub dwell_step_s: f64,

@@ -1,6 +1,7 @@
 //! Shape of a plate that was measured, as a plan keeps it for pictures and reports.
 
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Shape of a plate that was measured: by a mesh, or by points on its face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,7 +24,7 @@ pub struct MeasuredShape {
 /// Heights of a plate on a polar grid, for pictures, relative to the pole, plate frame.
 ///
 /// Ring k of n has the radius (k + ½)/n of the rim's. Azimuths begin at x, at equal angles. Heights are in steps of 10 µm, ring by ring.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Relief {
     /// Radii of the rings \[m\].

@@ -8,6 +8,7 @@ use crate::arc::Arc as ArcRoundBase;
 use crate::contact::ContactThresholds;
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Greatest distance of a plan's tip from its wash path while it washes \[m\].
 pub const PATH_TOLERANCE_M: f64 = 2e-4;
@@ -54,7 +55,7 @@ pub struct Requirements {
 }
 
 /// Treatment of the plates by a job, as every report names it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Treatment {
     /// The sponge presses the plates on the required share, for the required time and with the required dose.
@@ -101,7 +102,7 @@ pub struct Limits {
 
 /// Requirements of the contact between sponge and plate while it washes. They hold for every plate height within the error and every
 /// stiffness within the sponge's range. Shares are of the area of a plate's face.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ContactRequirements {
     /// Least compression of the sponge that counts as contact, c_min \[m\].

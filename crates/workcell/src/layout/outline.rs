@@ -5,6 +5,7 @@
 use crate::layout::region::Region;
 use crate::trig::sin_cos;
 use serde::Serialize;
+use ts_rs::TS;
 
 /// Greatest angle between two points of an arc \[rad\].
 const ARC_STEP_RAD: f64 = 0.05;
@@ -72,7 +73,7 @@ fn clip(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
 }
 
 /// Area in which the centres of plates are drawn. It is not part of a plan, which has the plates themselves.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, TS)]
 pub struct TaskRegion {
     /// Radius about the base axis that the centres keep away from \[m\].
     pub base_circle_m: Option<f64>,

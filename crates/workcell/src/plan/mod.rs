@@ -19,6 +19,7 @@ use platewash_kinematics::{JointVector, sha256_hex};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
+use ts_rs::TS;
 
 /// Plan file, `"format": "platewash-plan/2"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -341,7 +342,7 @@ pub const FORMAT: &str = "platewash-plan/2";
 pub(crate) const BEFORE: &str = "platewash-plan/1";
 
 /// Kind of a plan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum Process {
     /// A washing, planned as a whole from home to home. Certificates are about these.

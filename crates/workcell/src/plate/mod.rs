@@ -16,6 +16,7 @@ use nalgebra::{Point3, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Least size of a plate \[m\].
 pub const LEAST_PLATE_M: f64 = 1e-6;
@@ -24,8 +25,9 @@ pub const LEAST_PLATE_M: f64 = 1e-6;
 pub const GREATEST_M: f64 = 1e3;
 
 /// A plate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
+#[ts(optional_fields)]
 pub struct Plate {
     /// Face to be washed.
     pub surface: Surface,
@@ -36,14 +38,16 @@ pub struct Plate {
     pub foot: Option<Foot>,
     /// Pose in the world frame, `T_world_plate`: origin at the pole of the face, z along its axis, out of the plate.
     #[serde(with = "pose")]
+    #[ts(as = "pose::PoseFields")]
     pub pose: Pose,
     /// Terms of this plate, where they differ from those of its job.
     #[serde(default, skip_serializing_if = "PlateTerms::are_those_of_the_job")]
+    #[ts(as = "Option<PlateTerms>")]
     pub terms: PlateTerms,
 }
 
 /// Ring below a plate that it stands on, as the cylinder that encloses it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Foot {
     /// Outer radius \[m\].

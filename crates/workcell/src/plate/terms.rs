@@ -2,10 +2,12 @@
 
 use crate::plate::GREATEST_M;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 /// Terms of one plate, where they differ from those of its job.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, TS)]
 #[serde(default, deny_unknown_fields)]
+#[ts(optional_fields)]
 pub struct PlateTerms {
     /// Height error ±δ of this plate along its axis \[m\]; `None` for that of the contact requirements.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -13,6 +13,7 @@ use crate::trig::{asin, cos, sin, sin_cos};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use thiserror::Error;
+use ts_rs::TS;
 
 /// Greatest number of knots of a meridian, without the pole.
 pub const MOST_KNOTS: usize = 16;
@@ -35,7 +36,7 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 /// Knot of a meridian.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Knot {
     /// Distance from the axis \[m\].
@@ -104,8 +105,9 @@ impl Patch {
 }
 
 /// Meridian by knots.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(try_from = "MeridianFields", into = "MeridianFields")]
+#[ts(as = "MeridianFields")]
 pub struct Meridian {
     count: usize,
     knots: [Knot; MOST_KNOTS],
@@ -158,8 +160,9 @@ pub enum MeridianError {
     },
 }
 
-#[derive(Clone, Serialize, Deserialize)]
+#[derive(Clone, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
+#[ts(rename = "Meridian")]
 struct MeridianFields {
     knots: Vec<Knot>,
 }

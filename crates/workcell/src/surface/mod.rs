@@ -18,9 +18,10 @@ use nalgebra::{Point3, Unit, Vector3};
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
+use ts_rs::TS;
 
 /// Surface of revolution.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "meridian", rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "copied seldom, and never in a loop")]

@@ -1,5 +1,5 @@
 /** What may be typed for a key, and what that is as a value. */
-import type { Domain, Key, Value } from "./protocol.ts";
+import type { FormDomain, FormKey, Value } from "./protocol.ts";
 
 /** A value, or that there is none for what was typed. */
 export type Read = { value: Value } | { wrong: true };
@@ -28,7 +28,7 @@ export function valueText(value: Value): string {
 }
 
 /** Whether a number is within a domain. */
-function within(value: number, domain: Extract<Domain, { least: number }>): boolean {
+function within(value: number, domain: Extract<FormDomain, { least: number }>): boolean {
   const above = domain.kind === "number_above" || domain.kind === "joints_above" || domain.kind === "pair_above" || domain.kind === "triple_above";
   return (above ? value > domain.least : value >= domain.least) && value <= domain.most;
 }
@@ -45,7 +45,7 @@ function isControl(text: string): boolean {
 }
 
 /** Reads what was typed for a key. */
-export function readValue({ domain }: Pick<Key, "domain">, text: string): Read {
+export function readValue({ domain }: Pick<FormKey, "domain">, text: string): Read {
   switch (domain.kind) {
     case "text":
     case "path":
@@ -75,7 +75,7 @@ export function readValue({ domain }: Pick<Key, "domain">, text: string): Read {
 }
 
 /** Names with a number each, such as "rail = 0.3, finger = 0". */
-function positions(text: string, domain: Extract<Domain, { least: number }>): Read {
+function positions(text: string, domain: Extract<FormDomain, { least: number }>): Read {
   const found: Record<string, number> = {};
   for (const part of text.split(/[,\n]/).filter((part) => part.trim() !== "")) {
     const at = part.lastIndexOf("=");
@@ -87,12 +87,12 @@ function positions(text: string, domain: Extract<Domain, { least: number }>): Re
   return { value: found };
 }
 
-function scalar(value: number | null, domain: Extract<Domain, { least: number }>): Read {
+function scalar(value: number | null, domain: Extract<FormDomain, { least: number }>): Read {
   const fits = value !== null && within(value, domain) && (domain.kind !== "integer" || Number.isSafeInteger(value));
   return fits ? { value } : WRONG;
 }
 
-function list(values: number[] | null, domain: Extract<Domain, { least: number }>): Read {
+function list(values: number[] | null, domain: Extract<FormDomain, { least: number }>): Read {
   if (values === null || !values.every((value) => within(value, domain))) return WRONG;
   if (domain.kind === "range") return values.length === 2 && values[0]! < values[1]! ? { value: values } : WRONG;
   if (domain.kind === "pair" || domain.kind === "pair_above") return values.length === 2 ? { value: values } : WRONG;
@@ -103,7 +103,7 @@ function list(values: number[] | null, domain: Extract<Domain, { least: number }
 }
 
 /** The number a step up or down from what is typed: by its last digit, or ten of those. */
-export function stepped(text: string, direction: 1 | -1, coarse: boolean, domain: Extract<Domain, { least: number }>): string | null {
+export function stepped(text: string, direction: 1 | -1, coarse: boolean, domain: Extract<FormDomain, { least: number }>): string | null {
   const value = readNumber(text);
   if (value === null) return null;
   const decimals = domain.kind === "integer" ? 0 : Math.min(12, /\.(\d+)/.exec(text)?.[1]?.length ?? (Number.isInteger(value) && Math.abs(value) >= 10 ? 0 : 1));

@@ -2,7 +2,7 @@
 import { button, el, isolated } from "../shell/dom.ts";
 import { readValue, stepped, suggestions, valueText } from "./domain.ts";
 import { sameValue } from "./history.ts";
-import type { Key, Value } from "./protocol.ts";
+import type { FormKey, Value } from "./protocol.ts";
 
 /** A control for the value of a key, by its domain. */
 export interface Control {
@@ -22,7 +22,7 @@ export interface ControlActions {
   revert(): void;
 }
 
-export function controlFor(key: Key, actions: ControlActions): Control {
+export function controlFor(key: FormKey, actions: ControlActions): Control {
   switch (key.domain.kind) {
     case "word":
       return select(key.domain.words, actions);
@@ -62,7 +62,7 @@ function checkbox(actions: ControlActions): Control {
   };
 }
 
-function area(key: Key, actions: ControlActions): Control {
+function area(key: FormKey, actions: ControlActions): Control {
   const element = el("textarea", { set: { rows: 3, spellcheck: "false", autocomplete: "off", wrap: "off" } });
   const text = (value: Value): string => (Array.isArray(value) ? value.map((one: Value) => valueText(one)).join("\n") : valueText(value));
   element.addEventListener("input", () => actions.typed());
@@ -84,7 +84,7 @@ function area(key: Key, actions: ControlActions): Control {
 }
 
 /** Numbers of joints are typed in one field, with commas between: so they are copied, too. */
-function field(key: Key, actions: ControlActions): Control {
+function field(key: FormKey, actions: ControlActions): Control {
   const { domain } = key;
   const numeric = domain.kind === "integer" || domain.kind === "number" || domain.kind === "number_above";
   const element = el("input", { set: { type: "text", inputmode: numeric ? "decimal" : "text", spellcheck: "false", autocomplete: "off" } });
@@ -115,7 +115,7 @@ function field(key: Key, actions: ControlActions): Control {
 /** One key of the form. */
 export class KeyRow {
   readonly element: HTMLElement;
-  readonly key: Key;
+  readonly key: FormKey;
   readonly #control: Control;
   readonly #error = el("p", { class: "field-error" });
   readonly #reset: HTMLButtonElement;
@@ -125,7 +125,7 @@ export class KeyRow {
   #refusal: string | null = null;
   #dirty = false;
 
-  constructor(key: Key, onValue: (key: string, value: Value | null) => void) {
+  constructor(key: FormKey, onValue: (key: string, value: Value | null) => void) {
     this.key = key;
     this.#onValue = onValue;
     this.#control = controlFor(key, { typed: () => this.#typed(), commit: () => this.#commit(), revert: () => this.#revert() });
@@ -255,7 +255,7 @@ export class Form {
   readonly #none = el("p", { class: "summary", set: { role: "status" } });
   #shown: FormShown | null = null;
 
-  constructor(keys: readonly Key[], onValue: (key: string, value: Value | null) => void) {
+  constructor(keys: readonly FormKey[], onValue: (key: string, value: Value | null) => void) {
     this.#rows = keys.map((key) => new KeyRow(key, onValue));
     const sections = new Map<string, KeyRow[]>([[FIRST_NAME, []]]);
     for (const row of this.#rows) {

@@ -2,7 +2,7 @@
 import { GreaterDepth, Group } from "three";
 import { AXES, Kinematics, Motion, newState } from "../motion.ts";
 import { floats, indexBefore } from "../numbers.ts";
-import type { Segment, View } from "../view.ts";
+import type { PlanSegment, View } from "../view.ts";
 import { Lines, simplified, stretches } from "./lines.ts";
 import type { Palette } from "./palette.ts";
 
@@ -18,7 +18,7 @@ const WIDEST_M = 0.009;
 const LIFT_M = 0.0006;
 
 /** The planned way of the tip through one segment. */
-function travelled(segment: Segment, motion: Motion, kinematics: Kinematics, rate_hz: number): Float64Array {
+function travelled(segment: PlanSegment, motion: Motion, kinematics: Kinematics, rate_hz: number): Float64Array {
   const span = segment.t_end_s - segment.t_start_s;
   const count = Math.max(2, Math.min(MOST, Math.ceil(span * rate_hz) + 1));
   const state = newState();

@@ -3,7 +3,7 @@
  * that cannot be washed, hatched.
  */
 import { type BufferGeometry, Color, DataTexture, Group, LinearFilter, Mesh, RedFormat, ShaderMaterial } from "three";
-import type { Chance, Unwashable } from "../edit/protocol.ts";
+import type { Chance, UnwashableReport } from "../edit/protocol.ts";
 import type { Solid } from "./handles.ts";
 import type { Palette } from "./palette.ts";
 
@@ -99,7 +99,7 @@ interface Overlay {
   dead: { value: DataTexture | null };
 }
 
-export type Offending = Pick<Unwashable, "plate" | "free_m" | "dead_m">;
+export type Offending = Pick<UnwashableReport, "plate" | "free_m" | "dead_m">;
 
 export class Washability {
   readonly root = new Group();

@@ -3,7 +3,7 @@ import { SPEEDS, stepSpeed } from "../clock.ts";
 import { clockTime, plateNumber, segmentAt, segmentWords, spokenTime } from "../format.ts";
 import type { Palette } from "../palette.ts";
 import { RANK, statusWord } from "../verdict.ts";
-import type { Check, Segment, Status, View } from "../view.ts";
+import type { Check, PlanSegment, Status, View } from "../view.ts";
 import { button, byId, el, icon, TextCell, toneIcon } from "./dom.ts";
 
 export interface Cluster {
@@ -175,7 +175,7 @@ export class Scrubber {
     return context;
   }
 
-  #drawSegment(bars: CanvasRenderingContext2D, numbers: CanvasRenderingContext2D, segment: Segment, height: number): void {
+  #drawSegment(bars: CanvasRenderingContext2D, numbers: CanvasRenderingContext2D, segment: PlanSegment, height: number): void {
     const from = this.#share(segment.t_start_s) * this.#width;
     const to = this.#share(segment.t_end_s) * this.#width;
     const inset = segment.kind === "wash" ? 0 : 0.28 * height;
