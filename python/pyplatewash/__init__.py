@@ -26,7 +26,6 @@ from ._core import (
     ClearanceModel,
     DynamicsModel,
     Execution,
-    IkSolution,
     Layout,
     PaperJob,
     PaperRun,
@@ -81,7 +80,7 @@ from ._errors import (
 from ._figure import Figure
 from ._nouns import finish as _finish
 from ._page import Page
-from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record, Recovery
+from ._records import CoverageRaster, Energy, IkBatch, IkBranches, IkSolution, Record, Recovery
 from ._studies.samples import samples
 from ._studies.rows import StudyRows
 from ._values import Coverage, Foot, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._figure import Figure
 from ._page import Page
-from ._records import CoverageRaster, Energy, IkBatch, IkBranches, Record, Recovery
+from ._records import CoverageRaster, Energy, IkBatch, IkBranches, IkSolution, Record, Recovery
 from ._studies.rows import StudyRows
 from ._values import Coverage, IkSettings, PaperSpiral, Plate, Rings, Tool, WashCurve
 
@@ -21,7 +21,6 @@ __all__ = [
     "ClearanceModel",
     "DynamicsModel",
     "Execution",
-    "IkSolution",
     "Layout",
     "PaperJob",
     "PaperRun",
@@ -197,33 +196,6 @@ class Robot:
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
-
-@final
-class IkSolution:
-    def __new__(
-        cls,
-        q: npt.ArrayLike,
-        iterations: int,
-        method: str,
-        start: str,
-        position_error_m: float,
-        orientation_error_rad: float,
-    ) -> IkSolution: ...
-    @property
-    def q(self) -> _Array: ...
-    @property
-    def iterations(self) -> int: ...
-    @property
-    def method(self) -> str: ...
-    @property
-    def start(self) -> str: ...
-    @property
-    def position_error_m(self) -> float: ...
-    @property
-    def orientation_error_rad(self) -> float: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-    def __getnewargs__(self) -> tuple[Any, ...]: ...
 
 @final
 class Scenario:

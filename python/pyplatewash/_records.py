@@ -105,6 +105,24 @@ class _ArrayFields:
 
 
 @dataclass(frozen=True, eq=False)
+class IkSolution(_ArrayFields):
+    """The answer of ``Robot.ik``: a configuration within the limits that meets both tolerances."""
+
+    #: Joint positions, shape (6,) [rad].
+    q: npt.NDArray[np.float64]
+    #: Linear systems and quadratic programs solved, over all starts.
+    iterations: int
+    #: The method that answered: ``"dls"`` or ``"qp"``.
+    method: str
+    #: From where the answer was found: ``"seed"``, ``"analytic"``, ``"listed 3"``, ``"random 0"``.
+    start: str
+    #: Distance of the frame's origin from the target's [m].
+    position_error_m: float
+    #: Angle between the frame and the target [rad].
+    orientation_error_rad: float
+
+
+@dataclass(frozen=True, eq=False)
 class IkBatch(_ArrayFields):
     """The answers of ``Robot.ik_batch``, row by row."""
 

@@ -46,7 +46,7 @@ GOOD: dict[str, Any] = {
     "profile": None, "foot": pw.Foot(radius_m=0.08, height_m=0.005), "rings": None, "count": 3, "inner_m": 0.02, "lead_rad": 2.0, "blend_rad": 1.8, "laps": 1, "height_error_m": 0.001, "deviation_m": 0.001, "measured": None, "soil": None, "WashCurve.on plate": pw.Plate(x_m=0.3, y_m=0.0),
     "html": "<p>a page", "svg": "<svg></svg>", "Figure.save path": "figure.svg", "Plan.view path": "page.html", "Page.save path": "page.html", "Page.open path": "page.html",
     "Robot.from_urdf text": ROBOT.urdf, "Robot.from_urdf srdf": ROBOT.srdf, "Plan.from_json text": PLAN.to_json(), "Scenario.parse text": "name = 'x'\n[layout]\nregion = 'text'\n",
-    "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "IkSolution start": "seed", "sweep scenario": "kitchen", "run_paper job": RUN.job, "plan seed": None, "prove plan": WASH.plan,
+    "Robot.ik seed": Q, "Robot.ik_path seed": Q, "Robot.ik_batch seeds": Q, "sweep scenario": "kitchen", "run_paper job": RUN.job, "plan seed": None, "prove plan": WASH.plan,
     "Study scenario": "kitchen", "Study axes": {"seed": [1]}, "rows": None, "name": "a study", "plans": "none", "Study.load path": "study.toml", "Study.parse text": STUDY.to_toml(), "Study.run out": "out",
     "engine": "threads", "workers": 1, "client": None, "address": None, "progress": False,
     "ranges": {"tool.length_m": (0.1, 0.2)}, "samples method": "random", "log": ["tool.length_m"], "StudyRows folder": "study", "index": 0, "partial": True, "timings": True, "at": "wash.contact_force_n",
@@ -56,7 +56,7 @@ GOOD: dict[str, Any] = {
     "acceleration_limits": np.ones(6),
 }  # fmt: skip
 # Classes of answers, which users are given: whoever makes one is trusted. Exceptions take any words.
-ANSWERS = {"Coverage", "CoverageRaster", "Energy", "IkBatch", "IkBranches", "Recovery"}
+ANSWERS = {"Coverage", "CoverageRaster", "Energy", "IkBatch", "IkBranches", "IkSolution", "Recovery"}
 # Arguments that may be anything: a key of any type may be asked for.
 TAKES_ANYTHING = {"Record text", "Record.__getitem__ key"}
 

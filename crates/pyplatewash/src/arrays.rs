@@ -115,11 +115,6 @@ pub const JOINTS: ExpectedShape = ExpectedShape {
     item: &[6],
     count: Count::Any,
 };
-/// One configuration.
-pub const ONE_JOINTS: ExpectedShape = ExpectedShape {
-    item: &[6],
-    count: Count::One,
-};
 /// A stack of configurations.
 pub const MANY_JOINTS: ExpectedShape = ExpectedShape {
     item: &[6],
@@ -141,8 +136,7 @@ pub const MANY_POSES: ExpectedShape = ExpectedShape {
 /// # Errors
 /// As [`Numbers::read`].
 pub fn joint_vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<JointVector> {
-    let numbers = Numbers::read(name, value, ONE_JOINTS)?;
-    Ok(JointVector::from_column_slice(numbers.values()?))
+    Ok(fixed::<6>(name, value)?.into())
 }
 
 /// `N` numbers.

@@ -79,7 +79,7 @@ mod _core {
     #[pymodule_export]
     use crate::plate::_plate_made;
     #[pymodule_export]
-    use crate::robot::{IkSolutionRecord, Robot};
+    use crate::robot::Robot;
     #[pymodule_export]
     use crate::scenario::{_task_region, ScenarioObject, place_plates};
     #[pymodule_export]

@@ -9,8 +9,9 @@
 use crate::arrays::{self, JOINTS, MANY_POSES, Numbers, ONE_POSE};
 use crate::errors::{self, Input};
 use crate::plate;
-use crate::robot::settings::IkSolutionRecord;
+use crate::robot::settings::origin;
 use crate::work::{STRETCH, alone, patiently, released};
+use bytemuck::Pod;
 use nalgebra::{Matrix6, Quaternion};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
 use platewash::kinematics::batch::{self, Backend, BatchError};
@@ -93,26 +94,35 @@ fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -
     let [position, orientation] = &columns.errors;
     let mut position: PyReadwriteArrayDyn<'_, f64> = position.readwrite();
     let mut orientation: PyReadwriteArrayDyn<'_, f64> = orientation.readwrite();
-    let mut rest = Rows {
-        first: 0,
-        q: bytemuck::cast_slice_mut(q.as_slice_mut()?),
-        solved: solved.as_slice_mut()?,
-        iterations: iterations.as_slice_mut()?,
-        position_error_m: position.as_slice_mut()?,
-        orientation_error_rad: orientation.as_slice_mut()?,
-    };
+    let q: &mut [JointVector] = bytemuck::cast_slice_mut(q.as_slice_mut()?);
+    let (solved, iterations) = (solved.as_slice_mut()?, iterations.as_slice_mut()?);
+    let (position, orientation) = (position.as_slice_mut()?, orientation.as_slice_mut()?);
     let all = PyDict::new(py);
-    let mut stretch = FIRST_STRETCH;
-    while !rest.q.is_empty() {
-        let n = stretch.min(rest.q.len());
-        let (now, later) = rest.split(n);
-        rest = later;
+    let (mut first, mut stretch) = (0, FIRST_STRETCH);
+    while first < q.len() {
+        let now = first..q.len().min(first + stretch);
+        let chunks = (
+            q[now.clone()].par_chunks_mut(CHUNK),
+            solved[now.clone()].par_chunks_mut(CHUNK),
+            iterations[now.clone()].par_chunks_mut(CHUNK),
+            position[now.clone()].par_chunks_mut(CHUNK),
+            orientation[now.clone()].par_chunks_mut(CHUNK),
+        );
         let begun = Instant::now();
         let done: Vec<_> = released(py, || {
-            let chunks = now.chunks().into_par_iter();
-            chunks
-                .map_init(|| Desk::new(problems), |desk, mut rows| rows.solve(desk, problems))
-                .collect()
+            let chunks = chunks.into_par_iter().enumerate();
+            let solve = |desk: &mut Desk, (k, (q, solved, iterations, position_error_m, orientation_error_rad))| {
+                let mut rows = Rows {
+                    first: now.start + k * CHUNK,
+                    q,
+                    solved,
+                    iterations,
+                    position_error_m,
+                    orientation_error_rad,
+                };
+                rows.solve(desk, problems)
+            };
+            chunks.map_init(|| Desk::new(problems), solve).collect()
         })?;
         for causes in done {
             for (row, cause) in causes.map_err(|e| errors::internal(py, &e.to_string()))? {
@@ -120,6 +130,7 @@ fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -
             }
         }
         py.check_signals()?;
+        first = now.end;
         if begun.elapsed() < PATIENCE {
             stretch *= 2;
         }
@@ -207,49 +218,7 @@ pub struct Rows<'a> {
     pub orientation_error_rad: &'a mut [f64],
 }
 
-impl<'a> Rows<'a> {
-    /// Cuts off the first `n` rows.
-    pub fn split(self, n: usize) -> (Self, Self) {
-        let (q, q_rest) = self.q.split_at_mut(n);
-        let (solved, solved_rest) = self.solved.split_at_mut(n);
-        let (iterations, iterations_rest) = self.iterations.split_at_mut(n);
-        let (position, position_rest) = self.position_error_m.split_at_mut(n);
-        let (orientation, orientation_rest) = self.orientation_error_rad.split_at_mut(n);
-        let rows = |first, q, solved, iterations, position_error_m, orientation_error_rad| Self {
-            first,
-            q,
-            solved,
-            iterations,
-            position_error_m,
-            orientation_error_rad,
-        };
-        (
-            rows(self.first, q, solved, iterations, position, orientation),
-            rows(
-                self.first + n,
-                q_rest,
-                solved_rest,
-                iterations_rest,
-                position_rest,
-                orientation_rest,
-            ),
-        )
-    }
-
-    /// Units of work.
-    #[must_use]
-    pub fn chunks(self) -> Vec<Self> {
-        let mut all = Vec::with_capacity(self.q.len().div_ceil(CHUNK));
-        let mut rest = self;
-        while rest.q.len() > CHUNK {
-            let (chunk, others) = rest.split(CHUNK);
-            all.push(chunk);
-            rest = others;
-        }
-        all.push(rest);
-        all
-    }
-
+impl Rows<'_> {
     /// Solves these rows, a unit of work.
     ///
     /// # Errors
@@ -310,18 +279,28 @@ pub fn fk<'py>(
         ];
         return arrays::array(py, &[4, 4], &rows);
     };
-    let poses = arrays::zeros::<f64>(py, &[count, 4, 4]);
-    let mut writable: PyReadwriteArrayDyn<'_, f64> = poses.readwrite();
-    let (matrices, _) = writable.as_slice_mut()?.as_chunks_mut::<16>();
+    filled(py, q, [count, 4, 4], |q, matrices: &mut [[f64; 16]]| {
+        batch::fk_matrices_into(robot, frame, q, matrices, Backend::Detected)
+    })
+}
+
+/// An array of a matrix for each configuration, filled stretch by stretch, with a check for Ctrl-C in between.
+fn filled<'py, M: Pod + Send>(
+    py: Python<'py>,
+    q: &[JointVector],
+    shape: [usize; 3],
+    fill: impl Fn(&[JointVector], &mut [M]) -> Result<(), BatchError> + Sync,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let result = arrays::zeros::<f64>(py, &shape);
+    let mut writable: PyReadwriteArrayDyn<'_, f64> = result.readwrite();
+    let matrices: &mut [M] = bytemuck::cast_slice_mut(writable.as_slice_mut()?);
     for (q, matrices) in q.chunks(STRETCH).zip(matrices.chunks_mut(STRETCH)) {
-        let done = released(py, || {
-            batch::fk_matrices_into(robot, frame, q, matrices, Backend::Detected)
-        })?;
-        done.map_err(|e| crate::errors::internal(py, &e.to_string()))?;
+        let done = released(py, || fill(q, matrices))?;
+        done.map_err(|e| errors::internal(py, &e.to_string()))?;
         py.check_signals()?;
     }
     drop(writable);
-    Ok(poses)
+    Ok(result)
 }
 
 /// See `Robot.jacobian`.
@@ -338,23 +317,13 @@ pub fn jacobian<'py>(
         let jacobian = robot.fk(&q[0]).jacobian(frame, axes);
         return arrays::array(py, &[6, 6], jacobian.transpose().as_slice());
     };
-    let result = arrays::zeros::<f64>(py, &[count, 6, 6]);
-    let mut writable: PyReadwriteArrayDyn<'_, f64> = result.readwrite();
-    let jacobians: &mut [Jacobian] = bytemuck::cast_slice_mut(writable.as_slice_mut()?);
-    for (q, jacobians) in q.chunks(STRETCH).zip(jacobians.chunks_mut(STRETCH)) {
-        let done = released(py, || {
-            batch::jacobian_into(robot, frame, q, axes, jacobians, Backend::Detected)?;
-            // Rust's matrices lie column by column, NumPy's row by row.
-            jacobians
-                .par_chunks_mut(CHUNK)
-                .for_each(|chunk| chunk.iter_mut().for_each(Matrix6::transpose_mut));
-            Ok::<_, batch::BatchError>(())
-        })?;
-        done.map_err(|e| crate::errors::internal(py, &e.to_string()))?;
-        py.check_signals()?;
-    }
-    drop(writable);
-    Ok(result)
+    filled(py, q, [count, 6, 6], |q, jacobians: &mut [Jacobian]| {
+        batch::jacobian_into(robot, frame, q, axes, jacobians, Backend::Detected)?;
+        // Rust's matrices lie column by column, NumPy's row by row.
+        let chunks = jacobians.par_chunks_mut(CHUNK);
+        chunks.for_each(|chunk| chunk.iter_mut().for_each(Matrix6::transpose_mut));
+        Ok(())
+    })
 }
 
 /// See `Robot.manipulability`.
@@ -388,6 +357,7 @@ pub fn limit_margins<'py>(
     }
 }
 
+static SOLUTION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 static BRANCHES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 /// One pose, shape (4, 4).
@@ -412,17 +382,19 @@ fn no_pose(py: Python<'_>, (k, e): (usize, Input)) -> PyErr {
 }
 
 /// See `Robot.ik`.
-pub fn one(
+pub fn one<'py>(
     solver: &IkSolver<'_>,
-    py: Python<'_>,
-    to: &Bound<'_, PyAny>,
-    from: Option<&Bound<'_, PyAny>>,
-) -> PyResult<IkSolutionRecord> {
+    py: Python<'py>,
+    to: &Bound<'py, PyAny>,
+    from: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
     let (to, from) = (target(to)?, seed(from, "seed")?);
-    let answer = alone(py, || solver.solve(&to, &from))?;
-    answer
-        .map(|s| IkSolutionRecord::from(&s))
-        .map_err(|e| errors::ik(py, &e))
+    let answer = alone(py, || solver.solve(&to, &from))?.map_err(|e| errors::ik(py, &e))?;
+    let (method, start) = origin(&answer);
+    let errors = (answer.position_error_m, answer.orientation_error_rad);
+    let q = arrays::array(py, &[6], answer.q.as_slice())?;
+    let class = SOLUTION.import(py, "pyplatewash._records", "IkSolution")?;
+    class.call1((q, answer.iterations, method, start, errors.0, errors.1))
 }
 
 /// See `Robot.ik_all`.

@@ -4,7 +4,7 @@ mod batch;
 mod settings;
 mod source;
 
-pub use crate::robot::settings::{IkSolutionRecord, settings};
+pub use crate::robot::settings::settings;
 
 use crate::argument::{self, ROBOT};
 use crate::plate::ToolFields;
@@ -329,15 +329,15 @@ impl Robot {
     ///
     /// Raises IkError with the best configuration found and the cause.
     #[pyo3(signature = (target, seed=None, frame=None, *, tool=None, settings=None))]
-    fn ik(
+    fn ik<'py>(
         &self,
-        py: Python<'_>,
-        target: &Bound<'_, PyAny>,
-        seed: Option<&Bound<'_, PyAny>>,
-        frame: Option<&Bound<'_, PyAny>>,
-        tool: Option<&Bound<'_, PyAny>>,
-        settings: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<IkSolutionRecord> {
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        seed: Option<&Bound<'py, PyAny>>,
+        frame: Option<&Bound<'py, PyAny>>,
+        tool: Option<&Bound<'py, PyAny>>,
+        settings: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py, frame, tool)?;
         batch::one(&*self.solver(py, frame, settings)?, py, target, seed)
     }

@@ -1,11 +1,9 @@
 //! Settings of the inverse kinematics, and solvers that are kept between calls.
 
-use crate::{argument, arrays, errors};
-use numpy::PyArrayDyn;
+use crate::{argument, errors};
 use platewash::kinematics::ik::{AnalyticStarts, Method, RandomRestarts, Start};
 use platewash::{Frame, IkSettings, IkSolution, IkSolver, RobotModel};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Number of solvers kept; each holds a list of starts that takes some 100 µs to make.
@@ -127,95 +125,17 @@ impl Solvers {
     }
 }
 
-/// A configuration within the limits that meets both tolerances.
-#[pyclass(frozen, module = "pyplatewash", name = "IkSolution")]
-pub struct IkSolutionRecord {
-    q: [f64; 6],
-    /// Linear systems and quadratic programs solved, over all starts.
-    #[pyo3(get)]
-    iterations: usize,
-    /// The method that answered: `"dls"` or `"qp"`.
-    #[pyo3(get)]
-    method: String,
-    /// From where the answer was found: `"seed"`, `"analytic"`, `"listed 3"`, `"random 0"`.
-    #[pyo3(get)]
-    start: String,
-    /// Distance of the frame's origin from the target's [m].
-    #[pyo3(get)]
-    position_error_m: f64,
-    /// Angle between the frame and the target [rad].
-    #[pyo3(get)]
-    orientation_error_rad: f64,
-}
-
-impl From<&IkSolution> for IkSolutionRecord {
-    fn from(solution: &IkSolution) -> Self {
-        let method = match solution.method {
-            Method::Dls => "dls",
-            Method::Qp => "qp",
-        };
-        let start = match solution.start {
-            Start::Seed => "seed".to_owned(),
-            Start::Analytic => "analytic".to_owned(),
-            Start::Listed(k) => format!("listed {k}"),
-            Start::Random(k) => format!("random {k}"),
-        };
-        Self {
-            q: solution.q.into(),
-            iterations: solution.iterations,
-            method: method.to_owned(),
-            start,
-            position_error_m: solution.position_error_m,
-            orientation_error_rad: solution.orientation_error_rad,
-        }
-    }
-}
-
-#[pymethods]
-impl IkSolutionRecord {
-    #[new]
-    fn new(
-        q: &Bound<'_, PyAny>,
-        iterations: &Bound<'_, PyAny>,
-        method: &Bound<'_, PyAny>,
-        start: &Bound<'_, PyAny>,
-        position_error_m: &Bound<'_, PyAny>,
-        orientation_error_rad: &Bound<'_, PyAny>,
-    ) -> PyResult<Self> {
-        Ok(Self {
-            q: arrays::fixed("q", q)?,
-            iterations: argument::count("iterations", iterations, argument::ANY_COUNT)?,
-            method: argument::text("method", method, "a text")?,
-            start: argument::text("start", start, "a text")?,
-            position_error_m: argument::number("position_error_m", position_error_m)?,
-            orientation_error_rad: argument::number("orientation_error_rad", orientation_error_rad)?,
-        })
-    }
-
-    /// Joint positions, shape (6,) [rad].
-    #[getter]
-    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::array(py, &[6], &self.q)
-    }
-
-    fn __repr__(&self) -> String {
-        format!(
-            "IkSolution(q={:.6?}, iterations={}, method='{}', start='{}', position_error_m={:.1e}, \
-             orientation_error_rad={:.1e})",
-            self.q, self.iterations, self.method, self.start, self.position_error_m, self.orientation_error_rad
-        )
-    }
-
-    fn __eq__(&self, other: &Self) -> bool {
-        self.q == other.q
-            && self.iterations == other.iterations
-            && (&self.method, &self.start) == (&other.method, &other.start)
-            && self.position_error_m == other.position_error_m
-            && self.orientation_error_rad == other.orientation_error_rad
-    }
-
-    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let errors = (self.position_error_m, self.orientation_error_rad);
-        (self.q, self.iterations, &self.method, &self.start, errors.0, errors.1).into_pyobject(py)
-    }
+/// Method that answered, and the start from which the answer was found, in words.
+pub fn origin(solution: &IkSolution) -> (&'static str, String) {
+    let method = match solution.method {
+        Method::Dls => "dls",
+        Method::Qp => "qp",
+    };
+    let start = match solution.start {
+        Start::Seed => "seed".to_owned(),
+        Start::Analytic => "analytic".to_owned(),
+        Start::Listed(k) => format!("listed {k}"),
+        Start::Random(k) => format!("random {k}"),
+    };
+    (method, start)
 }
