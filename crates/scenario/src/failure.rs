@@ -3,7 +3,8 @@
 //! Planner, prover and simulator know no keys: their errors name things of the domain. Here each error gets the keys that decide
 //! it.
 
-use crate::error::{BodyError, ScenarioError};
+use crate::body_error::BodyError;
+use crate::error::ScenarioError;
 use crate::resolve::arm::ArmError;
 use crate::sections::tool::tool_keys;
 use platewash_certificate::ProveError;

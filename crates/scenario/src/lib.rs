@@ -11,19 +11,21 @@
 //! | concept | module |
 //! | --- | --- |
 //! | sections, their keys, units, ranges and meanings | `sections`, `keys` |
-//! | reading and checking a file | `load`, `scenario`, `units` |
+//! | reading and checking a file | `source`, `load`, `scenario`, `units`, `lossy_path` |
 //! | from a scenario to its job | `resolve` |
 //! | a plate from a mesh or from probed points | [`measured`] |
 //! | changing a text key by key | `draft` |
-//! | failures and refusals in the words of the keys | `failure`, `error` |
+//! | failures and refusals in the words of the keys | `failure`, `error`, `body_error` |
 //! | keys that would mend a job; a home and a region for an arm | `remedy`, `suggest` |
 //! | obstacles alone, or a tool alone; planning scenes of MoveIt | `obstacle_file`, `planning_scene` |
 
+mod body_error;
 mod draft;
 mod error;
 mod failure;
 pub mod keys;
 mod load;
+mod lossy_path;
 pub mod measured;
 mod obstacle_file;
 mod planning_scene;
@@ -31,22 +33,24 @@ mod remedy;
 mod resolve;
 mod scenario;
 mod sections;
+mod source;
 mod suggest;
 mod units;
 
+pub use crate::body_error::{BodyError, BodyFault, BodySection};
 pub use crate::draft::{Draft, EditError};
-pub use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, TextKind};
+pub use crate::error::{Problem, ScenarioError, TextKind};
 pub use crate::failure::Failure;
-pub use crate::keys::document::{FormDomain, FormKey, FormRange, form, reference};
+pub use crate::keys::document::reference;
+pub use crate::keys::form::{FormDomain, FormKey, FormRange, form};
 pub use crate::keys::value::values_of;
 pub use crate::keys::{LISTS, List};
-pub use crate::load::{ScenarioSource, source};
 pub use crate::obstacle_file::{MeshPlaces, ObstacleText};
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
 pub use crate::resolve::arm::{ArmError, load_arm, load_arm_with_fixed};
-pub use crate::resolve::certified::MAX_CONTACT_CHECKS;
 pub use crate::resolve::plate_files::PlateFiles;
 pub use crate::resolve::solids::Solids;
+pub use crate::resolve::work::MAX_CONTACT_CHECKS;
 pub use crate::scenario::{Scenario, check_seed};
 pub use crate::sections::body_shape::{BodyShape, StatedShape};
 pub use crate::sections::holder::HolderSection;
@@ -58,6 +62,7 @@ pub use crate::sections::room::{FloorSection, TableSection};
 pub use crate::sections::simulation::{ControlSection, PlantSection, TIME_STEPS_S, plant_keys};
 pub use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, BodyFrame, HandleName, ToolBodySection, ToolSection};
 pub use crate::sections::wash::WashSection;
+pub use crate::source::{ScenarioSource, source};
 pub use crate::suggest::Suggestion;
 pub use crate::units::{MeshAs, Note};
 pub use platewash_scenarios::{SHIPPED, ShippedScenario};

@@ -1,24 +1,19 @@
 //! From a file or a shipped name to a checked [`Scenario`].
-//!
-//! Also here: scenarios that come with the program, by name.
-//!
-//! The text of a scenario: of a file, or of one that comes with the program.
-//!
-//! Paths as text: TOML and JSON are UTF-8, the system's paths need not be.
 
 use crate::error::{Problem, ScenarioError, conflict};
-use crate::keys::fits::{Misfit, byte_of, check, check_list, line_at, nearest, unknown};
+use crate::keys::fits::check;
+use crate::keys::line::{byte_of, line_at};
+use crate::keys::listed::{Misfit, check_list};
+use crate::keys::unknown::unknown;
 use crate::keys::value::{describe, json_of};
 use crate::keys::{KEYS, Key, LISTS};
 use crate::resolve::surroundings::in_folder;
 use crate::scenario::{Scenario, check_seed};
 use crate::sections::motion::Program;
+use crate::source::source;
 use platewash_kinematics::Pose;
-use platewash_kinematics::urdf::file::{self, FileError};
-use platewash_scenarios::SHIPPED;
 use platewash_workcell::job::OrderRule;
-use serde::ser::{Serialize, Serializer};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -231,91 +226,4 @@ pub(crate) fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfi
 fn check_value(key: &Key, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
     let found = || describe(value.get_ref());
     check(key, &json_of(value.get_ref()), found).map_err(|problem| (value.span().start, problem))
-}
-
-/// Longest text that is read \[bytes\].
-pub(crate) const MAX_BYTES: u64 = 1 << 20;
-
-/// A scenario's text, and where it stands.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ScenarioSource {
-    /// Name that it was asked for by: a shipped name, or the file as it was given.
-    pub name: String,
-    /// Its TOML text, as it stands there; not checked.
-    pub text: String,
-    /// The file; `None` for one that comes with the program.
-    pub file: Option<PathBuf>,
-    /// The folder to which paths in the text are relative: that of the file.
-    pub folder: Option<PathBuf>,
-}
-
-/// The text of a scenario: a shipped name (`paper-appendix`), or a file.
-///
-/// # Errors
-/// [`ScenarioError`]: neither of them, no regular file, longer than 1 MiB, or no UTF-8.
-pub fn source(name_or_file: &str) -> Result<ScenarioSource, ScenarioError> {
-    if let Some(shipped) = SHIPPED.iter().find(|s| s.name == name_or_file) {
-        return Ok(ScenarioSource {
-            name: shipped.name.to_owned(),
-            text: shipped.text.to_owned(),
-            file: None,
-            folder: None,
-        });
-    }
-    let fail = |problem| ScenarioError::new(name_or_file, None, problem);
-    let path = Path::new(name_or_file);
-    if !path.exists() {
-        let shipped: Vec<_> = SHIPPED.iter().map(|s| s.name).collect();
-        let name = name_or_file.strip_suffix(".toml").unwrap_or(name_or_file);
-        let nearest = nearest(name, shipped.iter().copied()).map(str::to_owned);
-        let shipped = shipped.join(", ");
-        return Err(fail(Problem::NotFound { nearest, shipped }));
-    }
-    let text = file::read_text(path, MAX_BYTES).map_err(|e| fail(unread(e)))?;
-    Ok(ScenarioSource {
-        name: name_or_file.to_owned(),
-        text,
-        file: Some(path.to_owned()),
-        folder: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
-    })
-}
-
-pub(crate) fn unread(error: FileError) -> Problem {
-    match error {
-        FileError::TooLong { limit } => Problem::TooLarge { limit },
-        other => Problem::Unreadable {
-            detail: other.to_string(),
-        },
-    }
-}
-
-/// A path with U+FFFD in place of bytes that are not UTF-8.
-pub(crate) fn serialize_lossy<S: Serializer>(path: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
-    path.as_ref().map(|p| p.to_string_lossy()).serialize(serializer)
-}
-
-/// Several paths, each with U+FFFD in place of bytes that are not UTF-8.
-pub(crate) fn lossy_all<S: Serializer>(paths: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(paths.iter().map(|p| p.to_string_lossy()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_regular_files_of_sensible_length_are_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("long.toml");
-        std::fs::write(&path, " ".repeat(MAX_BYTES as usize + 1)).unwrap();
-        let problem = |path: &Path| source(&path.to_string_lossy()).unwrap_err().problem;
-        assert_eq!(problem(&path), Problem::TooLarge { limit: MAX_BYTES });
-        assert!(problem(folder.path()).to_string().contains("not a regular file"));
-        assert!(matches!(
-            problem(&folder.path().join("none.toml")),
-            Problem::NotFound { .. }
-        ));
-        std::fs::write(&path, b"name = \"\xff\"").unwrap();
-        assert!(problem(&path).to_string().contains("UTF-8"));
-    }
 }

@@ -3,10 +3,11 @@
 
 use crate::error::{Problem, ScenarioError, TextKind};
 use crate::failure::Failure;
-use crate::keys::fits::{byte_of, line_at};
-use crate::load::{MAX_BYTES, check_table, unread};
+use crate::keys::line::{byte_of, line_at};
+use crate::load::check_table;
 use crate::planning_scene;
 use crate::scenario::Scenario;
+use crate::source::{MAX_BYTES, unread};
 use crate::units::Note;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::{Files, file};

@@ -1,6 +1,4 @@
 //! A scenario: everything that a file states, section by section.
-//!
-//! Also here: seeds that a plan file can state.
 
 use crate::error::Problem;
 use crate::resolve::plate_files::PlateFiles;

@@ -2,9 +2,10 @@
 
 use crate::draft::{EditError, Target, elements};
 use crate::keys::KEYS;
-use crate::keys::fits::line_at;
 use crate::keys::key::Domain;
-use crate::keys::value::{in_style_of, json_of, on_one_line, on_rows};
+use crate::keys::line::line_at;
+use crate::keys::toml_text::{in_style_of, on_one_line, on_rows};
+use crate::keys::value::json_of;
 use serde_json::Value as Json;
 use toml::de::DeValue;
 use toml_edit::{Document, DocumentMut, InlineTable, Item, Key, KeyMut, RawString, Table, Value};

@@ -3,7 +3,7 @@
 //! `toml_edit` keeps the text between two elements, also a comment behind the comma, before the second one.
 
 use crate::draft::change::{Stop, json, merge as merge_value, parsed, same, text_of};
-use crate::keys::value::on_one_line;
+use crate::keys::toml_text::on_one_line;
 use serde_json::Value as Json;
 use toml_edit::Array;
 

@@ -1,22 +1,23 @@
 //! A scenario's text that is being changed: key by key, all else in it kept.
 //!
-//! Also here: why a change was refused.
-//!
 //! `toml_edit` keeps comments, order and layout.
 //!
 //! Which key of a text is changed: one of the table, as `wash.turns`, or one in a section of a list, as `plate[1].at_m`.
 
 mod change;
+mod edit_error;
 mod elements;
 
+pub use crate::draft::edit_error::EditError;
+
 use crate::error::{Problem, ScenarioError};
-use crate::keys::fits::{check, unknown};
+use crate::keys::fits::check;
 use crate::keys::key::{Domain, Key};
+use crate::keys::unknown::unknown;
 use crate::keys::value::{describe, describe_json, json_of};
 use crate::keys::{KEYS, LISTS, List, own_name};
-use crate::load::MAX_BYTES;
 use crate::scenario::Scenario;
-use platewash_workcell::words::printable;
+use crate::source::MAX_BYTES;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -211,60 +212,5 @@ impl Target {
     /// Its section, if it has one.
     pub fn section(&self) -> Option<&'static str> {
         self.key.path.rsplit_once('.').map(|(section, _)| section)
-    }
-}
-
-/// Reason that a change of a scenario's text was refused; the text stays as it was.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EditError {
-    /// A key or a value that a file would be refused for, in the same words.
-    #[error("{0}")]
-    Refused(Problem),
-    /// The text leaves no room for the key.
-    #[error("{key} cannot be changed: line {line} of the scenario has '{}' where it would go; change that line by hand", printable(.found))]
-    Blocked {
-        /// The key.
-        key: String,
-        /// Line of the text, from 1.
-        line: usize,
-        /// Beginning of that line.
-        found: String,
-    },
-    /// A list has no such section.
-    #[error("{key} cannot be changed: there is no such [[{list}]] section; sections are counted from 0")]
-    NoRow {
-        /// The key.
-        key: String,
-        /// The list.
-        list: &'static str,
-    },
-    /// The text would become longer than is read.
-    #[error("{key} cannot be changed: the scenario would be longer than {limit} bytes, the most that are read")]
-    TooLong {
-        /// The key.
-        key: String,
-        /// The most that are read \[bytes\].
-        limit: u64,
-    },
-    /// The changed text would not state the new value.
-    #[error("{key} cannot be changed without changing something else; change it by hand")]
-    Unplaced {
-        /// The key.
-        key: String,
-    },
-}
-
-impl EditError {
-    /// The key that was to be changed.
-    #[must_use]
-    pub fn key(&self) -> Option<&str> {
-        match self {
-            Self::Refused(problem) => problem.key(),
-            Self::Blocked { key, .. }
-            | Self::NoRow { key, .. }
-            | Self::TooLong { key, .. }
-            | Self::Unplaced { key } => Some(key),
-        }
     }
 }

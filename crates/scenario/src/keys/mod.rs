@@ -4,7 +4,12 @@
 
 pub(crate) mod document;
 pub(crate) mod fits;
+pub(crate) mod form;
 pub(crate) mod key;
+pub(crate) mod line;
+pub(crate) mod listed;
+pub(crate) mod toml_text;
+pub(crate) mod unknown;
 pub(crate) mod value;
 
 pub use crate::keys::key::{Domain, Key};

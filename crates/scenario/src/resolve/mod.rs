@@ -7,7 +7,8 @@
 //! | places of the plates; plates and soils out of files | `placement`; `plate_files` |
 //! | bodies around the arm; meshes as convex bodies | `surroundings`; `solids` |
 //! | requirements of contact, landing and lifting | `contact` |
-//! | keys with a narrower range in a certified job than in the paper's program; bounds on the amount of work | `certified` |
+//! | keys with a narrower range in a certified job than in the paper's program | `certified` |
+//! | bounds on the amount of work | `work` |
 
 pub(crate) mod arm;
 pub(crate) mod certified;
@@ -18,6 +19,7 @@ pub(crate) mod plate_files;
 pub(crate) mod solids;
 pub(crate) mod surroundings;
 pub(crate) mod tool_on_arm;
+pub(crate) mod work;
 
 use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;

@@ -3,7 +3,6 @@
 //! Once its files are read, a scenario is as if its text stated what they say: a profile for a mesh, a `[[plate]]` section for a row.
 
 use crate::error::{Problem, ScenarioError, conflict};
-use crate::load::{MAX_BYTES, unread};
 use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
 use crate::resolve::mount::place_words;
 use crate::resolve::placement::ShapeKeys;
@@ -11,6 +10,7 @@ use crate::scenario::Scenario;
 use crate::sections::layout::{LayoutSection, PlateSection, ProfileName};
 use crate::sections::motion::Program;
 use crate::sections::robot::OriginLink;
+use crate::source::{MAX_BYTES, unread};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::urdf::MeshSource;

@@ -1,6 +1,6 @@
 //! Meshes as convex bodies and as plates, cut and fitted once: a scenario is resolved again and again, for every seed of a sweep and every move on a page.
 
-use crate::error::BodyFault;
+use crate::body_error::BodyFault;
 use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
 use nalgebra::Point3;
 use platewash_kinematics::fingerprint::sha256_hex;

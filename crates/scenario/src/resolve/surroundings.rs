@@ -1,6 +1,7 @@
 //! From the sections of floor, table and obstacles to the bodies that stand around the arm.
 
-use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, conflict};
+use crate::body_error::{BodyError, BodyFault, BodySection};
+use crate::error::{Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::scenario::Scenario;
 use crate::sections::body_shape::{SectionShape, pose};

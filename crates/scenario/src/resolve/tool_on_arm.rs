@@ -1,6 +1,7 @@
 //! The tool that a scenario states, on an arm.
 
-use crate::error::{BodyError, BodyFault, BodySection, Problem, ScenarioError, conflict};
+use crate::body_error::{BodyError, BodyFault, BodySection};
+use crate::error::{Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::scenario::Scenario;
 use crate::sections::body_shape::{SectionShape, pose};

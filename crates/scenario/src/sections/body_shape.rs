@@ -3,7 +3,7 @@
 //! Poses as files state them: a place, and roll, pitch and yaw in degrees.
 
 use crate::error::{Problem, conflict};
-use crate::load;
+use crate::lossy_path::serialize_lossy;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::{RigidTransform, from_rpy};
@@ -67,7 +67,7 @@ pub struct StatedShape {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
     /// File of a mesh.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::serialize_lossy")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
     pub mesh: Option<PathBuf>,
     /// Factors of the mesh's coordinates along x, y, z.
     #[serde(skip_serializing_if = "Option::is_none")]

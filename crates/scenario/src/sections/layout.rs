@@ -3,7 +3,7 @@
 //! The `[[plate]]` sections: plates one by one, each with its own shape and place, or kinds of plates to be sampled.
 
 use crate::error::{Problem, conflict};
-use crate::load::serialize_lossy;
+use crate::lossy_path::serialize_lossy;
 use crate::measured::{FaceSide, Unit};
 use crate::sections::body_shape::pose;
 use crate::sections::robot::OriginLink;

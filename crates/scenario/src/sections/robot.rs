@@ -1,6 +1,6 @@
 //! The `[robot]` section: the arm, its home and its mount.
 
-use crate::load;
+use crate::lossy_path::{lossy_all, serialize_lossy};
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
 use platewash_kinematics::urdf::FixedJoints;
@@ -18,16 +18,16 @@ pub struct RobotSection {
     pub model: BuiltInArm,
     /// Expanded URDF of another six-axis arm, in place of the built-in one; relative to the scenario's folder.
     #[key(domain = Path)]
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::serialize_lossy")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
     pub urdf: Option<PathBuf>,
     /// SRDF whose `disable_collisions` elements name the link pairs that need no check. Without it: adjacent pairs and pairs that always
     /// touch.
     #[key(domain = Path)]
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "load::serialize_lossy")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_lossy")]
     pub srdf: Option<PathBuf>,
     /// Folders in which `package://` mesh names are looked up.
     #[key(domain = Paths)]
-    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "load::lossy_all")]
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "lossy_all")]
     pub package_path: Vec<PathBuf>,
     /// Take the visuals of links without collision shapes as such, meshes as convex hulls; without it, no clearance of such links is checked.
     #[key(domain = Bool)]

@@ -1,6 +1,6 @@
 //! The `[wash]` section: the wash path and its requirements.
 
-use crate::load::serialize_lossy;
+use crate::lossy_path::serialize_lossy;
 use platewash_keys::Section;
 use platewash_workcell::job::PatternName;
 use serde::{Deserialize, Serialize};
