@@ -1,6 +1,4 @@
-//! Array-likes in; NumPy arrays out are made in `made`.
-//!
-//! Also here: NumPy arrays out.
+//! Array-likes in, NumPy arrays out.
 //!
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.

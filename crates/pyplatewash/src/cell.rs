@@ -5,7 +5,7 @@ use crate::page::{bundle, height_px};
 use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
-use crate::value::warn;
+use crate::warnings::warn;
 use crate::work::{alone, aside};
 use crate::{argument, errors};
 use platewash::editor::{Editor, EditorError};

@@ -3,8 +3,8 @@
 use crate::argument::{self, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
-use crate::plate::ToolFields;
 use crate::robot::Robot;
+use crate::tool::ToolFields;
 use crate::work::{STRETCH, released};
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;

@@ -1,8 +1,9 @@
 //! Robot programs of a plan.
 
 use crate::arrays::{self, Numbers, ONE_POSE};
+use crate::pose;
 use crate::work::patiently;
-use crate::{argument, errors, plate};
+use crate::{argument, errors};
 use platewash::certificate::{CertifyError, Requirement, certify_with};
 use platewash::export::dialect::{DIALECTS, Dialect, ProgramFile};
 use platewash::export::{ExportError, ExportSettings, Joint3, Refusal, export};
@@ -63,7 +64,7 @@ fn joint_3(value: &Bound<'_, PyAny>) -> PyResult<Joint3> {
 
 fn tip(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("tip", value, ONE_POSE)?;
-    plate::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "tip", &e.0))
+    pose::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "tip", &e.0))
 }
 
 /// The dialect of the argument called `to`.

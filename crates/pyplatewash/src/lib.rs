@@ -23,13 +23,18 @@ mod paper;
 mod plan;
 mod planned;
 mod plate;
+mod pose;
 mod recovery;
+mod reproduce;
 mod robot;
 mod scenario;
 mod simulation;
 mod study;
+mod sweep;
+mod tool;
 mod trajectory;
 mod value;
+mod warnings;
 mod work;
 
 use pyo3::prelude::*;
@@ -65,19 +70,17 @@ mod _core {
     #[pymodule_export]
     use crate::page::{_plan_figure, _show_arguments};
     #[pymodule_export]
-    use crate::paper::reproduce;
-    #[pymodule_export]
     use crate::paper::{PaperRunObject, run_paper};
     #[pymodule_export]
     use crate::plan::PlanObject;
-    #[pymodule_export]
-    use crate::planned::sweep;
     #[pymodule_export]
     use crate::planned::{PlannedObject, plan};
     #[pymodule_export]
     use crate::plate::_check;
     #[pymodule_export]
     use crate::plate::_plate_made;
+    #[pymodule_export]
+    use crate::reproduce::reproduce;
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
@@ -86,6 +89,8 @@ mod _core {
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]
     use crate::study::{_study_check, _study_summary, StudyJournalObject, StudyObject, StudyWorkerObject};
+    #[pymodule_export]
+    use crate::sweep::sweep;
     #[pymodule_export]
     use crate::trajectory::TrajectoryObject;
     #[pymodule_export]

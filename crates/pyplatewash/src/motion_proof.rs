@@ -3,8 +3,9 @@
 use crate::argument;
 use crate::arrays::{self, MANY_JOINTS, Numbers, ONE_POSE};
 use crate::errors;
-use crate::plate::{self, ToolFields};
+use crate::pose;
 use crate::robot::Robot;
+use crate::tool::ToolFields;
 use crate::trajectory::MANY_TIMES;
 use crate::value::{from_mapping, to_record};
 use crate::work::patiently;
@@ -116,7 +117,7 @@ pub fn prove_motion<'py>(
 /// Pose of the base in the world.
 fn read_mount(mount: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("mount", mount, ONE_POSE)?;
-    plate::pose(numbers.values()?).map_err(|e| errors::input(mount.py(), "mount", &e.0))
+    pose::pose(numbers.values()?).map_err(|e| errors::input(mount.py(), "mount", &e.0))
 }
 
 /// Acceleration limits \[rad/s²\]. They need times to be judged.

@@ -5,10 +5,11 @@
 use crate::certificate::CertificateObject;
 use crate::errors::{self, FileKind, SystemWord};
 use crate::plan::PlanObject;
-use crate::plate::{PlateFields, ToolFields};
+use crate::plate::PlateFields;
 use crate::robot::Robot;
 use crate::scenario::{self, ScenarioObject};
 use crate::simulation::{ExecutionObject, FinishedSimulation, Question};
+use crate::tool::ToolFields;
 use crate::work::patiently;
 use crate::{argument, arrays};
 use platewash::viewer::bundle::Bundle;

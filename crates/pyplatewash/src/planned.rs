@@ -1,23 +1,17 @@
 //! `Planned`: a planned washing, with facts about the plan.
-//!
-//! Also here: many layouts of one scenario.
 
 use crate::job::WashJobObject;
 use crate::plan::PlanObject;
 use crate::value::{records, to_record};
 use crate::work::patiently;
-use crate::{argument, arrays, errors, scenario};
+use crate::{arrays, errors, scenario};
 use numpy::PyArrayDyn;
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
-use platewash::scenario::Program;
-use platewash::study::Row;
 use platewash::workcell::words::{count_with_noun, quoted};
-use platewash::{Failure, PlannedJob, WashReport};
+use platewash::{PlannedJob, WashReport};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
-use rayon::prelude::*;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// A washing, from home to home, planned before anything moves: the `plan`, and how it came about. Immutable.
@@ -110,28 +104,4 @@ pub fn plan(py: Python<'_>, job: &Bound<'_, PyAny>, seed: Option<&Bound<'_, PyAn
         inner: Arc::new(planned.map_err(|e| errors::failure(py, &e.into()))?),
         job: job.unbind(),
     })
-}
-
-/// Plans and proves a scenario once a seed: one record a seed, with the fields of a study's rows: `axes` (`{"seed": n}`), `outcome`
-/// (`"proved"`, `"not_proved"`, `"infeasible"`, `"not_found"`, `"error"`), `duration_s`, `swept`, `pressed`, `clearance_m`, `reason`
-/// and so on. Works on all processors.
-///
-/// Raises InputError for a scenario of the paper's program; ScenarioError or PlanError for one that is wrong for every seed.
-#[pyfunction]
-pub fn sweep<'py>(
-    py: Python<'py>,
-    scenario: &Bound<'_, PyAny>,
-    seeds: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyList>> {
-    let scenario = scenario::given(scenario)?;
-    scenario::of_program(py, &scenario, Program::Certified)?;
-    let seeds = argument::each("seeds", seeds, "a list of seeds", argument::seed)?;
-    let rows = patiently(py, move |cancel| {
-        let one = |&seed: &u64| {
-            cancel.check()?;
-            platewash::sweep(&scenario, seed..=seed, cancel, &mut |_| ControlFlow::Continue(()))
-        };
-        seeds.par_iter().map(one).collect::<Result<Vec<Vec<Row>>, Failure>>()
-    })?;
-    records(py, &rows.map_err(|e| errors::failure(py, &e))?.concat())
 }

@@ -3,7 +3,8 @@
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::layout::LayoutObject;
 use crate::robot::Robot;
-use crate::value::{from_mapping, records, to_python, to_record, warn};
+use crate::value::{from_mapping, records, to_python, to_record};
+use crate::warnings::warn;
 use crate::work::patiently;
 use crate::{argument, errors};
 use platewash::planner::Watch;

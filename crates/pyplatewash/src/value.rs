@@ -1,17 +1,12 @@
 //! Data as plain Python objects and back, by way of JSON's types.
-//!
-//! Also here: values that were probably meant in another unit, as Python's warnings.
 
 use crate::{argument, errors};
-use platewash::scenario::Note;
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple, PyType};
 use pyo3::{IntoPyObjectExt, intern};
 use serde::Serialize;
 use serde_json::{Map, Number, Value};
-use std::ffi::CString;
 
 /// Deepest nesting that is read: a list that contains itself ends there.
 const DEEPEST: usize = 32;
@@ -170,16 +165,4 @@ fn object(name: &str, mapping: &Bound<'_, PyMapping>, depth: usize) -> PyResult<
         map.insert(key, from_python(&inside, &value, depth + 1)?);
     }
     Ok(Value::Object(map))
-}
-
-/// Warns of each note, at the line that called; an error where warnings are errors.
-///
-/// # Errors
-/// The warning itself, where the caller's filters make it an exception.
-pub fn warn(py: Python<'_>, notes: &[Note]) -> PyResult<()> {
-    let category = py.get_type::<PyUserWarning>();
-    for note in notes {
-        PyErr::warn(py, &category, &CString::new(note.to_string())?, 1)?;
-    }
-    Ok(())
 }

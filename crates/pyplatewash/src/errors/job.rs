@@ -1,7 +1,7 @@
 //! Scenarios that are refused, and jobs that cannot be carried out.
 
 use crate::arrays;
-use crate::errors::{FileKind, SystemWord, any, input, keyed, named, raise, simulation, system_file};
+use crate::errors::{Field, FileKind, SystemWord, any, input, keyed, named, raise, simulation, system_file};
 use platewash::paper::PaperError;
 use platewash::paper::tracking::TrackingError;
 use platewash::planner::transit::TransitError;
@@ -14,9 +14,6 @@ use platewash::workcell::words::plate_name;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Failure, PlanError, ScenarioError};
 use pyo3::prelude::*;
-
-/// A field of an exception.
-type Field<'py> = (&'static str, Option<Bound<'py, PyAny>>);
 
 /// A refused scenario.
 pub fn scenario(py: Python<'_>, error: &ScenarioError) -> PyErr {

@@ -1,14 +1,8 @@
-//! Inverse kinematics of many targets, straight into NumPy's arrays.
-//!
-//! Neighbouring rows of a batch of inverse kinematics: the problems, the buffers of a thread, and the places for the answers.
-//!
-//! Forward kinematics and Jacobians, one at a time or in batches.
-//!
-//! Inverse kinematics: one target, all branches, a path.
+//! Forward kinematics, Jacobians and inverse kinematics, one at a time or in batches, straight into NumPy's arrays.
 
 use crate::arrays::{self, JOINTS, MANY_POSES, Numbers, ONE_POSE};
 use crate::errors::{self, Input};
-use crate::plate;
+use crate::pose;
 use crate::robot::settings::origin;
 use crate::work::{STRETCH, alone, patiently, released};
 use bytemuck::Pod;
@@ -226,7 +220,7 @@ impl Rows<'_> {
     pub fn solve(&mut self, desk: &mut Desk, problems: &Problems<'_>) -> Result<Causes, BatchError> {
         let (first, n) = (self.first, self.q.len());
         let matrices = &problems.matrices[first..first + n];
-        plate::poses(matrices, &mut desk.room, &mut desk.targets);
+        pose::poses(matrices, &mut desk.room, &mut desk.targets);
         let seeds = match problems.seeds {
             Seeds::One(_) => &desk.seeds[..n],
             Seeds::Each(seeds) => &seeds[first..first + n],
@@ -363,7 +357,7 @@ static BRANCHES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 /// One pose, shape (4, 4).
 fn target(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("target", value, ONE_POSE)?;
-    plate::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "target", &e.0))
+    pose::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "target", &e.0))
 }
 
 fn seed(value: Option<&Bound<'_, PyAny>>, name: &'static str) -> PyResult<JointVector> {
@@ -373,7 +367,7 @@ fn seed(value: Option<&Bound<'_, PyAny>>, name: &'static str) -> PyResult<JointV
 /// Poses from matrices, shape (N, 4, 4); the error has the index of a matrix that is no pose.
 fn poses(matrices: &[[f64; 16]]) -> Result<Vec<Pose>, (usize, Input)> {
     let all = matrices.par_iter().with_min_len(512).enumerate();
-    all.map(|(k, m)| plate::pose(m).map_err(|e| (k, e))).collect()
+    all.map(|(k, m)| pose::pose(m).map_err(|e| (k, e))).collect()
 }
 
 /// Error for a target that is no pose.

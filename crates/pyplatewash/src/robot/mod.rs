@@ -7,10 +7,10 @@ mod source;
 pub use crate::robot::settings::settings;
 
 use crate::argument::{self, ROBOT};
-use crate::plate::ToolFields;
 use crate::robot::settings::Solvers;
 use crate::robot::source::{Description, Source};
-use crate::value::warn;
+use crate::tool::ToolFields;
+use crate::warnings::warn;
 use crate::{arrays, errors};
 use numpy::PyArrayDyn;
 use platewash::kinematics::urdf::{Files, FixedJoints};
