@@ -3,7 +3,7 @@
 //! Checks of Python's plain values at their construction.
 
 use crate::argument::{self};
-use crate::errors::{self};
+use crate::errors;
 use crate::tool::{LARGEST_M, ToolFields, check_length};
 use crate::{arrays, curves, page, robot};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};

@@ -2,7 +2,7 @@
 
 use crate::argument::{self, TOOL};
 use crate::arrays;
-use crate::errors::{self};
+use crate::errors;
 use platewash::workcell::tool::StraightTool;
 use platewash::{RobotModel, Tool};
 use pyo3::prelude::*;
