@@ -15,8 +15,6 @@ use crate::maker_joints::Joint3;
 use crate::rapid::is_taken;
 use crate::rapid::write::motion::{Routine, routines};
 use platewash_kinematics::words::fixed;
-use platewash_workcell::trajectory::SegmentKind;
-use std::collections::HashSet;
 
 /// Most targets of a module; more go to modules of their own.
 const MOST_TARGETS: usize = 4000;
@@ -25,55 +23,36 @@ const MOST_TARGETS: usize = 4000;
 pub fn modules(program: &Program<'_>) -> Vec<ProgramFile> {
     let name = module(&program.name);
     let routines = routines(program, MOST_TARGETS);
-    let targets: usize = routines.iter().map(Routine::targets).sum();
-    let shares = if targets <= MOST_TARGETS {
-        Vec::new()
-    } else {
-        split_into_modules(&routines)
+    let groups = split_into_modules(&routines);
+    let (beside_main, parts) = match &groups[..] {
+        [all] => (*all, &[][..]),
+        parts => (&[][..], parts),
     };
-    let files: Vec<String> = (0..=shares.len()).map(|index| file(&name, index)).collect();
-
-    let mut first = Lines::default();
-    first.line(0, &format!("MODULE {name}"));
-    write(&mut first, program, &files);
-    first.blank();
-    start::data(&mut first, program);
-    first.blank();
-    let within_deg = start_within_deg(&program.plan.job);
-    start::main(&mut first, &routines, within_deg);
-    start::checks(&mut first, within_deg, program.joint_3);
-    if shares.is_empty() {
-        write_all(&mut first, &routines);
-    }
-    first.line(0, "ENDMODULE");
-
-    let mut texts = vec![first.text()];
-    for (index, share) in shares.iter().enumerate() {
-        let mut module = Lines::default();
-        module.line(0, &format!("MODULE {}", module_part(&name, index + 1)));
-        write_part(&mut module, &files, index + 1);
-        write_all(&mut module, share);
-        module.line(0, "ENDMODULE");
-        texts.push(module.text());
-    }
-    let named = files.into_iter().zip(texts);
-    named.map(|(name, text)| ProgramFile { name, text }).collect()
+    let files: Vec<String> = (0..=parts.len()).map(|index| file(&name, index)).collect();
+    let text = |routines: &[Routine]| routines.iter().map(|routine| &*routine.text).collect::<String>();
+    let first = format!(
+        "MODULE {name}\n{}\n{}{}{}ENDMODULE\n",
+        head(program, &files),
+        start::data_and_main(program, &routines),
+        start::checks(start_within_deg(&program.plan.job), program.joint_3),
+        text(beside_main)
+    );
+    let further = (1..).zip(parts).map(|(part, routines)| {
+        let (name, head) = (module_part(&name, part), head_of_part(&files, part));
+        format!("MODULE {name}\n{head}{}ENDMODULE\n", text(routines))
+    });
+    let named = files.iter().zip([first].into_iter().chain(further));
+    named
+        .map(|(name, text)| ProgramFile {
+            name: name.clone(),
+            text,
+        })
+        .collect()
 }
 
 /// Text of a module that contains only the checks before the first motion, with the largest distance from the start \[°\].
 pub(crate) fn checks(within_deg: f64, joint_3: Joint3) -> String {
-    let mut lines = Lines::default();
-    lines.line(0, "MODULE checks");
-    start::checks(&mut lines, within_deg, joint_3);
-    lines.line(0, "ENDMODULE");
-    lines.text()
-}
-
-fn write_all(lines: &mut Lines, routines: &[Routine]) {
-    for routine in routines {
-        lines.blank();
-        routine.write(lines);
-    }
+    format!("MODULE checks\n{}ENDMODULE\n", start::checks(within_deg, joint_3))
 }
 
 /// Routines in groups of no more targets than a module takes.
@@ -81,11 +60,11 @@ fn split_into_modules(routines: &[Routine]) -> Vec<&[Routine]> {
     let mut groups = Vec::new();
     let (mut from, mut targets) = (0, 0);
     for (index, routine) in routines.iter().enumerate() {
-        if targets + routine.targets() > MOST_TARGETS && index > from {
+        if targets + routine.targets > MOST_TARGETS && index > from {
             groups.extend(routines.get(from..index));
             (from, targets) = (index, 0);
         }
-        targets += routine.targets();
+        targets += routine.targets;
     }
     groups.extend(routines.get(from..));
     groups
@@ -97,73 +76,24 @@ const OWN: [&str; 2] = [
     "Joints are the robot's own, 1 to 6; no external axes; no work object: MoveAbsJ needs none.",
 ];
 
-/// Writes the head of the module with `main`.
-pub fn write(lines: &mut Lines, program: &Program<'_>, files: &[String]) {
-    for entry in &program.header {
-        lines.comment(1, entry);
-    }
-    lines.comment(1, "");
-    OWN.into_iter().for_each(|sentence| lines.comment(1, sentence));
-    lines.comment(
-        1,
-        &format!(
-            "To run it slower, lower {SHARE} below: 0.1 is a tenth of the plan's speed. It takes {} at most.",
-            program.speed_share
-        ),
+/// The head of the module with `main`.
+fn head(program: &Program<'_>, files: &[String]) -> String {
+    let slower = format!(
+        "To run it slower, lower {SHARE} below: 0.1 is a tenth of the plan's speed. It takes {} at most.",
+        program.speed_share
     );
-    if files.len() > 1 {
-        lines.comment(
-            1,
-            &format!(
-                "The program is {} modules; load them all into one task: {}.",
-                files.len(),
-                files.join(", ")
-            ),
-        );
-    }
+    let (count, all) = (files.len(), files.join(", "));
+    let several = (count > 1).then(|| format!("The program is {count} modules; load them all into one task: {all}."));
+    let own = [""].into_iter().chain(OWN).chain([&*slower]).chain(several.as_deref());
+    wrapped("  !", program.header.iter().map(String::as_str).chain(own))
 }
 
-/// Writes the head of a further module.
-pub fn write_part(lines: &mut Lines, files: &[String], part: usize) {
+/// The head of a further module.
+fn head_of_part(files: &[String], part: usize) -> String {
     let first = files.first().map_or("", String::as_str);
     let (number, count) = (part + 1, files.len());
-    lines.comment(
-        1,
-        &format!("Module {number} of {count}. It needs the others; {first} has main and says what this is."),
-    );
-}
-
-/// Lines of a module.
-#[derive(Debug, Default)]
-pub struct Lines {
-    text: String,
-}
-
-impl Lines {
-    /// Appends a line, indented by a number of steps.
-    pub fn line(&mut self, steps: usize, line: &str) {
-        for _ in 0..steps {
-            self.text.push_str("  ");
-        }
-        self.text.push_str(line);
-        self.text.push('\n');
-    }
-
-    /// An empty line.
-    pub fn blank(&mut self) {
-        self.text.push('\n');
-    }
-
-    /// A sentence as a comment, as many lines as it needs; further lines are set off.
-    pub fn comment(&mut self, steps: usize, sentence: &str) {
-        let prefix = format!("{}!", "  ".repeat(steps));
-        self.text.push_str(&wrapped(&prefix, [sentence]));
-    }
-
-    /// Returns all lines.
-    pub fn text(self) -> String {
-        self.text
-    }
+    let head = format!("Module {number} of {count}. It needs the others; {first} has main and says what this is.");
+    wrapped("  !", [&*head])
 }
 
 /// A number with at most that many decimals, without zeros at its end.
@@ -213,38 +143,11 @@ pub fn file(module: &str, part: usize) -> String {
     }
 }
 
-/// Names of routines, each once.
-#[derive(Debug, Default)]
-pub struct Routines {
-    taken: HashSet<String>,
-}
-
-impl Routines {
-    /// A name after a kind of segment and the number of its plate, counted from 1.
-    pub fn name(&mut self, kind: Option<SegmentKind>, number: usize) -> String {
-        let word = match kind {
-            Some(SegmentKind::Depart) => "Depart",
-            Some(SegmentKind::Approach) => "Approach",
-            Some(SegmentKind::Wash) => "Wash",
-            Some(SegmentKind::Retreat) => "Retreat",
-            Some(SegmentKind::Transit) => "Transit",
-            Some(SegmentKind::Return) => "Return",
-            None => "Motion",
-        };
-        let first = format!("{PREFIX}{word}{number}");
-        let mut name = first.clone();
-        let mut again = 1_u32;
-        while !self.taken.insert(name.clone()) {
-            again += 1;
-            name = format!("{first}_{again}");
-        }
-        name
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rapid::write::motion::free_name;
+    use std::collections::HashSet;
 
     #[test]
     fn writes_numbers_without_trailing_zeros() {
@@ -260,15 +163,10 @@ mod tests {
             names,
             ["kitchen", "m_Task", "m_main", "m_pwTool", "m_Fine", "m_movel", "m_pose"]
         );
-        let mut routines = Routines::default();
-        let kinds = [
-            Some(SegmentKind::Wash),
-            Some(SegmentKind::Wash),
-            Some(SegmentKind::Return),
-            None,
-        ];
+        let mut taken = HashSet::new();
+        let words = ["Wash", "Wash", "Return", "Motion"];
         assert_eq!(
-            kinds.map(|kind| routines.name(kind, 3)),
+            words.map(|word| free_name(&mut taken, word, 3)),
             ["pwWash3", "pwWash3_2", "pwReturn3", "pwMotion3"]
         );
     }

@@ -1,86 +1,38 @@
 //! The motion: a routine a segment, a line a target.
 
 use crate::dialect::{Point, Program};
+use crate::header::wrapped;
 use crate::maker_joints::Joint3;
-use crate::rapid::write::{Lines, RUNNING, Routines};
+use crate::rapid::write::{PREFIX, RUNNING};
 use crate::rapid::zone_named;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::{plate_name, plate_number};
+use std::collections::HashSet;
 
 /// Decimals of joint positions \[°\]: 1 µm at the tip.
 const ANGLE_DECIMALS: usize = 4;
 /// Decimals of times \[s\].
 const TIME_DECIMALS: usize = 6;
 
+/// Name of the program's own zone, where no zone that every controller has is the one at targets that are no stops.
+pub const OWN_ZONE: &str = "pwZone";
+
 /// A routine of motions.
 #[derive(Debug)]
 pub struct Routine {
-    name: String,
-    comment: String,
-    lines: Vec<String>,
-}
-
-impl Routine {
-    /// Name of the routine.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
+    /// Its name.
+    pub name: String,
     /// Number of targets.
-    pub fn targets(&self) -> usize {
-        self.lines.len()
-    }
-
-    /// Writes it.
-    pub fn write(&self, lines: &mut Lines) {
-        lines.comment(1, &self.comment);
-        lines.line(1, &format!("PROC {}()", self.name));
-        for line in &self.lines {
-            lines.line(2, line);
-        }
-        lines.line(1, "ENDPROC");
-    }
+    pub targets: usize,
+    /// The whole of it, with an empty line before.
+    pub text: String,
 }
 
-/// The zone at targets that are no stops.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Zone {
-    /// Zone that every controller has, by its name.
-    Named(&'static str),
-    /// One of that radius \[m\].
-    Own(f64),
-    /// No zone: every target is a stop.
-    Stops,
-}
-
-impl Zone {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Named(name) => name,
-            Self::Own(_) => "pwZone",
-            Self::Stops => "fine",
-        }
-    }
-
-    /// The radius that must be stated, as no zone by name has it \[mm\].
-    pub fn radius_mm(self) -> Option<f64> {
-        match self {
-            Self::Own(radius_m) => Some(radius_m * 1e3),
-            Self::Named(_) | Self::Stops => None,
-        }
-    }
-}
-
-/// The zone of a program.
-pub fn zone(program: &Program<'_>) -> Zone {
-    let radius_m = program.corner_m;
-    match zone_named(radius_m) {
-        Some(name) => Zone::Named(name),
-        None if radius_m > 0.0 => Zone::Own(radius_m),
-        None => Zone::Stops,
-    }
+/// The zone at targets that are no stops: one by its name, the program's own, or none where every target is a stop.
+pub fn zone(radius_m: f64) -> &'static str {
+    zone_named(radius_m).unwrap_or(if radius_m > 0.0 { OWN_ZONE } else { "fine" })
 }
 
 /// The aggregate of a joint target, in the maker's joints. Axis 3 is counted with axis 2 as it is written, whose rounding is no error of joint 3.
@@ -100,7 +52,7 @@ pub fn routines(program: &Program<'_>, most: usize) -> Vec<Routine> {
     let Some((start, points)) = program.points.split_first() else {
         return Vec::new();
     };
-    let mut names = Routines::default();
+    let mut taken = HashSet::new();
     let mut clock = Clock::new(program.speed_share);
     let mut from = *start;
     let mut routines = Vec::new();
@@ -111,39 +63,54 @@ pub fn routines(program: &Program<'_>, most: usize) -> Vec<Routine> {
                 continue;
             };
             let segment = program.plan.segments.get(first.segment);
-            let mut lines = Vec::with_capacity(part.len());
-            let begins_s = from.t_s;
+            let mut lines = String::new();
+            let [from_s, to_s] = [from.t_s, last.t_s].map(|t_s| fixed(t_s, 3));
             for (index, point) in part.iter().enumerate() {
                 let next = points.get(done + index + 1);
-                lines.push(motion(program, &mut clock, &from, point, next));
+                let line = motion(program, &mut clock, &from, point, next);
+                lines += &format!("    {line}\n");
                 from = *point;
             }
-            done += part.len();
-            routines.push(Routine {
-                name: names.name(
-                    segment.map(|segment| segment.kind),
-                    segment.map_or(first.segment, |segment| plate_number(segment.plate)),
-                ),
-                comment: comment(segment, [begins_s, last.t_s], part.len()),
-                lines,
-            });
+            let targets = part.len();
+            done += targets;
+            let (word, what) = words(segment);
+            let number = segment.map_or(first.segment, |segment| plate_number(segment.plate));
+            let name = free_name(&mut taken, word, number);
+            let comment = format!("{what}: {from_s} s to {to_s} s of the plan, targets: {targets}.");
+            let comment = wrapped("  !", [&*comment]);
+            let text = format!("\n{comment}  PROC {name}()\n{lines}  ENDPROC\n");
+            routines.push(Routine { name, targets, text });
         }
     }
     routines
 }
 
-fn comment(segment: Option<&PlanSegment>, span_s: [f64; 2], targets: usize) -> String {
-    let what = match segment.map(|segment| (segment.kind, plate_name(segment.plate))) {
-        Some((SegmentKind::Depart, plate)) => format!("From the start to {plate}"),
-        Some((SegmentKind::Approach, plate)) => format!("Down to {plate}"),
-        Some((SegmentKind::Wash, plate)) => format!("Washes {plate}"),
-        Some((SegmentKind::Retreat, plate)) => format!("Up from {plate}"),
-        Some((SegmentKind::Transit, plate)) => format!("To {plate}"),
-        Some((SegmentKind::Return, plate)) => format!("From {plate} to the end"),
-        None => "Moves".to_owned(),
+/// The kind of a segment in the name of its routine, and in the comment there.
+fn words(segment: Option<&PlanSegment>) -> (&'static str, String) {
+    let Some(PlanSegment { kind, plate, .. }) = segment else {
+        return ("Motion", "Moves".to_owned());
     };
-    let [from, to] = span_s.map(|t_s| fixed(t_s, 3));
-    format!("{what}: {from} s to {to} s of the plan, targets: {targets}.")
+    let plate = plate_name(*plate);
+    match kind {
+        SegmentKind::Depart => ("Depart", format!("From the start to {plate}")),
+        SegmentKind::Approach => ("Approach", format!("Down to {plate}")),
+        SegmentKind::Wash => ("Wash", format!("Washes {plate}")),
+        SegmentKind::Retreat => ("Retreat", format!("Up from {plate}")),
+        SegmentKind::Transit => ("Transit", format!("To {plate}")),
+        SegmentKind::Return => ("Return", format!("From {plate} to the end")),
+    }
+}
+
+/// A name that no routine before has, after a kind of segment and the number of its plate, counted from 1.
+pub fn free_name(taken: &mut HashSet<String>, word: &str, number: usize) -> String {
+    let first = format!("{PREFIX}{word}{number}");
+    let mut name = first.clone();
+    let mut again = 1_u32;
+    while !taken.insert(name.clone()) {
+        again += 1;
+        name = format!("{first}_{again}");
+    }
+    name
 }
 
 /// Returns the line for a point. Where the arm is there already it waits.
@@ -156,7 +123,7 @@ fn motion(program: &Program<'_>, clock: &mut Clock, from: &Point, point: &Point,
     }
     let waits_next = next.is_some_and(|next| target(next) == target_here);
     let stops = point.rests || next.is_none() || waits_next;
-    let zone = if stops { "fine" } else { zone(program).word() };
+    let zone = if stops { "fine" } else { zone(program.corner_m) };
     format!("MoveAbsJ {target_here}\\NoEOffs,v100\\T:={time}/{RUNNING},{zone},pwTool\\WObj:=wobj0;")
 }
 

@@ -2,121 +2,57 @@
 //!
 //! The tool as RAPID states it: tip frame and load, in mm, kg and kg·m².
 
-use crate::dialect::Program;
+use crate::dialect::{Program, START_WITHIN, start_within_deg};
 use crate::maker_joints::Joint3;
-use crate::rapid::write::motion::{Routine, target, zone};
-use crate::rapid::write::{Lines, MOST, RUNNING, SHARE, number};
+use crate::rapid::write::motion::{OWN_ZONE, Routine, target, zone};
+use crate::rapid::write::number;
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
-use platewash_kinematics::JointVector;
 use platewash_workcell::tool::{Tool, ToolMass};
 
-/// The tool, the share of the speed, the start, and a zone that has no name.
-pub fn data(lines: &mut Lines, program: &Program<'_>) {
-    lines.comment(1, "The tool: its tip from the flange, and its load.");
-    lines.line(1, &format!("PERS tooldata pwTool:={};", tooldata(program.tool())));
-    lines.comment(
-        1,
-        "Share of the plan's speed; every time is divided by it. It may be lowered here or on the pendant.",
-    );
+/// The data and `main`, with places for what depends on the program.
+const START: &str = include_str!("start.mod");
+
+/// The checks before the arm moves. Where one fails the program ends: `EXIT` cannot be passed by starting it again, `Stop` can.
+const CHECKS: &str = include_str!("checks.mod");
+
+/// The tool, the share of the speed, the start, a zone that has no name, and the procedure that runs everything, once.
+pub fn data_and_main(program: &Program<'_>, routines: &[Routine]) -> String {
     // The shortest decimal of a single: the controller reads exactly the intended value.
-    let share = program.speed_share as f32;
-    lines.line(1, &format!("PERS num {SHARE}:={share};"));
-    lines.comment(
-        1,
-        "What it was judged for: it may be no more. For a faster program export another one.",
-    );
-    lines.line(1, &format!("CONST num {MOST}:={share};"));
-    lines.comment(1, "The share of this run, which does not change before it ends.");
-    lines.line(1, &format!("VAR num {RUNNING}:=0;"));
-    lines.comment(1, "Where the arm must stand.");
-    let start = program
-        .points
-        .first()
-        .map_or_else(JointVector::zeros, |point| point.q_rad);
-    lines.line(
-        1,
-        &format!("CONST jointtarget pwStart:={};", target(program.joint_3, &start)),
-    );
-    if let Some(radius_mm) = zone(program).radius_mm() {
-        let [tip, more, angle] = [radius_mm, 1.5 * radius_mm, 0.15 * radius_mm].map(|value| number(value, 6));
-        lines.comment(1, "Corners at targets that are no stops.");
-        lines.line(
-            1,
-            &format!("CONST zonedata pwZone:=[FALSE,{tip},{more},{more},{angle},{more},{angle}];"),
-        );
-    }
+    let share = (program.speed_share as f32).to_string();
+    let start = program.points.first().map(|point| point.q_rad).unwrap_or_default();
+    let calls: String = routines
+        .iter()
+        .map(|routine| format!("    {};\n", routine.name))
+        .collect();
+    START
+        .replace("{tool}", &tooldata(program.tool()))
+        .replace("{share}", &share)
+        .replace("{start}", &target(program.joint_3, &start))
+        .replace("{zone}", &own_zone(program.corner_m))
+        .replace(START_WITHIN, &start_within_deg(&program.plan.job).to_string())
+        .replace("{calls}", &calls)
 }
 
-/// The procedure that runs everything, once.
-pub fn main(lines: &mut Lines, routines: &[Routine], within_deg: f64) {
-    lines.comment(1, "The whole plan, once.");
-    lines.line(1, "PROC main()");
-    lines.line(2, "pwCheckShare;");
-    lines.line(2, "pwCheckStart;");
-    lines.comment(
-        2,
-        &format!("To the start itself, which is {within_deg} deg away at most."),
-    );
-    lines.line(2, "MoveAbsJ pwStart\\NoEOffs,v20,fine,pwTool\\WObj:=wobj0;");
-    for routine in routines {
-        lines.line(2, &format!("{};", routine.name()));
+fn own_zone(radius_m: f64) -> String {
+    if zone(radius_m) != OWN_ZONE {
+        return String::new();
     }
-    lines.comment(2, "Also in continuous mode the plan is not run again by itself.");
-    lines.line(2, "EXIT;");
-    lines.line(1, "ENDPROC");
+    let radius_mm = radius_m * 1e3;
+    let [tip, more, angle] = [radius_mm, 1.5 * radius_mm, 0.15 * radius_mm].map(|value| number(value, 6));
+    format!(
+        "  ! Corners at targets that are no stops.\n  CONST zonedata {OWN_ZONE}:=[FALSE,{tip},{more},{more},{angle},{more},{angle}];\n"
+    )
 }
 
-/// Writes the checks before the arm moves. Where a check fails the program ends: `EXIT` cannot be passed by starting it again,
-/// `Stop` can. Joint 3 is checked as the description has it: where axis 3 is counted with axis 2, as far off as axis 3 is more than axis 2.
-pub fn checks(lines: &mut Lines, within_deg: f64, joint_3: Joint3) {
-    lines.blank();
-    lines.line(1, "PROC pwCheckShare()");
-    lines.line(2, &format!("IF {SHARE}>0 AND {SHARE}<={MOST} THEN"));
-    lines.line(3, &format!("{RUNNING}:={SHARE};"));
-    lines.line(3, "RETURN;");
-    lines.line(2, "ENDIF");
-    lines.line(2, "TPErase;");
-    lines.line(2, &format!("TPWrite \"{SHARE} is \"+ValToStr({SHARE})+\".\";"));
-    lines.line(
-        2,
-        &format!("TPWrite \"It must be above 0 and at most \"+ValToStr({MOST})+\". Nothing has moved.\";"),
-    );
-    lines.line(2, "EXIT;");
-    lines.line(1, "ENDPROC");
-    lines.blank();
-    lines.line(1, "PROC pwCheckStart()");
-    lines.line(2, "VAR jointtarget now;");
-    lines.line(2, "now:=CJointT();");
-    for joint in 1..=6 {
-        let with = match (joint, joint_3) {
-            (3, Joint3::WithJoint2) => "+(now.robax.rax_2-pwStart.robax.rax_2)",
-            _ => "",
-        };
-        lines.line(
-            2,
-            &format!("pwCheckJoint {joint},now.robax.rax_{joint},pwStart.robax.rax_{joint}{with};"),
-        );
-    }
-    lines.line(1, "ENDPROC");
-    lines.blank();
-    lines.line(1, "PROC pwCheckJoint(num joint,num found,num expected)");
-    lines.line(2, &format!("IF Abs(found-expected)<={within_deg} RETURN;"));
-    lines.line(2, "TPErase;");
-    lines.line(
-        2,
-        "TPWrite \"Joint \"+NumToStr(joint,0)+\" stands at \"+NumToStr(found,4)+\" deg.\";",
-    );
-    lines.line(2, "TPWrite \"The program starts at \"+NumToStr(expected,4)+\" deg.\";");
-    lines.line(
-        2,
-        &format!("TPWrite \"That is more than {within_deg} deg away: jog the arm there.\";"),
-    );
-    lines.line(
-        2,
-        "TPWrite \"Then set the program pointer to main. Nothing has moved.\";",
-    );
-    lines.line(2, "EXIT;");
-    lines.line(1, "ENDPROC");
+/// Returns the checks, with the largest distance from the start \[°\]. Joint 3 is checked as the description has it: where axis 3 is
+/// counted with axis 2, as far off as axis 3 is more than axis 2.
+pub fn checks(within_deg: f64, joint_3: Joint3) -> String {
+    let with_joint_2 = match joint_3 {
+        Joint3::WithJoint2 => "+(now.robax.rax_2-pwStart.robax.rax_2)",
+        Joint3::Independent => "",
+    };
+    let checks = CHECKS.replace(START_WITHIN, &within_deg.to_string());
+    checks.replace("{with_joint_2}", with_joint_2)
 }
 
 /// Decimals of millimetres, beyond those of a `num` at 100 mm.
