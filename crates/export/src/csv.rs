@@ -6,12 +6,13 @@
 use crate::dialect::{Dialect, Place, Point, Points, Program, ProgramFile, ReadError};
 use crate::header::wrapped;
 use crate::reading::{ReadPoint, Reading, SegmentShape};
-use crate::refusal::Refusal;
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_workcell::csv::{MAX_ROWS, STATE};
-use platewash_workcell::job::JobTerms;
 use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
+
+/// End of a table's name.
+const ENDING: &str = ".csv";
 
 /// Time between two rows \[s\]: a control cycle of common controllers.
 const STEP_S: f64 = 0.004;
@@ -56,7 +57,7 @@ impl Dialect for Csv {
         };
         let names = || head.split(',').map(str::trim);
         let is_in_any_order = names().all(is_known) && names().any(|other| other == POSITIONS[0]);
-        is_table(file) && (begins || is_in_any_order)
+        file.ends_in(ENDING) && (begins || is_in_any_order)
     }
 
     fn points(&self) -> Points {
@@ -72,11 +73,6 @@ impl Dialect for Csv {
         ]
     }
 
-    fn accepts(&self, _job: &JobTerms, _arm: &RobotModel) -> Result<(), Refusal> {
-        // A table states joints alone: any arm has six, and the tool is not stated.
-        Ok(())
-    }
-
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile> {
         let table = ProgramFile {
             name: format!("{}.csv", program.name),
@@ -90,21 +86,8 @@ impl Dialect for Csv {
     }
 
     fn read(&self, files: &[ProgramFile], _arm: &RobotModel) -> Result<Reading, ReadError> {
-        let mut tables = files.iter().filter(|file| is_table(file));
-        match (tables.next(), tables.next()) {
-            (Some(file), None) => reading(file),
-            (Some(_), Some(second)) => Err(ReadError::at(&second.name, 1, "a second table; expected one .csv file")),
-            (None, _) => Err(ReadError::at(
-                files.first().map_or("", |file| &file.name),
-                1,
-                "expected a file whose name ends in .csv",
-            )),
-        }
+        reading(ProgramFile::only(files, "table", ENDING)?)
     }
-}
-
-fn is_table(file: &ProgramFile) -> bool {
-    file.name.to_ascii_lowercase().ends_with(".csv")
 }
 
 /// The table's text.
@@ -204,10 +187,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         let rests = qd_rad_s.map_or(points.is_empty(), |qd| qd.iter().all(|speed| *speed == 0.0));
         plan_times.extend(plan_time.map(|place| row.numbers(place)).transpose()?.map(|[t_s]| t_s));
         points.push(ReadPoint {
-            place: Place {
-                file: file.name.clone(),
-                line: row.line,
-            },
+            place: Place::new(&file.name, row.line),
             t_s,
             q_rad: row.numbers(positions)?.into(),
             qd_rad_s,
@@ -233,12 +213,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         speed_share: plan_time
             .map(|[place]| share(&table, place, &points, &plan_times))
             .transpose()?,
-        points,
-        interpolation,
-        tool: None,
-        start_within_deg: None,
-        most_share: None,
-        settings: Vec::new(),
+        ..Reading::of(points, interpolation)
     })
 }
 

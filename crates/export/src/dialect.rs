@@ -41,7 +41,9 @@ pub trait Dialect: Debug + Sync {
     ///
     /// # Errors
     /// [`Refusal`].
-    fn accepts(&self, job: &JobTerms, arm: &RobotModel) -> Result<(), Refusal>;
+    fn accepts(&self, _job: &JobTerms, _arm: &RobotModel) -> Result<(), Refusal> {
+        Ok(())
+    }
 
     /// The program's text. The same program gives the same bytes.
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile>;
@@ -83,11 +85,7 @@ pub struct ReadError {
 impl ReadError {
     /// Makes the error of a line, counted from 1.
     pub(crate) fn at(file: &str, line: usize, reason: impl Into<String>) -> Self {
-        let (file, reason) = (file.to_owned(), reason.into());
-        Self {
-            place: Place { file, line },
-            reason,
-        }
+        Place::new(file, line).refused(reason)
     }
 }
 
@@ -180,6 +178,34 @@ pub struct ProgramFile {
 }
 
 impl ProgramFile {
+    /// Checks how its name ends, the case of letters aside.
+    pub(crate) fn ends_in(&self, ending: &str) -> bool {
+        self.name.to_ascii_lowercase().ends_with(ending)
+    }
+
+    /// The only file whose name ends so.
+    ///
+    /// # Errors
+    /// [`ReadError`] where there is none, or a second one.
+    pub(crate) fn only<'a>(files: &'a [Self], kind: &str, ending: &str) -> Result<&'a Self, ReadError> {
+        let mut all = files.iter().filter(|file| file.ends_in(ending));
+        match (all.next(), all.next()) {
+            (Some(file), None) => Ok(file),
+            (Some(_), Some(second)) => {
+                let reason = format!("a second {kind}; expected one {ending} file");
+                Err(ReadError::at(&second.name, 1, reason))
+            }
+            (None, _) => {
+                let name = files.first().map_or("", |file| &file.name);
+                Err(ReadError::at(
+                    name,
+                    1,
+                    format!("expected a file whose name ends in {ending}"),
+                ))
+            }
+        }
+    }
+
     /// Makes a file of its bytes: UTF-8, or for a module of RAPID also ISO 8859-1.
     ///
     /// # Errors
@@ -212,6 +238,20 @@ pub struct Place {
     pub file: String,
     /// The line, from 1.
     pub line: usize,
+}
+
+impl Place {
+    /// A line of a file, counted from 1.
+    pub(crate) fn new(file: &str, line: usize) -> Self {
+        let file = file.to_owned();
+        Self { file, line }
+    }
+
+    /// The error of that line.
+    pub(crate) fn refused(&self, reason: impl Into<String>) -> ReadError {
+        let (place, reason) = (self.clone(), reason.into());
+        ReadError { place, reason }
+    }
 }
 
 impl fmt::Display for Place {

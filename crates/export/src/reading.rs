@@ -3,7 +3,7 @@
 //! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
 use crate::controller_settings::ReadSetting;
-use crate::dialect::Place;
+use crate::dialect::{Place, ProgramFile, ReadError};
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::words::shortened;
@@ -29,6 +29,19 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// A motion of which the program states nothing else.
+    pub(crate) fn of(points: Vec<ReadPoint>, interpolation: SegmentShape) -> Self {
+        Self {
+            speed_share: None,
+            most_share: None,
+            points,
+            interpolation,
+            tool: None,
+            start_within_deg: None,
+            settings: Vec::new(),
+        }
+    }
+
     /// Share of the plan's speed at which the program runs: all of it where none is stated.
     #[must_use]
     pub fn share(&self) -> f64 {
@@ -57,6 +70,19 @@ pub struct ReadPoint {
     pub corner_m: Option<f64>,
 }
 
+impl ReadPoint {
+    /// A point without stated speeds.
+    pub(crate) fn new(place: Place, t_s: f64, q_rad: JointVector, corner_m: Option<f64>) -> Self {
+        Self {
+            place,
+            t_s,
+            q_rad,
+            qd_rad_s: None,
+            corner_m,
+        }
+    }
+}
+
 /// Motion of an arm between points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SegmentShape {
@@ -80,6 +106,9 @@ pub struct ReadTool {
     /// Moments of inertia about the principal axes \[kg·m²\] and those axes in the mounting frame, where they are stated.
     pub inertia: Option<([f64; 3], UnitQuaternion<f64>)>,
 }
+
+/// Most lines that are read, and statements that are carried out.
+pub(crate) const MOST_LINES: usize = 1_000_000;
 
 /// Longest line that is read \[bytes\].
 const LONGEST: usize = 100_000;
@@ -132,11 +161,44 @@ impl std::fmt::Display for Token {
     }
 }
 
-/// Appends the tokens of a line; `comment` begins a comment up to its end.
+/// A line that says something.
+#[derive(Debug)]
+pub(crate) struct Line {
+    /// From 1.
+    pub(crate) number: usize,
+    pub(crate) tokens: Vec<Token>,
+}
+
+/// Reads the lines of a file that say something. `is_skipped` names those that are none of the program, given whether all before them
+/// say nothing.
+///
+/// # Errors
+/// [`ReadError`] with the line that cannot be read.
+pub(crate) fn lines(
+    file: &ProgramFile,
+    comment: char,
+    mut is_skipped: impl FnMut(&str, bool) -> bool,
+) -> Result<Vec<Line>, ReadError> {
+    let mut all = Vec::new();
+    for (number, text) in (1..).zip(file.text.trim_start_matches('\u{feff}').lines()) {
+        let refused = |reason| ReadError::at(&file.name, number, reason);
+        if number > MOST_LINES {
+            return Err(refused(format!("more than {MOST_LINES} lines, the most that are read")));
+        }
+        if is_skipped(text, all.is_empty()) {
+            continue;
+        }
+        let tokens = line(text, comment).map_err(refused)?;
+        all.extend((!tokens.is_empty()).then_some(Line { number, tokens }));
+    }
+    Ok(all)
+}
+
+/// Reads the tokens of a line; `comment` begins a comment up to its end.
 ///
 /// # Errors
 /// Message that names the part that cannot be read, and its place in the line.
-pub(crate) fn line(text: &str, comment: char, mut add: impl FnMut(Token)) -> Result<(), String> {
+pub(crate) fn line(text: &str, comment: char) -> Result<Vec<Token>, String> {
     if text.len() > LONGEST {
         return Err(format!(
             "the line is longer than {LONGEST} bytes, the most that are read"
@@ -152,7 +214,7 @@ pub(crate) fn line(text: &str, comment: char, mut add: impl FnMut(Token)) -> Res
             u32::from(c)
         ));
     }
-    let mut rest = text;
+    let (mut all, mut rest) = (Vec::new(), text);
     let mut follows_word = false;
     while let Some(c) = rest.chars().next() {
         if c == comment {
@@ -167,12 +229,10 @@ pub(crate) fn line(text: &str, comment: char, mut add: impl FnMut(Token)) -> Res
             quoted(rest)?
         } else if number > 0 {
             let value = rest[..number].parse().ok().filter(|value: &f64| value.is_finite());
-            match (value, rest[number..].chars().next()) {
-                (Some(_), Some(next)) if is_letter(next) || next == '.' => {
-                    return Err(format!("expected a decimal number, found {:?}", shortened(rest, MOST)));
-                }
-                (Some(value), _) => (Token::Number(value), number),
-                (None, _) => return Err(format!("expected a decimal number, found {:?}", shortened(rest, MOST))),
+            let goes_on = rest[number..].starts_with(|next| is_letter(next) || next == '.');
+            match value.filter(|_| !goes_on) {
+                Some(value) => (Token::Number(value), number),
+                None => return Err(format!("expected a decimal number, found {:?}", shortened(rest, MOST))),
             }
         } else if is_letter(c) {
             let length = rest
@@ -187,10 +247,10 @@ pub(crate) fn line(text: &str, comment: char, mut add: impl FnMut(Token)) -> Res
             return Err(format!("unexpected character {c:?}"));
         };
         follows_word = matches!(token, Token::Word(_));
-        add(token);
+        all.push(token);
         rest = &rest[length..];
     }
-    Ok(())
+    Ok(all)
 }
 
 fn is_letter(c: char) -> bool {
@@ -245,8 +305,7 @@ mod tests {
     use super::*;
 
     fn all(text: &str) -> Result<Vec<Token>, String> {
-        let mut tokens = Vec::new();
-        line(text, '!', |token| tokens.push(token)).map(|()| tokens)
+        line(text, '!')
     }
 
     #[test]

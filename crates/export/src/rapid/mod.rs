@@ -36,8 +36,7 @@ impl Dialect for Rapid {
     }
 
     fn is_in(&self, file: &ProgramFile) -> bool {
-        let name = file.name.to_ascii_lowercase();
-        ENDINGS.iter().any(|ending| name.ends_with(ending)) || begins_a_module(&file.text)
+        ENDINGS.iter().any(|ending| file.ends_in(ending)) || begins_a_module(&file.text)
     }
 
     fn points(&self) -> Points {

@@ -4,14 +4,11 @@
 
 use crate::dialect::{Place, ProgramFile, ReadError};
 use crate::rapid::is_taken;
-use crate::reading::{self, ReadTool, Token};
+use crate::reading::{self, Line, ReadTool, Token};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash_kinematics::{JointVector, Pose};
 use std::collections::HashMap;
 use std::fmt;
-
-/// Most files and lines that are read.
-const MOST_LINES: usize = 1_000_000;
 
 /// Deepest nesting of brackets in a value.
 const DEEPEST: usize = 8;
@@ -82,33 +79,18 @@ pub(crate) fn modules(files: &[ProgramFile]) -> Result<Modules, ReadError> {
 
 /// The tokens of a file, but for the header of files that a controller has saved.
 fn tokens_of(file: &ProgramFile) -> Result<Vec<PlacedToken>, ReadError> {
-    let mut all = Vec::new();
-    let text = file.text.trim_start_matches('\u{feff}');
     let mut marks = 0;
-    for (index, text) in text.lines().enumerate() {
-        let line = index + 1;
-        if line > MOST_LINES {
-            return Err(ReadError::at(
-                &file.name,
-                line,
-                format!("more than {MOST_LINES} lines, the most that are read"),
-            ));
-        }
-        if all.is_empty() && marks < 2 && text.trim() == "%%%" {
-            marks += 1;
-            continue;
-        }
-        if marks == 1
-            && ["VERSION:", "LANGUAGE:"]
-                .iter()
-                .any(|key| text.trim_start().starts_with(key))
-        {
-            continue;
-        }
-        let add = |token| all.push(PlacedToken { token, line });
-        reading::line(text, '!', add).map_err(|reason| ReadError::at(&file.name, line, reason))?;
-    }
-    Ok(all)
+    let is_header = |text: &str, is_first: bool| {
+        let is_mark = is_first && marks < 2 && text.trim() == "%%%";
+        marks += usize::from(is_mark);
+        let has_key = |key| text.trim_start().starts_with(key);
+        is_mark || (marks == 1 && ["VERSION:", "LANGUAGE:"].into_iter().any(has_key))
+    };
+    let placed = |Line { number: line, tokens }| tokens.into_iter().map(move |token| PlacedToken { token, line });
+    Ok(reading::lines(file, '!', is_header)?
+        .into_iter()
+        .flat_map(placed)
+        .collect())
 }
 
 impl Modules {
@@ -142,15 +124,11 @@ impl Modules {
     fn declare(&mut self, cursor: &mut Cursor<'_>) -> Result<(String, Place), ReadError> {
         let place = cursor.place();
         let name = cursor.word("a name")?;
-        let refused = |reason| ReadError {
-            place: place.clone(),
-            reason,
-        };
         if is_taken(&name) {
-            return Err(refused(format!("the name {name} is the controller's own")));
+            return Err(place.refused(format!("the name {name} is the controller's own")));
         }
         if let Some(other) = self.names.insert(name.to_ascii_lowercase(), place.clone()) {
-            return Err(refused(format!("{name} is declared twice; see {other}")));
+            return Err(place.refused(format!("{name} is declared twice; see {other}")));
         }
         Ok((name, place))
     }
@@ -208,22 +186,12 @@ impl<'a> Cursor<'a> {
 
     /// The place of the next token; at the end that of the last one.
     pub(crate) fn place(&self) -> Place {
-        let line = self
-            .tokens
-            .get(self.at)
-            .or(self.tokens.last())
-            .map_or(1, |placed| placed.line);
-        Place {
-            file: self.file.to_owned(),
-            line,
-        }
+        let placed = self.tokens.get(self.at).or(self.tokens.last());
+        Place::new(self.file, placed.map_or(1, |placed| placed.line))
     }
 
     pub(crate) fn refused(&self, reason: impl Into<String>) -> ReadError {
-        ReadError {
-            place: self.place(),
-            reason: reason.into(),
-        }
+        self.place().refused(reason)
     }
 
     pub(crate) fn expected(&self, what: &str) -> ReadError {

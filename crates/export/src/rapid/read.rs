@@ -13,7 +13,7 @@ use crate::maker_joints::Joint3;
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
 use crate::rapid::{self};
-use crate::reading::{ReadPoint, ReadTool, Reading, SegmentShape, Token};
+use crate::reading::{MOST_LINES, ReadPoint, ReadTool, Reading, SegmentShape, Token};
 use platewash_kinematics::JointVector;
 use std::collections::HashMap;
 
@@ -21,9 +21,6 @@ use std::collections::HashMap;
 const CHECK_SHARE: &str = "pwcheckshare";
 const CHECK_START: &str = "pwcheckstart";
 const CHECK_JOINT: &str = "pwcheckjoint";
-
-/// Most statements that are carried out.
-const MOST_STEPS: usize = 1_000_000;
 
 /// Shares of accelerations and of their ramps \[%\] where no `AccSet` is carried out.
 const USUAL_ACC_SET: [f32; 2] = [100.0, 100.0];
@@ -91,12 +88,7 @@ pub(crate) fn reading(files: &[ProgramFile], joint_3: Joint3) -> Result<Reading,
         Ok((key.as_str(), statements))
     });
     let statements: HashMap<_, _> = statements.collect::<Result<_, ReadError>>()?;
-    let nowhere = Place {
-        file: files
-            .first()
-            .map_or_else(|| "(no file)".to_owned(), |file| file.name.clone()),
-        line: 1,
-    };
+    let nowhere = Place::new(files.first().map_or("(no file)", |file| &file.name), 1);
     let mut run = Run::new(&modules, &statements);
     run.call("main", &nowhere)?;
     let main = modules
@@ -162,10 +154,7 @@ impl Modules {
                 "{} has parameters, which are not read: write out what moves",
                 procedure.name
             );
-            return Err(ReadError {
-                place: procedure.place.clone(),
-                reason,
-            });
+            return Err(procedure.place.refused(reason));
         }
         let mut cursor = Cursor::new(&procedure.place.file, &procedure.body);
         let mut all = Vec::new();
@@ -438,10 +427,7 @@ impl<'a> Run<'a> {
     }
 
     fn call(&mut self, key: &str, from: &Place) -> Result<(), ReadError> {
-        let refused = |reason: String| ReadError {
-            place: from.clone(),
-            reason,
-        };
+        let refused = |reason: String| from.refused(reason);
         if is_block(key) {
             return self.check(key).map_err(refused);
         }
@@ -456,9 +442,9 @@ impl<'a> Run<'a> {
         self.calls.push(key.to_owned());
         for (place, statement) in statements {
             self.steps += 1;
-            if self.steps > MOST_STEPS {
+            if self.steps > MOST_LINES {
                 return Err(refused(format!(
-                    "more than {MOST_STEPS} steps, the most that are carried out"
+                    "more than {MOST_LINES} steps, the most that are carried out"
                 )));
             }
             self.statement(place, statement)?;
@@ -471,13 +457,9 @@ impl<'a> Run<'a> {
     }
 
     fn statement(&mut self, place: &Place, statement: &Statement) -> Result<(), ReadError> {
-        let refused = |reason| ReadError {
-            place: place.clone(),
-            reason,
-        };
         match statement {
-            Statement::Move(motion) => self.motion(place, motion).map_err(refused),
-            Statement::Wait(time) => self.wait(place, *time).map_err(refused),
+            Statement::Move(motion) => self.motion(place, motion).map_err(|reason| place.refused(reason)),
+            Statement::Wait(time) => self.wait(place, *time).map_err(|reason| place.refused(reason)),
             Statement::Call(key) => self.call(key, place),
             Statement::Exit => {
                 self.is_over = true;
@@ -582,7 +564,8 @@ impl<'a> Run<'a> {
                 );
             }
         };
-        self.arrive(place, t_s, motion.q_rad, motion.corner_m);
+        let point = ReadPoint::new(place, t_s, motion.q_rad, motion.corner_m);
+        self.points.push(point);
         Ok(())
     }
 
@@ -593,66 +576,43 @@ impl<'a> Run<'a> {
                 Err("WaitTime after a motion that does not stop runs during it: expected `fine` before it".to_owned())
             }
             Some(last) if wait_s > 0.0 => {
-                let (t_s, q_rad) = (last.t_s + f64::from(wait_s), last.q_rad);
-                self.arrive(place.clone(), t_s, q_rad, None);
+                let t_s = last.t_s + f64::from(wait_s);
+                self.points.push(ReadPoint::new(place.clone(), t_s, last.q_rad, None));
                 Ok(())
             }
             _ => Ok(()),
         }
     }
 
-    fn arrive(&mut self, place: Place, t_s: f64, q_rad: JointVector, corner_m: Option<f64>) {
-        self.points.push(ReadPoint {
-            place,
-            t_s,
-            q_rad,
-            qd_rad_s: None,
-            corner_m,
-        });
-    }
-
     /// Returns the motion of the program that was run.
     fn reading(self, main: Place, within_deg: f64) -> Result<Reading, ReadError> {
-        let refused = |place: Place, reason: &str| {
-            Err(ReadError {
-                place,
-                reason: reason.to_owned(),
-            })
-        };
         let Some(last) = self.points.last() else {
-            return refused(main, "the program ends before any motion");
+            return Err(main.refused("the program ends before any motion"));
         };
         if !self.is_over {
-            return refused(
-                main,
-                "main ends without EXIT: in continuous mode the program begins again, which is not judged",
-            );
+            let reason = "main ends without EXIT: in continuous mode the program begins again, which is not judged";
+            return Err(main.refused(reason));
         }
         if last.corner_m.is_some() {
-            return refused(
-                last.place.clone(),
-                "the last motion must stop: expected `fine`, found a zone",
-            );
+            let reason = "the last motion must stop: expected `fine`, found a zone";
+            return Err(last.place.refused(reason));
         }
         let speed_share = match self.modules.number(SHARE) {
             None => None,
             // The decimal that the program states, not the single next to it.
             Some((share, _)) if share > 0.0 && share <= 1.0 => share.to_string().parse().ok(),
             Some((_, data)) => {
-                return refused(
-                    data.place.clone(),
-                    "expected a share of the speed above 0 and at most 1",
-                );
+                let reason = "expected a share of the speed above 0 and at most 1";
+                return Err(data.place.refused(reason));
             }
         };
         Ok(Reading {
             speed_share,
-            points: self.points,
-            interpolation: SegmentShape::RoundedLines,
             tool: self.tool,
             start_within_deg: self.start_rad.map(|_| within_deg),
             most_share: self.most_share,
             settings: self.settings.into_vec(),
+            ..Reading::of(self.points, SegmentShape::RoundedLines)
         })
     }
 }

@@ -17,10 +17,8 @@ pub mod write;
 
 use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError, start_within_deg};
 use crate::reading::Reading;
-use crate::refusal::Refusal;
 use crate::ros2::read::Language;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::job::JobTerms;
 
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
 pub const TRAJECTORY_JSON: &str = "joint_trajectory.json";
@@ -64,10 +62,6 @@ impl Dialect for Ros2 {
             "Nothing retimes the trajectory on the way: neither MoveIt nor a speed scaling.",
             "Not tried in a ROS installation or on an arm: the controller's rules and its cubic are mirrored from its public source.",
         ]
-    }
-
-    fn accepts(&self, _job: &JobTerms, _arm: &RobotModel) -> Result<(), Refusal> {
-        Ok(())
     }
 
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile> {

@@ -60,6 +60,11 @@ impl Fault {
         let reason = reason.into();
         Self { line, reason }
     }
+
+    /// Refuses a line.
+    pub(crate) fn err<T>(line: usize, reason: impl Into<String>) -> Result<T, Self> {
+        Err(Self::new(line, reason))
+    }
 }
 
 impl Kind<'_> {
@@ -81,7 +86,24 @@ fn told(text: &str) -> String {
     }
 }
 
-impl Node<'_> {
+impl<'a> Node<'a> {
+    /// The value of a key, where it is a table that has it.
+    pub(crate) fn get(&self, key: &str) -> Option<&Self> {
+        let Kind::Table(entries) = &self.kind else { return None };
+        let entry = entries.iter().find(|entry| entry.key == key);
+        entry.map(|entry| &entry.value)
+    }
+
+    /// The fault of its line.
+    pub(crate) fn refused<T>(&self, reason: impl Into<String>) -> Result<T, Fault> {
+        Fault::err(self.line, reason)
+    }
+
+    /// The fault of a node that is something else than expected.
+    pub(crate) fn unexpected<T>(&self, expected: &str) -> Result<T, Fault> {
+        self.refused(format!("expected {expected}; found {}", self.kind.message()))
+    }
+
     /// Number of values in it, and its depth.
     fn extent(&self) -> [usize; 2] {
         let of = |nodes: &mut dyn Iterator<Item = &Self>| {
@@ -103,8 +125,8 @@ pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
     let mut all = documents(text, language)?.into_iter();
     match (all.next(), all.next()) {
         (Some(root), None) => Ok(root),
-        (None, _) => Err(Fault::new(1, "expected a message; found nothing")),
-        (Some(_), Some(second)) => Err(Fault::new(second.line, "expected one document; found another one")),
+        (None, _) => Fault::err(1, "expected a message; found nothing"),
+        (Some(_), Some(second)) => Fault::err(second.line, "expected one document; found another one"),
     }
 }
 
@@ -112,15 +134,15 @@ pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
 pub(crate) fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>, Fault> {
     if text.len() > MAX_BYTES {
         let reason = format!("expected {MAX_BYTES} bytes at most; found {}", text.len());
-        return Err(Fault::new(1, reason));
+        return Fault::err(1, reason);
     }
     // YAML 1.1, which ROS 2 reads, ends lines and comments there; YAML 1.2, which is read here, does not.
     let ends_a_line = |c: char| matches!(c, '\u{85}' | '\u{2028}' | '\u{2029}');
     if let Some((line, _)) = (1..).zip(text.lines()).find(|(_, line)| line.contains(ends_a_line)) {
-        return Err(Fault::new(
+        return Fault::err(
             line,
             "expected lines that end with a line feed; found U+0085, U+2028 or U+2029, which ends a line in YAML 1.1 alone",
-        ));
+        );
     }
     let mut events = Events {
         parser: Parser::new_from_str(text),
@@ -134,7 +156,7 @@ pub(crate) fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>,
         match events.next()? {
             (Event::StreamEnd, _) => return Ok(all),
             (Event::DocumentStart(_), _) => {}
-            (_, line) => return Err(Fault::new(line, "not YAML: expected a document")),
+            (_, line) => return Fault::err(line, "not YAML: expected a document"),
         }
         events.anchored.clear();
         let first = events.next()?;
@@ -188,8 +210,8 @@ impl<'a> Events<'a> {
     fn next(&mut self) -> Result<(Event<'a>, usize), Fault> {
         match self.parser.next_event() {
             Some(Ok((event, Span { start, .. }))) => Ok((event, start.line())),
-            Some(Err(error)) => Err(Fault::new(error.marker().line(), format!("not YAML: {}", error.info()))),
-            None => Err(Fault::new(1, "not YAML: it ends early")),
+            Some(Err(error)) => Fault::err(error.marker().line(), format!("not YAML: {}", error.info())),
+            None => Fault::err(1, "not YAML: it ends early"),
         }
     }
 
@@ -197,31 +219,21 @@ impl<'a> Events<'a> {
         let (event, line) = self.next()?;
         match is_it(&event) {
             true => Ok(()),
-            false => Err(Fault::new(line, "not YAML: expected another part of the document")),
+            false => Fault::err(line, "not YAML: expected another part of the document"),
         }
     }
 
     fn node(&mut self, (event, line): (Event<'a>, usize), depth: usize) -> Result<Node<'a>, Fault> {
         self.nodes += 1;
         if self.nodes > MAX_NODES {
-            return Err(Fault::new(
-                line,
-                format!("expected {MAX_NODES} values at most; found more"),
-            ));
+            return Fault::err(line, format!("expected {MAX_NODES} values at most; found more"));
         }
         if depth > MAX_DEPTH {
-            return Err(Fault::new(
-                line,
-                format!("expected {MAX_DEPTH} levels at most; found more"),
-            ));
+            return Fault::err(line, format!("expected {MAX_DEPTH} levels at most; found more"));
         }
         let (kind, anchor) = match event {
             Event::Alias(anchor) => return self.alias(anchor, line, depth),
-            Event::Scalar(_, _, anchor, ref tag) => {
-                check_no_tag(line, tag.is_some())?;
-                let Event::Scalar(text, style, ..) = event else {
-                    return Err(Fault::new(line, "expected a value"));
-                };
+            Event::Scalar(text, style, anchor, None) => {
                 let kind = match (style, self.language) {
                     (ScalarStyle::Plain, Language::Yaml) => Kind::Plain(text),
                     (ScalarStyle::Plain, Language::Json) => Kind::OfJson(text),
@@ -229,15 +241,12 @@ impl<'a> Events<'a> {
                 };
                 (kind, anchor)
             }
-            Event::SequenceStart(anchor, tag) => {
-                check_no_tag(line, tag.is_some())?;
-                (Kind::List(self.list(depth)?), anchor)
+            Event::SequenceStart(anchor, None) => (Kind::List(self.list(depth)?), anchor),
+            Event::MappingStart(anchor, None) => (Kind::Table(self.table(depth)?), anchor),
+            Event::Scalar(..) | Event::SequenceStart(..) | Event::MappingStart(..) => {
+                return Fault::err(line, "expected a value; found a tag before it");
             }
-            Event::MappingStart(anchor, tag) => {
-                check_no_tag(line, tag.is_some())?;
-                (Kind::Table(self.table(depth)?), anchor)
-            }
-            _ => return Err(Fault::new(line, "expected a value; found the end")),
+            _ => return Fault::err(line, "expected a value; found the end"),
         };
         let node = Node { line, kind };
         // Anchors are numbered from 1.
@@ -250,15 +259,15 @@ impl<'a> Events<'a> {
     /// The value that an alias stands for, with the lines of that value.
     fn alias(&mut self, anchor: usize, line: usize, depth: usize) -> Result<Node<'a>, Fault> {
         let Some(node) = self.anchored.get(&anchor) else {
-            return Err(Fault::new(line, "found an alias of a value that contains it"));
+            return Fault::err(line, "found an alias of a value that contains it");
         };
         let [count, below] = node.extent();
         self.nodes += count;
         if self.nodes > MAX_NODES || depth + below > MAX_DEPTH {
-            return Err(Fault::new(
+            return Fault::err(
                 line,
                 format!("expected {MAX_NODES} values and {MAX_DEPTH} levels at most, aliases written out; found more"),
-            ));
+            );
         }
         Ok(node.clone())
     }
@@ -283,20 +292,14 @@ impl<'a> Events<'a> {
             let Node { line, kind } = self.node(event, depth + 1)?;
             let key = match kind {
                 Kind::Plain(key) | Kind::OfJson(key) | Kind::Quoted(key) => key,
-                other => return Err(Fault::new(line, format!("expected a key; found {}", other.message()))),
+                other => return Fault::err(line, format!("expected a key; found {}", other.message())),
             };
             // No table of a message has many keys: a longer one is refused before its keys are compared for long.
             if all.len() == MAX_KEYS {
-                return Err(Fault::new(
-                    line,
-                    format!("expected {MAX_KEYS} keys at most; found more"),
-                ));
+                return Fault::err(line, format!("expected {MAX_KEYS} keys at most; found more"));
             }
             if all.iter().any(|entry| entry.key == key) {
-                return Err(Fault::new(
-                    line,
-                    format!("the key {} stands twice", quoted(&told(&key))),
-                ));
+                return Fault::err(line, format!("the key {} stands twice", quoted(&told(&key))));
             }
             let event = self.next()?;
             let value = self.node(event, depth + 1)?;
@@ -307,10 +310,3 @@ impl<'a> Events<'a> {
 
 /// Most keys of a table.
 const MAX_KEYS: usize = 64;
-
-fn check_no_tag(line: usize, is_tagged: bool) -> Result<(), Fault> {
-    match is_tagged {
-        false => Ok(()),
-        true => Err(Fault::new(line, "expected a value; found a tag before it")),
-    }
-}

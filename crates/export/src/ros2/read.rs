@@ -24,8 +24,8 @@ const TYPE: &str = "the message's type";
 const PROOF: &str = "the proof";
 
 /// Fault of a broken rule.
-fn broken<T>(line: usize, (rule, by): (&str, &str), found: impl AsRef<str>) -> Result<T, Fault> {
-    Err(Fault::new(line, format!("{} (rule {rule} of {by})", found.as_ref())))
+fn broken<T>(node: &Node<'_>, (rule, by): (&str, &str), found: impl AsRef<str>) -> Result<T, Fault> {
+    node.refused(format!("{} (rule {rule} of {by})", found.as_ref()))
 }
 
 /// A fault in a file, as a dialect states it.
@@ -82,22 +82,15 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     let other = "expected a file .yaml, .yml or .json, or play.py; found another name";
     let root = document(&file.name, &file.text, other)?;
     let known: Vec<&str> = arm.joints().iter().map(|joint| joint.name.as_str()).collect();
-    let is_goal = entries(&root, "a message")?
-        .iter()
-        .any(|entry| entry.key == "trajectory");
+    entries(&root, "a message")?;
     let mut settings = SettingList::default();
-    let points = match is_goal {
+    let points = match root.get("trajectory").is_some() {
         true => goal(&root, &file.name, &known, &mut settings)?,
         false => trajectory(&root, &file.name, &known)?,
     };
     Ok(Reading {
-        speed_share: None,
-        points,
-        interpolation: SegmentShape::Cubics,
-        tool: None,
-        start_within_deg: None,
-        most_share: None,
         settings: settings.into_vec(),
+        ..Reading::of(points, SegmentShape::Cubics)
     })
 }
 
@@ -109,39 +102,31 @@ fn goal(root: &Node<'_>, file: &str, known: &[&str], settings: &mut SettingList)
     )?;
     let points = trajectory(goal.needed("trajectory")?, file, known)?;
     for key in ["path_tolerance", "goal_tolerance"] {
-        let place = |line: usize| Place {
-            file: file.to_owned(),
-            line,
-        };
         for (line, name, found) in tolerances(goal.needed(key)?, key, known)? {
             let (value, accepted) = tolerance_setting(found);
-            settings.note_with(&name, &value, &place(line), accepted);
+            settings.note_with(&name, &value, &Place::new(file, line), accepted);
         }
     }
     let late = goal.needed("goal_time_tolerance")?;
     let found = seconds_between(0, i128::from(duration(late)?));
     let (value, accepted) = tolerance_setting(found);
-    let place = Place {
-        file: file.to_owned(),
-        line: late.line,
-    };
-    settings.note_with("goal_time_tolerance", &value, &place, accepted);
+    settings.note_with("goal_time_tolerance", &value, &Place::new(file, late.line), accepted);
     Ok(points)
 }
 
 /// Checks that the first point comes after the lead-in, and any other after the point before it \[ns\].
-fn check_order(line: usize, before_ns: Option<i64>, time_ns: i64) -> Result<(), Fault> {
+fn check_order(time: &Node<'_>, before_ns: Option<i64>, time_ns: i64) -> Result<(), Fault> {
     let seconds = |ns: i64| format!("{}.{:09} s", ns / NS_PER_S, ns % NS_PER_S);
     match before_ns {
         None if time_ns < LEAD_IN_NS => {
             let found = seconds(time_ns);
             let found = format!("expected the first point at {LEAD_IN_S} s or later; found {found}");
-            broken(line, ("lead-in", PROOF), found)
+            broken(time, ("lead-in", PROOF), found)
         }
         Some(before) if time_ns <= before => {
             let [before, found] = [before, time_ns].map(seconds);
             let found = format!("expected a time after {before}, that of the point before; found {found}");
-            broken(line, ("time-order", CONTROLLER), found)
+            broken(time, ("time-order", CONTROLLER), found)
         }
         _ => Ok(()),
     }
@@ -164,7 +149,7 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
         )?;
         let time = point.needed("time_from_start")?;
         let time_ns = duration(time)?;
-        check_order(time.line, before_ns, time_ns)?;
+        check_order(time, before_ns, time_ns)?;
         start_ns = before_ns.map_or(time_ns, |_| start_ns);
         before_ns = Some(time_ns);
         let positions = row(&point, "positions", AXES, CONTROLLER)?;
@@ -177,17 +162,13 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
         ];
         for (_, which, most_rad_s, rule) in ends.into_iter().filter(|end| end.0 == k) {
             if let Some(speed) = velocities.iter().find(|speed| speed.abs() > most_rad_s) {
-                let line = point.get("velocities").map_or(node.line, |node| node.line);
                 let found = format!("expected velocities of 0 at the {which} point; found {speed} rad/s");
-                return broken(line, rule, found);
+                return broken(point.get("velocities").unwrap_or(node), rule, found);
             }
         }
         let joints = |row: &[f64]| JointVector::from_fn(|joint, _| row.get(order[joint]).copied().unwrap_or(f64::NAN));
         all.push(ReadPoint {
-            place: Place {
-                file: file.to_owned(),
-                line: node.line,
-            },
+            place: Place::new(file, node.line),
             t_s: seconds_between(i128::from(start_ns), i128::from(time_ns)),
             q_rad: joints(&positions),
             qd_rad_s: Some(joints(&velocities)),
@@ -195,7 +176,7 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
         });
     }
     if all.is_empty() {
-        return broken(points.line, ("points", CONTROLLER), "expected points; found none");
+        return broken(points, ("points", CONTROLLER), "expected points; found none");
     }
     Ok(all)
 }
@@ -208,7 +189,7 @@ fn check_header(header: &Node<'_>) -> Result<(), Fault> {
         && duration(stamp)? != 0
     {
         let found = "expected a header.stamp of 0, which is at once; found a time of the clock";
-        return broken(stamp.line, ("stamp", PROOF), found);
+        return broken(stamp, ("stamp", PROOF), found);
     }
     Ok(())
 }
@@ -216,17 +197,13 @@ fn check_header(header: &Node<'_>) -> Result<(), Fault> {
 /// Place in the message of each joint of the arm.
 fn order(node: &Node<'_>, known: &[&str]) -> Result<[usize; AXES], Fault> {
     let mut names: Vec<String> = Vec::new();
-    for name in list(node)? {
-        let (line, name) = (name.line, text(name)?);
+    for stated in list(node)? {
+        let name = text(stated)?;
         if names.contains(&name) {
-            return broken(
-                line,
-                ("joint-twice", PROOF),
-                format!("expected each joint once; found {} again", quoted(&name)),
-            );
+            return broken(stated, ("joint-twice", PROOF), again(&name));
         }
         if !known.contains(&name.as_str()) {
-            return broken(line, ("joint-name", CONTROLLER), unknown(&name, known));
+            return broken(stated, ("joint-name", CONTROLLER), unknown(&name, known));
         }
         names.push(name);
     }
@@ -238,11 +215,16 @@ fn order(node: &Node<'_>, known: &[&str]) -> Result<[usize; AXES], Fault> {
             .collect();
         let (found, missing) = (names.len(), missing.join(", "));
         let found = format!("expected the {AXES} joints of the arm; found {found}, without {missing}");
-        return broken(node.line, ("joint-count", CONTROLLER), found);
+        return broken(node, ("joint-count", CONTROLLER), found);
     }
     Ok(std::array::from_fn(|joint| {
         names.iter().position(|name| name == known[joint]).unwrap_or(joint)
     }))
+}
+
+/// The words on a joint that is named twice.
+pub(crate) fn again(name: &str) -> String {
+    format!("expected each joint once; found {} again", quoted(name))
 }
 
 fn unknown(name: &str, known: &[&str]) -> String {
@@ -255,14 +237,13 @@ fn unknown(name: &str, known: &[&str]) -> String {
 
 /// Numbers of a point, as many as there must be; a row that is left out is empty.
 fn row(point: &Fields<'_, '_>, name: &str, expected: usize, by: &str) -> Result<Vec<f64>, Fault> {
-    let (line, row) = match point.get(name) {
-        Some(node) => (node.line, list(node)?.iter().map(float).collect::<Result<Vec<_>, _>>()?),
-        None => (point.node.line, Vec::new()),
-    };
-    match row.len() {
-        found if found != expected => broken(line, (name, by), format!("expected {expected} {name}; found {found}")),
-        _ => Ok(row),
+    let row = point.get(name).map(list).transpose()?.unwrap_or_default();
+    let row = row.iter().map(float).collect::<Result<Vec<_>, _>>()?;
+    if row.len() == expected {
+        return Ok(row);
     }
+    let found = format!("expected {expected} {name}; found {}", row.len());
+    broken(point.get(name).unwrap_or(point.node), (name, by), found)
 }
 
 /// A tolerance as a setting: wider ones are accepted; 0 leaves it to the controller, whose own is not known, and -1 removes it.
@@ -285,38 +266,30 @@ fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<Vec<(usize
         let stated = fields.needed("name")?;
         let name = text(stated)?;
         if !known.contains(&name.as_str()) {
-            return broken(stated.line, RULE, unknown(&name, known));
+            return broken(stated, RULE, unknown(&name, known));
         }
         if names.contains(&name) {
-            return broken(
-                stated.line,
-                RULE,
-                format!("expected each joint once; found {} again", quoted(&name)),
-            );
+            return broken(stated, RULE, again(&name));
         }
         for key in numbers {
-            let Some(number) = fields.get(key) else {
-                all.push((tolerance.line, format!("{which} of {name}, {key}"), 0.0));
-                continue;
-            };
-            let found = float(number)?;
-            all.push((number.line, format!("{which} of {name}, {key}"), found));
+            let number = fields.get(key);
+            let (at, found) = (number.unwrap_or(tolerance), number.map_or(Ok(0.0), float)?);
+            all.push((at.line, format!("{which} of {name}, {key}"), found));
             if !(found >= 0.0 || found == -1.0) {
                 let found = format!(
                     "expected a tolerance above 0, or 0 for the controller's own, or -1.0 for none; found {found}"
                 );
-                return broken(number.line, RULE, found);
+                return broken(at, RULE, found);
             }
         }
         names.push(name);
     }
     match names.len() {
         AXES => Ok(all),
-        found => broken(
-            node.line,
-            RULE,
-            format!("expected a {which} for each of the {AXES} joints; found {found}"),
-        ),
+        found => {
+            let found = format!("expected a {which} for each of the {AXES} joints; found {found}");
+            broken(node, RULE, found)
+        }
     }
 }
 
@@ -327,15 +300,11 @@ fn duration(node: &Node<'_>) -> Result<i64, Fault> {
         let node = fields.needed(key)?;
         match parse_number(node) {
             ParsedNumber::Whole(found) if (0..=most).contains(&found) => Ok(found),
-            ParsedNumber::Whole(found) => broken(
-                node.line,
-                ("duration", TYPE),
-                format!("expected {key} from 0 to {most}; found {found}"),
-            ),
-            _ => Err(Fault::new(
-                node.line,
-                format!("expected a whole number; found {}", node.kind.message()),
-            )),
+            ParsedNumber::Whole(found) => {
+                let found = format!("expected {key} from 0 to {most}; found {found}");
+                broken(node, ("duration", TYPE), found)
+            }
+            _ => node.unexpected("a whole number"),
         }
     };
     Ok(whole("sec", i64::from(i32::MAX))? * NS_PER_S + whole("nanosec", NS_PER_S - 1)?)
@@ -350,16 +319,14 @@ fn same(other: &str, expected: &Reading, found: &Reading) -> Result<(), Fault> {
                 "expected point {k} as {other}:{} has it; found another one",
                 a.place.line
             );
-            return Err(Fault::new(b.place.line, reason));
+            return Fault::err(b.place.line, reason);
         }
     }
     match [expected.points.len(), found.points.len()] {
         [many, few] if many != few => {
             let line = found.points.last().map_or(1, |point| point.place.line);
-            Err(Fault::new(
-                line,
-                format!("expected {many} points, as many as {other} has; found {few}"),
-            ))
+            let reason = format!("expected {many} points, as many as {other} has; found {few}");
+            Fault::err(line, reason)
         }
         _ => Ok(()),
     }
@@ -371,10 +338,10 @@ fn speed_share(text: &str) -> Option<Result<f64, Fault>> {
     let (line, stated) = head.find_map(|(k, line)| Some((k + 1, line.strip_prefix(write::SPEED_SHARE)?)))?;
     Some(match number::read(stated.trim_end()) {
         ParsedNumber::Float(share) if share > 0.0 && share <= 1.0 => Ok(share),
-        _ => Err(Fault::new(
+        _ => Fault::err(
             line,
             "expected a speed share above 0.0 and at most 1.0; found another value",
-        )),
+        ),
     })
 }
 
@@ -383,10 +350,7 @@ pub(crate) fn text(node: &Node<'_>) -> Result<String, Fault> {
     match &node.kind {
         Kind::Quoted(text) => Ok(text.to_string()),
         Kind::Plain(text) if is_word(text) => Ok(text.to_string()),
-        other => Err(Fault::new(
-            node.line,
-            format!("expected a text; found {}", other.message()),
-        )),
+        _ => node.unexpected("a text"),
     }
 }
 
@@ -401,10 +365,7 @@ fn is_word(text: &str) -> bool {
 pub(crate) fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
     match &node.kind {
         Kind::List(nodes) => Ok(nodes),
-        other => Err(Fault::new(
-            node.line,
-            format!("expected a list; found {}", other.message()),
-        )),
+        _ => node.unexpected("a list"),
     }
 }
 
@@ -428,24 +389,20 @@ fn float(node: &Node<'_>) -> Result<f64, Fault> {
         ),
         ParsedNumber::Nothing => format!("expected a float, finite and in decimals; found {found}"),
     };
-    Err(Fault::new(node.line, reason))
+    node.refused(reason)
 }
 
 pub(crate) fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fault> {
     match &node.kind {
         Kind::Table(entries) => Ok(entries),
-        other => Err(Fault::new(
-            node.line,
-            format!("expected {what}; found {}", other.message()),
-        )),
+        _ => node.unexpected(what),
     }
 }
 
 /// A table whose keys are known.
 pub(crate) struct Fields<'n, 'a> {
-    node: &'n Node<'a>,
+    pub(crate) node: &'n Node<'a>,
     what: &'static str,
-    entries: &'n [Entry<'a>],
 }
 
 impl<'n, 'a> Fields<'n, 'a> {
@@ -455,35 +412,22 @@ impl<'n, 'a> Fields<'n, 'a> {
             Some(entry) => {
                 let found = quoted(&Kind::Plain(entry.key.clone()).message());
                 let reason = format!("expected {what} with {}; found the key {found}", known.join(", "));
-                Err(Fault::new(entry.line, reason))
+                Fault::err(entry.line, reason)
             }
-            None => Ok(Self { node, what, entries }),
+            None => Ok(Self { node, what }),
         }
     }
 
     pub(crate) fn get(&self, key: &str) -> Option<&'n Node<'a>> {
-        self.entries
-            .iter()
-            .find(|entry| entry.key == key)
-            .map(|entry| &entry.value)
-    }
-
-    /// Line at which the table begins, from 1.
-    pub(crate) fn line(&self) -> usize {
-        self.node.line
-    }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.entries.is_empty()
+        self.node.get(key)
     }
 
     pub(crate) fn needed(&self, key: &str) -> Result<&'n Node<'a>, Fault> {
-        self.get(key).ok_or_else(|| {
-            Fault::new(
-                self.node.line,
-                format!("expected {} with {key}; it is missing", self.what),
-            )
-        })
+        let missing = || {
+            self.node
+                .refused(format!("expected {} with {key}; it is missing", self.what))
+        };
+        self.get(key).map_or_else(missing, Ok)
     }
 }
 

@@ -168,7 +168,7 @@ pub(crate) fn check(file: &ProgramFile) -> Result<f64, Fault> {
     // The one that the text is like for longer is the one that was exported.
     let line = START_WITHIN_DEG.into_iter().map(same).max().unwrap_or(0) + 1;
     let reason = "expected the player as this version writes it; found another line: nothing is known of what it sends";
-    Err(Fault::new(line, reason))
+    Fault::err(line, reason)
 }
 
 /// Nanoseconds of a second.

@@ -480,7 +480,7 @@ impl TrajectoryFile {
         };
         let mut joints = arm.fixed_joints().clone();
         joints.extend(fixed.iter().map(|(name, at)| (name.clone(), *at)));
-        let all = match file.name.to_ascii_lowercase().ends_with(".csv") {
+        let all = match file.ends_in(".csv") {
             true => vec![csv::read(&file, arm, &joints)?],
             false => ros::read_all(&file, arm, &joints)?,
         };

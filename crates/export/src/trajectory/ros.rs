@@ -7,9 +7,9 @@
 use crate::dialect::{ProgramFile, ReadError};
 use crate::ros2::node::{Fault, Kind, Node, with_indented_brackets};
 use crate::ros2::number::ParsedNumber;
-use crate::ros2::read::{Fields, documents, list, parse_number, refused, text};
+use crate::ros2::read::{Fields, again, documents, list, parse_number, refused, text};
 use crate::ros2::write::NS_PER_S;
-use crate::trajectory::wrapper::{self, FoundTrajectory, RobotState, has_key, number};
+use crate::trajectory::wrapper::{self, FoundTrajectory, RobotState, number};
 use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::words::rounded;
@@ -44,7 +44,7 @@ pub(super) fn read_all(
             }
         }
         match all.is_empty() {
-            true => Err(Fault::new(1, "expected a message; found nothing")),
+            true => Fault::err(1, "expected a message; found nothing"),
             false => Ok(all),
         }
     };
@@ -73,20 +73,19 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
     let (mut points, mut lines) = (JointPoints::default(), Vec::new());
     let (mut times, mut speeds, mut accelerations) = (Vec::new(), Vec::new(), Vec::new());
     let mut rates = Vec::new();
-    let has_times = nodes.iter().any(|node| has_key(node, "time_from_start"));
+    let has_times = nodes.iter().any(|node| node.get("time_from_start").is_some());
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
         let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
         let row = |name| columns.row(&point, name);
         let Some(positions) = row("positions")? else {
             let count = columns.names.len();
-            return Err(Fault::new(node.line, format!("expected {count} positions; found none")));
+            return node.refused(format!("expected {count} positions; found none"));
         };
         points.q_rad.push(positions);
         let [qd, qdd] = [row("velocities")?, row("accelerations")?];
         if qd.is_none() && qdd.is_some() {
-            let reason = "expected velocities beside the accelerations; found none";
-            return Err(Fault::new(node.line, reason));
+            return node.refused("expected velocities beside the accelerations; found none");
         }
         rates.push(usize::from(qd.is_some()) + usize::from(qdd.is_some()));
         speeds.push(qd.unwrap_or_default());
@@ -99,9 +98,8 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
         if let [.., before, found] = times[..]
             && found <= before
         {
-            let line = point.get("time_from_start").map_or(node.line, |time| time.line);
             let reason = format!("expected a time after {before} s, that of the point before; found {found} s");
-            return Err(Fault::new(line, reason));
+            return point.get("time_from_start").unwrap_or(node).refused(reason);
         }
         lines.push(node.line);
     }
@@ -174,39 +172,32 @@ impl Joints<'_> {
         let known = self.arm.joints().each_ref().map(|joint| joint.name.as_str());
         let all = known.join(", ");
         let mut names: Vec<String> = Vec::new();
-        for name in list(node)? {
-            let (line, name) = (name.line, text(name)?);
-            let found = quoted(&name);
+        for stated in list(node)? {
+            let name = text(stated)?;
             if names.contains(&name) {
-                let reason = format!("expected each joint once; found {found} again");
-                return Err(Fault::new(line, reason));
+                return stated.refused(again(&name));
             }
             if !known.contains(&name.as_str()) && !self.fixed.contains_key(&name) {
-                let reason = format!(
-                    "expected the arm's joints {all}; found {found}, which is none of them (one that does not move can be fixed: --fix)"
-                );
-                return Err(Fault::new(line, reason));
+                return stated.refused(format!(
+                    "expected the arm's joints {all}; found {}, which is none of them (one that does not move can be fixed: --fix)",
+                    quoted(&name)
+                ));
             }
             names.push(name);
         }
         let place = |joint: &str| {
             let found = names.iter().position(|name| name == joint);
             match found {
-                None if !self.fixed.contains_key(joint) => Err(format!(
+                None if !self.fixed.contains_key(joint) => node.refused(format!(
                     "expected the arm's joints {all}; {} is missing (one that does not move can be fixed: --fix)",
                     quoted(joint)
                 )),
                 found => Ok(found),
             }
         };
-        let refused = |reason| Fault::new(node.line, reason);
-        let places = known
-            .into_iter()
-            .map(place)
-            .collect::<Result<_, _>>()
-            .map_err(refused)?;
+        let places = known.into_iter().map(place).collect::<Result<_, _>>()?;
         let of_file = |name: &str| names.iter().any(|other| other == name);
-        check_fixed_names(self.arm, self.fixed, of_file).map_err(refused)?;
+        check_fixed_names(self.arm, self.fixed, of_file).or_else(|reason| node.refused(reason))?;
         let joints = self;
         Ok(Columns { names, joints, places })
     }
@@ -221,17 +212,14 @@ impl Columns<'_> {
         match row.len() {
             0 => return Ok(None),
             found if found != expected => {
-                return Err(Fault::new(
-                    node.line,
-                    format!("expected {expected} {name}; found {found}"),
-                ));
+                return node.refused(format!("expected {expected} {name}; found {found}"));
             }
             _ => {}
         }
         let at_rest = |at: f64| if name == "positions" { at } else { 0.0 };
         for (joint, found) in self.names.iter().zip(&row) {
             if let Some(at) = self.joints.fixed.get(joint) {
-                check_fixed(joint, at_rest(*at), *found).map_err(|reason| Fault::new(node.line, reason))?;
+                check_fixed(joint, at_rest(*at), *found).or_else(|reason| node.refused(reason))?;
             }
         }
         let axes = self.joints.arm.joints().iter().zip(&self.places);
@@ -249,22 +237,20 @@ fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
         let whole = |part: &Node<'_>| number(part).ok().filter(|found| *found >= 0.0 && found.fract() == 0.0);
         let parts: Vec<_> = parts.iter().map(whole).collect();
         let [Some(s), Some(ns)] = parts[..] else {
-            return Err(Fault::new(
-                node.line,
-                "expected a Duration [secs, nsecs] of two whole numbers from 0 on; found another list",
-            ));
+            return node
+                .refused("expected a Duration [secs, nsecs] of two whole numbers from 0 on; found another list");
         };
         return of_nanoseconds(node, s as i128 * i128::from(NS_PER_S) + ns as i128);
     }
     let fields = Fields::of(node, "a Duration", &["sec", "nanosec", "secs", "nsecs"])?;
-    if fields.is_empty() {
-        return Err(Fault::new(node.line, "expected a Duration with sec; it is missing"));
+    if matches!(&node.kind, Kind::Table(entries) if entries.is_empty()) {
+        return node.refused("expected a Duration with sec; it is missing");
     }
     let has = |keys: [&str; 2]| keys.into_iter().any(|key| fields.get(key).is_some());
     if has(["sec", "nanosec"]) && has(["secs", "nsecs"]) {
         let reason =
             "expected a Duration of ROS 2 with sec and nanosec, or of ROS 1 with secs and nsecs; found keys of both";
-        return Err(Fault::new(node.line, reason));
+        return node.refused(reason);
     }
     // What is left out is 0, as in messages.
     let whole = |keys: [&str; 2]| {
@@ -273,13 +259,7 @@ fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
         };
         match parse_number(node) {
             ParsedNumber::Whole(found) if found >= 0 => Ok(i128::from(found)),
-            _ => {
-                let found = node.kind.message();
-                Err(Fault::new(
-                    node.line,
-                    format!("expected a whole number from 0 on; found {found}"),
-                ))
-            }
+            _ => node.unexpected("a whole number from 0 on"),
         }
     };
     let ns = whole(["sec", "secs"])? * i128::from(NS_PER_S) + whole(["nanosec", "nsecs"])?;
@@ -287,5 +267,6 @@ fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
 }
 
 fn of_nanoseconds(node: &Node<'_>, ns: i128) -> Result<ExactTime, Fault> {
-    ExactTime::of_nanoseconds(ns).ok_or_else(|| Fault::new(node.line, "expected a time of at most 1e15 s; found more"))
+    let refused = || node.refused("expected a time of at most 1e15 s; found more");
+    ExactTime::of_nanoseconds(ns).map_or_else(refused, Ok)
 }

@@ -36,13 +36,13 @@ pub(super) struct FoundTrajectory<'n, 'a> {
 
 /// Finds the trajectories of a message, in their order.
 pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
-    let keys = entries(root, "a message")?;
-    let value = |key: &str| keys.iter().find(|entry| entry.key == key).map(|entry| &entry.value);
+    entries(root, "a message")?;
+    let has = |key: &str| root.get(key).is_some();
     let one = |found: FoundTrajectory<'n, 'a>| Ok(vec![found]);
-    if value("op").is_some() {
-        return bridge(root);
+    if let Some(operation) = root.get("op") {
+        return bridge(root, &text(operation)?);
     }
-    if value("goal").is_some() {
+    if has("goal") {
         let fields = Fields::of(root, "an action's goal", &["header", "goal_id", "goal"])?;
         check_header(&fields)?;
         if let Some(id) = fields.get("goal_id") {
@@ -50,19 +50,19 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
         }
         return find(fields.needed("goal")?);
     }
-    if value("motion_plan_response").is_some() {
+    if has("motion_plan_response") {
         let fields = Fields::of(root, "a response of GetMotionPlan", &["motion_plan_response"])?;
         return find(fields.needed("motion_plan_response")?);
     }
-    if value("joint_trajectory").is_some() {
+    if has("joint_trajectory") {
         return one(robot_trajectory(root)?);
     }
-    if value("solution").is_some() {
+    if has("solution") {
         let known = ["start_state", "solution", "fraction", "error_code"];
         let fields = Fields::of(root, "a response of GetCartesianPath", &known)?;
         return one(planned(&fields, "solution", "start_state")?);
     }
-    if value("planned_trajectory").is_some() {
+    if has("planned_trajectory") {
         let known = [
             "error_code",
             "trajectory_start",
@@ -73,21 +73,21 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
         let fields = Fields::of(root, "a result of MoveGroup", &known)?;
         let mut found = planned(&fields, "planned_trajectory", "trajectory_start")?;
         let executed = fields.get("executed_trajectory");
-        let executed = executed
-            .filter(|node| has_key(node, "joint_trajectory"))
+        let executed = executed.filter(|node| node.get("joint_trajectory").is_some());
+        let points = executed
             .map(robot_trajectory)
-            .transpose()?;
-        let points = executed.and_then(|found| point_list(found.node));
-        if points.is_some_and(|points| !points.is_empty()) {
+            .transpose()?
+            .and_then(|found| found.node.get("points"));
+        if points.is_some_and(|points| matches!(&points.kind, Kind::List(points) if !points.is_empty())) {
             found.notes.push("its executed_trajectory is not judged".to_owned());
         }
         return one(found);
     }
-    match value("trajectory") {
+    match root.get("trajectory") {
         Some(Node {
             kind: Kind::List(_), ..
         }) => display(root),
-        Some(inner) if has_key(inner, "joint_trajectory") => {
+        Some(inner) if inner.get("joint_trajectory").is_some() => {
             // The goal of ExecuteTrajectory, or MotionPlanResponse.
             let known = [
                 "trajectory",
@@ -97,16 +97,12 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
                 "planning_time",
                 "error_code",
             ];
-            let what = "a goal of ExecuteTrajectory, or a MotionPlanResponse,";
-            one(planned(
-                &Fields::of(root, what, &known)?,
-                "trajectory",
-                "trajectory_start",
-            )?)
+            let fields = Fields::of(root, "a goal of ExecuteTrajectory, or a MotionPlanResponse,", &known)?;
+            one(planned(&fields, "trajectory", "trajectory_start")?)
         }
         Some(_) => one(follow_goal(root)?),
-        None if value("joint_names").is_some() || value("points").is_some() => one(plain(root)),
-        None => Err(Fault::new(root.line, unknown(root, value("position").is_some()))),
+        None if has("joint_names") || has("points") => one(plain(root)),
+        None => root.refused(unknown(root)),
     }
 }
 
@@ -125,26 +121,14 @@ fn plain<'n, 'a>(node: &'n Node<'a>) -> FoundTrajectory<'n, 'a> {
     }
 }
 
-/// The points of a trajectory, if it has a list of them.
-fn point_list<'n, 'a>(trajectory: &'n Node<'a>) -> Option<&'n [Node<'a>]> {
-    let entries = entries(trajectory, "a JointTrajectory").ok()?;
-    let points = entries.iter().find(|entry| entry.key == "points")?;
-    list(&points.value).ok()
-}
-
-/// Returns true for a table that has a key.
-pub(super) fn has_key(node: &Node<'_>, key: &str) -> bool {
-    matches!(&node.kind, Kind::Table(entries) if entries.iter().any(|entry| entry.key == key))
-}
-
 /// Reason for refusing a table that is none of the messages.
-fn unknown(root: &Node<'_>, has_position: bool) -> String {
+fn unknown(root: &Node<'_>) -> String {
     let keys: Vec<_> = entries(root, "a message")
         .unwrap_or_default()
         .iter()
         .map(|entry| entry.key.as_ref())
         .collect();
-    let found = match (&keys[..], has_position) {
+    let found = match (&keys[..], root.get("position").is_some()) {
         ([], _) => "nothing".to_owned(),
         (_, true) => "positions of a JointState, which are no trajectory".to_owned(),
         (keys, false) => {
@@ -159,7 +143,7 @@ fn unknown(root: &Node<'_>, has_position: bool) -> String {
     )
 }
 
-fn bridge<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
+fn bridge<'n, 'a>(root: &'n Node<'a>, operation: &str) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
     const PUBLISH: [&str; 8] = [
         "op",
         "id",
@@ -180,20 +164,12 @@ fn bridge<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fa
         "compression",
         "args",
     ];
-    let operation = entries(root, "a message")?
-        .iter()
-        .find(|entry| entry.key == "op")
-        .map(|entry| &entry.value);
-    let word = operation.map(text).transpose()?.unwrap_or_default();
-    match word.as_str() {
+    match operation {
         "publish" => find(Fields::of(root, "a rosbridge message", &PUBLISH)?.needed("msg")?),
         "send_action_goal" => find(Fields::of(root, "a rosbridge message", &GOAL)?.needed("args")?),
-        other => Err(Fault::new(
-            root.line,
-            format!(
-                "expected a rosbridge message whose op is publish or send_action_goal; found {}",
-                quoted(other)
-            ),
+        other => root.refused(format!(
+            "expected a rosbridge message whose op is publish or send_action_goal; found {}",
+            quoted(other)
         )),
     }
 }
@@ -206,18 +182,10 @@ fn display<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, F
         &["model_id", "trajectory", "trajectory_start"],
     )?;
     let parts = fields.needed("trajectory")?;
-    let mut all = list(parts)?
-        .iter()
-        .map(robot_trajectory)
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut all: Vec<_> = list(parts)?.iter().map(robot_trajectory).collect::<Result<_, _>>()?;
     match all.first_mut() {
         Some(first) => first.start = fields.get("trajectory_start"),
-        None => {
-            return Err(Fault::new(
-                parts.line,
-                "expected a trajectory in the DisplayTrajectory; found none",
-            ));
-        }
+        None => return parts.refused("expected a trajectory in the DisplayTrajectory; found none"),
     }
     Ok(all)
 }
@@ -277,10 +245,9 @@ fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
     let fields = Fields::of(node, "a MultiDOFJointTrajectory", &["header", "joint_names", "points"])?;
     check_header(&fields)?;
     match fields.get("points").map(list).transpose()? {
-        Some([point, ..]) => Err(Fault::new(
-            point.line,
-            "expected no motion of joints with more than one degree of freedom; found points of one",
-        )),
+        Some([point, ..]) => {
+            point.refused("expected no motion of joints with more than one degree of freedom; found points of one")
+        }
         _ => Ok(()),
     }
 }
@@ -290,11 +257,7 @@ pub(super) fn number(node: &Node<'_>) -> Result<f64, Fault> {
     match parse_number(node) {
         ParsedNumber::Float(value) | ParsedNumber::TextInYaml11(value) => Ok(value),
         ParsedNumber::Whole(value) => Ok(value as f64),
-        ParsedNumber::Nothing => {
-            let found = node.kind.message();
-            let reason = format!("expected a finite number in decimals; found {found}");
-            Err(Fault::new(node.line, reason))
-        }
+        ParsedNumber::Nothing => node.unexpected("a finite number in decimals"),
     }
 }
 
@@ -330,7 +293,7 @@ impl RobotState {
                     names.len(),
                     positions.len()
                 );
-                return Err(Fault::new(joints.line(), reason));
+                return joints.node.refused(reason);
             }
             for (name, position) in names.iter().zip(positions) {
                 state.positions.push((text(name)?, number(position)?));

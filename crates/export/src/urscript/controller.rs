@@ -198,13 +198,7 @@ impl Controller {
         }
         let Some(last) = self.points.last() else {
             self.stage = Stage::Moving;
-            self.points.push(ReadPoint {
-                place,
-                t_s: 0.0,
-                q_rad,
-                qd_rad_s: None,
-                corner_m: None,
-            });
+            self.points.push(ReadPoint::new(place, 0.0, q_rad, None));
             return Ok(());
         };
         let away = (last.q_rad - q_rad).amax();
@@ -247,14 +241,7 @@ impl Controller {
             self.settings.note(name, &stated.to_string(), &place);
         }
         self.t_s += t_s;
-        let t_s = self.t_s;
-        self.points.push(ReadPoint {
-            place,
-            t_s,
-            q_rad,
-            qd_rad_s: None,
-            corner_m: Some(0.0),
-        });
+        self.points.push(ReadPoint::new(place, self.t_s, q_rad, Some(0.0)));
         Ok(())
     }
 
@@ -287,12 +274,9 @@ impl Controller {
         };
         Ok(Reading {
             speed_share,
-            points: self.points,
-            interpolation: SegmentShape::Lines,
             tool,
-            start_within_deg: None,
-            most_share: None,
             settings: self.settings.into_vec(),
+            ..Reading::of(self.points, SegmentShape::Lines)
         })
     }
 }

@@ -37,7 +37,7 @@ impl Dialect for UrScript {
     }
 
     fn is_in(&self, file: &ProgramFile) -> bool {
-        file.name.to_ascii_lowercase().ends_with(ENDING)
+        file.ends_in(ENDING)
     }
 
     fn points(&self) -> Points {
@@ -90,20 +90,7 @@ impl Dialect for UrScript {
     }
 
     fn read(&self, files: &[ProgramFile], _arm: &RobotModel) -> Result<Reading, ReadError> {
-        let mut programs = files.iter().filter(|file| self.is_in(file));
-        match (programs.next(), programs.next()) {
-            (Some(file), None) => read::reading(file),
-            (Some(_), Some(second)) => Err(ReadError::at(
-                &second.name,
-                1,
-                "a second program; expected one .script file",
-            )),
-            (None, _) => Err(ReadError::at(
-                files.first().map_or("", |file| &file.name),
-                1,
-                "expected a file whose name ends in .script",
-            )),
-        }
+        read::reading(ProgramFile::only(files, "program", ENDING)?)
     }
 }
 

@@ -5,13 +5,10 @@
 //! threads, functions with parameters, and computed values.
 
 use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
-use crate::reading::{self, Reading, Token};
+use crate::reading::{self, Line, MOST_LINES, Reading, Token};
 use crate::urscript::controller::{Controller, Value};
 use platewash_kinematics::{AXES, JointVector};
 use std::collections::BTreeMap;
-
-/// Most lines that are read, and statements that are carried out.
-const MOST_LINES: usize = 1_000_000;
 
 /// Largest excess of the limit of the check over [`START_WITHIN_DEG`], for its digits.
 const NEARLY: f64 = 1e-6;
@@ -25,19 +22,12 @@ const MEASURED: &str = "get_actual_joint_positions";
 /// Words that begin a block, which `end` closes.
 const BLOCKS: [&str; 6] = ["def", "if", "while", "for", "thread", "sec"];
 
-/// A line that says something.
-#[derive(Debug)]
-struct Line {
-    number: usize,
-    tokens: Vec<Token>,
-}
-
 /// Interprets a program.
 ///
 /// # Errors
 /// [`ReadError`] with the line that is not read.
 pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
-    let lines = lines(file)?;
+    let lines = reading::lines(file, '#', |_, _| false)?;
     let at = |line: usize, reason: String| ReadError::at(&file.name, line, reason);
     let Some((first, rest)) = lines.split_first() else {
         return Err(at(1, "expected a program `def NAME():`, found nothing".to_owned()));
@@ -50,7 +40,12 @@ pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
             "expected one program, which ends before this line".to_owned(),
         ));
     }
-    let mut run = Run::new(&file.name);
+    let mut run = Run {
+        file: &file.name,
+        line: 1,
+        share_at: 1,
+        ..Run::default()
+    };
     run.block(&rest[..end])?;
     let share = match run.globals.get(SHARE) {
         None => None,
@@ -68,22 +63,6 @@ pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
         start_within_deg,
         ..read
     })
-}
-
-fn lines(file: &ProgramFile) -> Result<Vec<Line>, ReadError> {
-    let mut lines = Vec::new();
-    for (index, text) in file.text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let (number, mut tokens) = (index + 1, Vec::new());
-        let refused = |reason| ReadError::at(&file.name, number, reason);
-        if number > MOST_LINES {
-            return Err(refused(format!("more than {MOST_LINES} lines, the most that are read")));
-        }
-        reading::line(text, '#', |token| tokens.push(token)).map_err(refused)?;
-        if !tokens.is_empty() {
-            lines.push(Line { number, tokens });
-        }
-    }
-    Ok(lines)
 }
 
 /// The index of the `end` of a block that has begun.
@@ -119,6 +98,7 @@ fn head(tokens: &[Token]) -> Result<&str, String> {
 }
 
 /// A program that is carried out.
+#[derive(Default)]
 struct Run<'a> {
     file: &'a str,
     controller: Controller,
@@ -138,23 +118,6 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(file: &'a str) -> Self {
-        Self {
-            file,
-            controller: Controller::default(),
-            functions: BTreeMap::new(),
-            globals: BTreeMap::new(),
-            measured: None,
-            start: None,
-            within_rad: [None; AXES],
-            calls: Vec::new(),
-            line: 1,
-            share_at: 1,
-            steps: 0,
-            is_over: false,
-        }
-    }
-
     fn refused(&self, reason: impl Into<String>) -> ReadError {
         ReadError::at(self.file, self.line, reason)
     }
@@ -207,42 +170,16 @@ impl<'a> Run<'a> {
 
     /// The check of a joint: a message and `halt` where the arm is too far from the start.
     fn check(&mut self, line: &Line, behind: &[Line]) -> Result<(), ReadError> {
-        let [
-            Token::Word(_),
-            Token::Word(norm),
-            o1,
-            Token::Word(found),
-            o2,
-            Token::Number(joint),
-            c2,
-            minus,
-            Token::Word(start),
-            o3,
-            Token::Number(same),
-            c3,
-            c1,
-            above,
-            Token::Number(limit),
-            colon,
-        ] = &line.tokens[..]
-        else {
+        let [found, joint, start, limit] = [3, 5, 8, 14].map(|place| line.tokens.get(place));
+        let (Some(Token::Word(found)), Some(Token::Number(joint))) = (found, joint) else {
             return Err(self.refused(ONLY));
         };
-        let signs = [
-            (o1, "("),
-            (o2, "["),
-            (c2, "]"),
-            (minus, "-"),
-            (o3, "["),
-            (c3, "]"),
-            (c1, ")"),
-            (above, ">"),
-            (colon, ":"),
-        ];
-        let is_shape = is_popup_and_halt(behind)
-            && norm == "norm"
-            && joint == same
-            && signs.into_iter().all(|(token, sign)| token.is(sign));
+        let (Some(Token::Word(start)), Some(Token::Number(limit))) = (start, limit) else {
+            return Err(self.refused(ONLY));
+        };
+        let written = format!("if norm({found}[{joint}] - {start}[{joint}]) > {limit}:");
+        let is_written = reading::line(&written, '#').is_ok_and(|written| written == line.tokens);
+        let is_shape = is_written && is_popup_and_halt(behind);
         let j = (0..AXES).find(|j| *j as f64 == *joint);
         let Some(j) = j.filter(|_| is_shape && self.measured == Some(found)) else {
             return Err(self.refused(ONLY));
@@ -313,10 +250,7 @@ impl<'a> Run<'a> {
     fn call(&mut self, name: &'a str, arguments: &'a [Token]) -> Result<(), String> {
         if let Some(parameters) = Controller::parameters(name) {
             let given = self.arguments(arguments, parameters)?;
-            let place = Place {
-                file: self.file.to_owned(),
-                line: self.line,
-            };
+            let place = Place::new(self.file, self.line);
             let is_first = self.controller.points().is_empty();
             self.controller.instruction(name, &given, place)?;
             return match (is_first, self.controller.points(), self.start) {
