@@ -8,7 +8,7 @@
 use crate::dynamics::DynamicsModel;
 use crate::plant::PlantState;
 use platewash_kinematics::{JointLimits, JointVector};
-use platewash_workcell::simulation::{ControlSettings, FeedForward};
+use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
 use platewash_workcell::trajectory::JointState;
 
 /// Commanded states at a sample and at the next one.
@@ -162,63 +162,40 @@ impl ControlLaw for PaperLaw {
     }
 }
 
-/// τ = Kp e + Kd ė with e = q_d − q. Nothing holds the arm up: where it rests, Kp e = g(q).
+/// A law that drives the torques of a plant, with e = q_d − q and gains \[N·m/rad, N·m·s/rad\], or \[1/s², 1/s\] for the last one:
+///
+/// - `pd`: τ = Kp e + Kd ė. Nothing holds the arm up: where it rests, Kp e = g(q).
+/// - `pd_gravity`: τ = Kp e + Kd ė + g(q). At rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); in motion
+///   it is the error that the accelerations require, about q̈_d/ω².
+/// - `computed_torque`: τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), one inverse dynamics; then ë + Kd ė + Kp e = 0 (Lynch, Park, *Modern
+///   Robotics*, §11.4.2).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pd {
-    /// Gains \[N·m/rad, N·m·s/rad\].
-    pub gains: Gains,
-    /// Choice of ė: the error's or the arm's alone.
-    pub feed_forward: FeedForward,
-}
-
-impl ControlLaw for Pd {
-    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
-        let (position, speed) = reference.errors(state, self.feed_forward);
-        Command::Torque(self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed))
-    }
-}
-
-/// τ = Kp e + Kd ė + g(q): at rest the error is zero (Takegaki, Arimoto, *J. Dyn. Sys. Meas. Control* 103, 1981); in motion it is
-/// the error that the accelerations require, about q̈_d/ω².
-#[derive(Debug, Clone, PartialEq)]
-pub struct PdGravity<'a> {
+pub struct TorqueLaw<'a> {
+    /// One of these; any other is `pd`.
+    pub name: ControlLawName,
     /// The arm as the law believes it to be.
     pub model: &'a DynamicsModel,
-    /// Gains \[N·m/rad, N·m·s/rad\].
+    /// Gains of the law.
     pub gains: Gains,
-    /// Choice of ė: the error's or the arm's alone.
+    /// Choice of ė, the error's or the arm's alone; and use of the accelerations of the commanded motion.
     pub feed_forward: FeedForward,
 }
 
-impl ControlLaw for PdGravity<'_> {
+impl ControlLaw for TorqueLaw<'_> {
     fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
         let (position, speed) = reference.errors(state, self.feed_forward);
         let correction = self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed);
-        Command::Torque(self.model.gravity_torque(&state.q) + correction)
-    }
-}
-
-/// τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), one inverse dynamics; then ë + Kd ė + Kp e = 0 (Lynch, Park, *Modern
-/// Robotics*, §11.4.2).
-#[derive(Debug, Clone, PartialEq)]
-pub struct ComputedTorque<'a> {
-    /// The arm as the law believes it to be.
-    pub model: &'a DynamicsModel,
-    /// Gains \[1/s², 1/s\].
-    pub gains: Gains,
-    /// Use of the speeds and accelerations of the commanded motion.
-    pub feed_forward: FeedForward,
-}
-
-impl ControlLaw for ComputedTorque<'_> {
-    fn command(&mut self, reference: &Reference, state: &PlantState) -> Command {
-        let (position, speed) = reference.errors(state, self.feed_forward);
-        let correction = self.gains.kp.component_mul(&position) + self.gains.kd.component_mul(&speed);
-        let wanted = match self.feed_forward {
-            FeedForward::Velocity => reference.now.qdd + correction,
-            FeedForward::None => correction,
-        };
-        Command::Torque(self.model.inverse_dynamics(&state.q, &state.qd, &wanted))
+        Command::Torque(match self.name {
+            ControlLawName::PdGravity => self.model.gravity_torque(&state.q) + correction,
+            ControlLawName::ComputedTorque => {
+                let wanted = match self.feed_forward {
+                    FeedForward::Velocity => reference.now.qdd + correction,
+                    FeedForward::None => correction,
+                };
+                self.model.inverse_dynamics(&state.q, &state.qd, &wanted)
+            }
+            _ => correction,
+        })
     }
 }
 

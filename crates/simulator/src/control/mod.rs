@@ -19,19 +19,13 @@ pub(crate) mod laws;
 mod stability;
 
 pub use crate::control::error::ControlError;
-pub use crate::control::laws::{
-    Command, ComputedTorque, ControlLaw, ExactLaw, Gains, Loop, PaperLaw, Pd, PdGravity, Reference,
-};
+pub use crate::control::laws::{Command, ControlLaw, ExactLaw, Gains, Loop, PaperLaw, Reference, TorqueLaw};
 pub use crate::control::stability::{OperatingPoint, Stability, check};
 
 use crate::control::stability::unstable;
-use crate::dynamics::DynamicsModel;
 use crate::plant::Plant;
 use platewash_kinematics::JointLimits;
-use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
-
-/// Constructor of a torque law.
-type LawConstructor<'a> = fn(&'a DynamicsModel, Gains, FeedForward) -> Box<dyn ControlLaw + 'a>;
+use platewash_workcell::simulation::{ControlLawName, ControlSettings};
 
 /// Returns the law `name` without a plant, as the paper's program needs, with any gains.
 ///
@@ -76,25 +70,10 @@ pub fn law<'a>(
     configurations: &[OperatingPoint],
     substeps: usize,
 ) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
-    let (of, made): (Loop, LawConstructor<'a>) = match name {
+    let of = match name {
         ControlLawName::Paper | ControlLawName::Exact => return stable_kinematic(name, settings),
-        ControlLawName::Pd => (Loop::Torque, |_, gains, feed_forward| {
-            Box::new(Pd { gains, feed_forward })
-        }),
-        ControlLawName::PdGravity => (Loop::Torque, |model, gains, feed_forward| {
-            Box::new(PdGravity {
-                model,
-                gains,
-                feed_forward,
-            })
-        }),
-        ControlLawName::ComputedTorque => (Loop::Acceleration, |model, gains, feed_forward| {
-            Box::new(ComputedTorque {
-                model,
-                gains,
-                feed_forward,
-            })
-        }),
+        ControlLawName::Pd | ControlLawName::PdGravity => Loop::Torque,
+        ControlLawName::ComputedTorque => Loop::Acceleration,
     };
     check_settings(settings)?;
     let model = &plant.model;
@@ -108,7 +87,12 @@ pub fn law<'a>(
     };
     check(&stability, settings.rate_hz, model, configurations)
         .map_err(|at| unstable(name, settings, &stability, &at, model, configurations))?;
-    Ok(made(model, gains, settings.feed_forward))
+    Ok(Box::new(TorqueLaw {
+        name,
+        model,
+        gains,
+        feed_forward: settings.feed_forward,
+    }))
 }
 
 fn check_settings(settings: &ControlSettings) -> Result<(), ControlError> {

@@ -11,7 +11,7 @@
 
 use crate::dynamics::DynamicsModel;
 use crate::plant::foam::FoamLoad;
-use crate::plant::sponge::{Push, SpongeOnPlates};
+use crate::plant::sponge::SpongeOnPlates;
 use platewash_kinematics::{AXES, JointLimits, JointVector};
 use platewash_workcell::simulation::{Integrator, PlantSettings};
 
@@ -59,9 +59,18 @@ impl Plant {
     /// the step (semi-implicit Euler) or at its start (Runge–Kutta) \[rad/s²\].
     #[must_use]
     pub fn step(&self, state: &PlantState, torque: &JointVector, h: f64) -> (PlantState, JointVector) {
+        self.step_under(state, h, |_| *torque)
+    }
+
+    fn step_under(
+        &self,
+        state: &PlantState,
+        h: f64,
+        torque: impl Fn(&PlantState) -> JointVector,
+    ) -> (PlantState, JointVector) {
         match self.integrator {
-            Integrator::SemiImplicitEuler => euler_step(&self.model, &self.friction, state, torque, h),
-            Integrator::Rk4 => rk4_step(state, h, |state| self.acceleration(state, torque)),
+            Integrator::SemiImplicitEuler => euler_step(&self.model, &self.friction, state, &torque(state), h),
+            Integrator::Rk4 => rk4_step(state, h, |at| self.acceleration(at, &torque(at))),
         }
     }
 
@@ -76,18 +85,14 @@ impl Plant {
         h: f64,
     ) -> (PlantState, JointVector, FoamLoad) {
         let first = sponge.push(&self.model, state);
-        let pushed = |push: &Push| torque + push.torque;
-        let (next, qdd) = match self.integrator {
-            Integrator::SemiImplicitEuler => euler_step(&self.model, &self.friction, state, &pushed(&first), h),
-            Integrator::Rk4 => rk4_step(state, h, |at| {
-                let push = if at == state {
-                    first
-                } else {
-                    sponge.push(&self.model, at)
-                };
-                self.acceleration(at, &pushed(&push))
-            }),
+        let push = |at: &PlantState| {
+            if at == state {
+                first
+            } else {
+                sponge.push(&self.model, at)
+            }
         };
+        let (next, qdd) = self.step_under(state, h, |at| torque + push(at).torque);
         (next, qdd, first.load)
     }
 

@@ -4,11 +4,15 @@
 
 use crate::dynamics::DynamicsModel;
 use crate::plant::{FoamLoad, SpongeOnPlates};
+use crate::simulate::error::SimulationError;
 use crate::simulate::execution::Sample;
-use platewash_kinematics::{Frame, JointVector};
+use crate::simulate::run::sponge;
+use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::contact::{ContactSampler, ContactThresholds, Dwell, Foundation, Moment, SpongePose};
 use platewash_workcell::job::{ContactRequirements, JobTerms};
+use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
+use platewash_workcell::simulation::SimulationSettings;
 use serde::Serialize;
 
 /// Heights of a plate over where it should be, of which the report states the force \[m\].
@@ -90,16 +94,37 @@ pub struct Pressing {
 
 /// Data that a wash is judged with.
 pub(crate) struct Judge<'a> {
-    pub model: &'a DynamicsModel,
-    pub sponge: &'a SpongeOnPlates,
-    pub tip: &'a Frame,
+    model: DynamicsModel,
+    sponge: SpongeOnPlates,
+    tip: Frame,
     /// The sponge, of the stiffness simulated.
-    pub foundation: Foundation,
-    pub job: &'a JobTerms,
-    pub period_s: f64,
+    foundation: Foundation,
+    job: &'a JobTerms,
+    period_s: f64,
 }
 
-impl Judge<'_> {
+impl<'a> Judge<'a> {
+    /// `None` where no foam was simulated.
+    pub fn of(
+        plan: &'a Plan,
+        robot: &RobotModel,
+        settings: &SimulationSettings,
+        period_s: f64,
+    ) -> Result<Option<Self>, SimulationError> {
+        let Some((sponge, contact)) = sponge(plan, robot, settings).zip(settings.plant.contact) else {
+            return Ok(None);
+        };
+        let tool = &plan.job.workcell.tool;
+        Ok(Some(Self {
+            model: DynamicsModel::new(robot, Some(tool))?,
+            sponge,
+            tip: tool.tip_frame(robot),
+            foundation: Foundation::stiff(&tool.sponge, [contact.stiffness_pa; 2]),
+            job: &plan.job,
+            period_s,
+        }))
+    }
+
     /// Pressing over the samples of a wash of a plate, by its index; `None` without samples, or without foam.
     pub fn pressing(&self, samples: &[Sample], index: usize, plate: &Plate) -> Option<Pressing> {
         let load: Option<Vec<FoamLoad>> = samples.iter().map(|sample| sample.load).collect();
@@ -129,7 +154,7 @@ impl Judge<'_> {
         let stride = samples.len().div_ceil(POSES).max(1);
         let poses = samples.iter().step_by(stride).map(|sample| &sample.commanded);
         let load: Vec<_> = poses
-            .map(|q| self.sponge.load_at_rest(self.model, q, index, higher_m))
+            .map(|q| self.sponge.load_at_rest(&self.model, q, index, higher_m))
             .collect();
         ForceAtHeight {
             higher_m,
@@ -169,7 +194,7 @@ impl Judge<'_> {
     }
 
     fn moment(&self, t_s: f64, q: &JointVector, qd: &JointVector, plate: &Plate) -> Moment {
-        let at = self.model.frame_motion(q, self.tip);
+        let at = self.model.frame_motion(q, &self.tip);
         let [speed, turning] = at.twist(qd).map(|v| plate.pose.inverse_transform_vector(&v));
         Moment {
             t_s,

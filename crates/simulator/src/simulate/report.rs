@@ -4,7 +4,6 @@ use crate::plant::foam::{DENSE_FACTOR, DENSE_STRAIN};
 use crate::simulate::error::SimulationError;
 use crate::simulate::execution::Execution;
 use crate::simulate::measures::{self, Effort, PayloadCheck, PayloadVerdict, SegmentTracking, Tracking};
-use crate::simulate::run::Contact;
 use crate::simulate::text::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::{JointFriction, RobotModel};
@@ -147,8 +146,8 @@ impl SimulationReport {
         seal: Seal,
     ) -> Result<Self, SimulationError> {
         let plan = &*plan.seen_from_base();
-        let contact = Contact::new(plan, robot);
-        let tip_errors = measures::tip_errors(execution, robot, contact.tip());
+        let tip = plan.job.workcell.tool.tip_frame(robot);
+        let tip_errors = measures::tip_errors(execution, robot, &tip);
         let plates = washing::plates(plan, robot, settings, execution)?;
         let payload = PayloadCheck::new(&plan.job.workcell.tool, settings.payload_kg, robot);
         let (treatment, done) = (

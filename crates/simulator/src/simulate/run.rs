@@ -4,19 +4,17 @@
 //!
 //! About which configurations a run must be stable: with nothing touching, and with the sponge on plates.
 
-use crate::control::{self, Command, ControlError, ControlLaw, OperatingPoint, Reference};
+use crate::control::{self, Command, ControlLaw, OperatingPoint, Reference};
 use crate::dynamics::DynamicsModel;
 use crate::plant::{FoamLoad, Plant, PlantState, SpongeOnPlates, longest_step_s};
 use crate::simulate::error::{self, SimulationError};
 use crate::simulate::execution::{Execution, Sample};
 use nalgebra::Vector3;
 use platewash_kinematics::words::{rounded, rounded_down, rounded_up};
-use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
+use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
-use platewash_workcell::plate::Plate;
-use platewash_workcell::simulation::SimulationSettings;
-use platewash_workcell::tool::Sponge;
+use platewash_workcell::simulation::{PlantSettings, SimulationSettings};
 use platewash_workcell::trajectory::{JointState, PlanSegment, SegmentKind, Trajectory};
 
 /// Significant digits of a rate in messages.
@@ -72,65 +70,53 @@ pub fn simulate_watched(
     let schedule = Schedule::new(plan, settings.period_s())?;
     let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
     token.check()?;
-    let plant = plant(plan, robot, settings, &mount)?;
+    let plant = match settings.law.is_kinematic() {
+        true => None,
+        false => {
+            let model = DynamicsModel::mounted(robot, Some(&plan.job.workcell.tool), &mount)?;
+            Some(Plant::new(model, robot.limits(), &settings.plant))
+        }
+    };
     let sponge = sponge(plan, robot, settings);
     let mut law: Box<dyn ControlLaw + '_> = match &plant {
         Some(plant) => {
             let standings = standings(plan, &motion, plant, sponge.as_ref());
             check_steps(plant, &standings, settings)?;
-            driving(plant, robot, &standings, motion.duration_s(), settings)?
+            let substeps = settings.plant.substeps;
+            let highest_hz = highest_rate(motion.duration_s(), substeps);
+            control::law(
+                settings.law,
+                &settings.control,
+                plant,
+                robot.limits(),
+                &standings,
+                substeps,
+            )
+            .map_err(|error| error.with_rates_up_to(highest_hz))?
         }
         None => control::stable_kinematic(settings.law, &settings.control)?,
     };
     let run = Run {
         motion: &motion,
         plant: plant.as_ref(),
-        contact: Contact::new(plan, robot),
+        plan,
+        tip: plan.job.workcell.tool.tip_frame(robot),
         sponge: sponge.as_ref(),
-        force_n: settings.plant.contact_force_n,
-        substeps: settings.plant.substeps,
+        settings: &settings.plant,
         period_s: settings.period_s(),
         token,
     };
     run.carry_out(law.as_mut(), schedule, count, watch)
 }
 
-/// The arm with its tool; `None` under a kinematic law.
-fn plant(
-    plan: &Plan,
-    robot: &RobotModel,
-    settings: &SimulationSettings,
-    mount: &Pose,
-) -> Result<Option<Plant>, SimulationError> {
-    if settings.law.is_kinematic() {
-        return Ok(None);
-    }
-    let model = DynamicsModel::mounted(robot, Some(&plan.job.workcell.tool), mount)?;
-    Ok(Some(Plant::new(model, robot.limits(), &settings.plant)))
-}
-
-/// The law that drives a plant along the motion.
-fn driving<'a>(
-    plant: &'a Plant,
-    robot: &RobotModel,
-    standings: &[OperatingPoint],
-    duration_s: f64,
-    settings: &SimulationSettings,
-) -> Result<Box<dyn ControlLaw + 'a>, ControlError> {
-    let substeps = settings.plant.substeps;
-    let limits = robot.limits();
-    control::law(settings.law, &settings.control, plant, limits, standings, substeps)
-        .map_err(|error| error.with_rates_up_to(highest_rate(duration_s, substeps)))
-}
-
 /// Data that do not change from sample to sample.
 struct Run<'a> {
     motion: &'a Trajectory,
     plant: Option<&'a Plant>,
-    contact: Contact<'a>,
+    plan: &'a Plan,
+    tip: Frame,
     sponge: Option<&'a SpongeOnPlates>,
-    force_n: f64,
-    substeps: usize,
+    settings: &'a PlantSettings,
     period_s: f64,
     token: &'a CancelToken,
 }
@@ -237,9 +223,9 @@ impl Run<'_> {
             return self.moved(state, state.q);
         };
         let held = plant.limits.cut(torque);
-        let h = self.period_s / self.substeps as f64;
+        let h = self.period_s / self.settings.substeps as f64;
         let (mut now, mut first, mut felt) = (*state, None, None);
-        for _ in 0..self.substeps {
+        for _ in 0..self.settings.substeps {
             if let Some(sponge) = self.sponge {
                 let (next, qdd, feels) = plant.step_on(sponge, &now, &held, h);
                 first.get_or_insert(qdd);
@@ -248,9 +234,7 @@ impl Run<'_> {
                 continue;
             }
             let pushed = match plate {
-                Some(plate) if self.force_n > 0.0 => {
-                    held + self.contact.push(&plant.model, &now.q, plate, self.force_n)
-                }
+                Some(plate) if self.settings.contact_force_n > 0.0 => held + self.push(&plant.model, &now.q, plate),
                 _ => held,
             };
             let (next, qdd) = plant.step(&now, &pushed, h);
@@ -264,6 +248,16 @@ impl Run<'_> {
             is_cut: held != *torque,
             load: felt,
         }
+    }
+
+    /// Torques of the plate's force on the sponge, where it touches \[N·m\].
+    fn push(&self, model: &DynamicsModel, q: &JointVector, plate: usize) -> JointVector {
+        let plate = &self.plan.job.plates[plate];
+        let tip: Vector3<f64> = model.position(q, &self.tip).coords;
+        if plate.height_of(&tip) > self.plan.job.workcell.tool.sponge.compression_m {
+            return JointVector::zeros();
+        }
+        model.torque_of_force(q, &self.tip, &(plate.axis() * self.settings.contact_force_n))
     }
 }
 
@@ -385,40 +379,6 @@ pub(crate) fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
 /// A period \[s\] with which it is not.
 pub(crate) fn shortest_period(duration_s: f64, substeps: usize) -> f64 {
     rounded_up(duration_s / most_periods(substeps), DIGITS)
-}
-
-/// Tip and plates.
-#[derive(Debug, Clone)]
-pub(crate) struct Contact<'a> {
-    tip: Frame,
-    sponge: &'a Sponge,
-    plates: &'a [Plate],
-}
-
-impl<'a> Contact<'a> {
-    pub fn new(plan: &'a Plan, robot: &RobotModel) -> Self {
-        let tool = &plan.job.workcell.tool;
-        Self {
-            tip: tool.tip_frame(robot),
-            sponge: &tool.sponge,
-            plates: &plan.job.plates,
-        }
-    }
-
-    /// The frame of the tip.
-    pub fn tip(&self) -> &Frame {
-        &self.tip
-    }
-
-    /// Torques of the plate's force \[N\] on the sponge, where it touches \[N·m\].
-    pub fn push(&self, model: &DynamicsModel, q: &JointVector, plate: usize, force_n: f64) -> JointVector {
-        let plate = &self.plates[plate];
-        let tip: Vector3<f64> = model.position(q, &self.tip).coords;
-        if plate.height_of(&tip) > self.sponge.compression_m {
-            return JointVector::zeros();
-        }
-        model.torque_of_force(q, &self.tip, &(plate.axis() * force_n))
-    }
 }
 
 /// Configurations along a plan about which the sampled loop is checked, at most; as many in washes, on each kind of foam.

@@ -61,7 +61,22 @@ pub fn tune(
         let control = &mut settings.control;
         (control.joint_kp, control.joint_kd) = (None, None);
         (control.frequency_rad_s, control.damping_ratio) = (frequency_rad_s, damping_ratio);
-        match outcome(plan, robot, &settings, seal, token) {
+        let outcome = || -> Result<TuneOutcome, SimulationError> {
+            let execution = simulate_with(plan, robot, &settings, token)?;
+            let report = SimulationReport::judge(plan, robot, &settings, &execution, seal)?;
+            let coverages = report.plates.iter().map(|plate| plate.executed.fraction);
+            Ok(TuneOutcome {
+                verdict: report.verdict,
+                tip_rms_m: report.tracking.tip_m.rms,
+                tip_max_m: report.tracking.tip_m.max,
+                torque_max_n_m: report
+                    .effort
+                    .map_or([0.0; AXES], |effort| effort.joints.map(|joint| joint.torque_n_m.max)),
+                work_j: report.effort.map_or(0.0, |effort| effort.work_j),
+                least_swept: coverages.min_by(f64::total_cmp),
+            })
+        };
+        match outcome() {
             Err(SimulationError::Cancelled(cancelled)) => Err(cancelled),
             outcome => Ok(TuneRow {
                 frequency_rad_s,
@@ -71,26 +86,4 @@ pub fn tune(
         }
     };
     pairs.par_iter().map(row).collect()
-}
-
-fn outcome(
-    plan: &Plan,
-    robot: &RobotModel,
-    settings: &SimulationSettings,
-    seal: Seal,
-    token: &CancelToken,
-) -> Result<TuneOutcome, SimulationError> {
-    let execution = simulate_with(plan, robot, settings, token)?;
-    let report = SimulationReport::judge(plan, robot, settings, &execution, seal)?;
-    let coverages = report.plates.iter().map(|plate| plate.executed.fraction);
-    Ok(TuneOutcome {
-        verdict: report.verdict,
-        tip_rms_m: report.tracking.tip_m.rms,
-        tip_max_m: report.tracking.tip_m.max,
-        torque_max_n_m: report
-            .effort
-            .map_or([0.0; AXES], |effort| effort.joints.map(|joint| joint.torque_n_m.max)),
-        work_j: report.effort.map_or(0.0, |effort| effort.work_j),
-        least_swept: coverages.min_by(f64::total_cmp),
-    })
 }

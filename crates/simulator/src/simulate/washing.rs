@@ -7,16 +7,12 @@
 //!
 //! Why a plate is not washed, or less of it than planned.
 
-use crate::dynamics::DynamicsModel;
-use crate::plant::SpongeOnPlates;
 use crate::simulate::error::SimulationError;
 use crate::simulate::execution::{Execution, Sample};
 use crate::simulate::pressing::{Judge, Pressing};
-use crate::simulate::run::{Contact, sponge};
 use nalgebra::Vector3;
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes, reaches};
 use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
@@ -110,11 +106,8 @@ pub(crate) fn plates(
     settings: &SimulationSettings,
     execution: &Execution,
 ) -> Result<Vec<PlateOutcome>, SimulationError> {
-    let contact = Contact::new(plan, robot);
-    let foam = Foam::of(plan, robot, settings)?;
-    let judge = foam
-        .as_ref()
-        .map(|foam| foam.judge(plan, contact.tip(), execution.period_s));
+    let tip = plan.job.workcell.tool.tip_frame(robot);
+    let judge = Judge::of(plan, robot, settings, execution.period_s)?;
     let samples = &execution.samples;
     let segments = plan.segments.par_iter().enumerate();
     let washes = segments.filter(|(_, segment)| segment.kind == SegmentKind::Wash);
@@ -122,7 +115,7 @@ pub(crate) fn plates(
         let from = samples.partition_point(|s| s.segment < index);
         let to = samples.partition_point(|s| s.segment <= index);
         let plate = &plan.job.plates[segment.plate];
-        let track = |of| track(robot, contact.tip(), plate, &samples[from..to], of);
+        let track = |of| track(robot, &tip, plate, &samples[from..to], of);
         let wash = Wash {
             tool: &plan.job.workcell.tool,
             treatment: plan.job.treatment(),
@@ -140,39 +133,6 @@ pub(crate) fn plates(
     };
     let outcomes: Vec<Result<_, SimulationError>> = washes.map(outcome).collect();
     outcomes.into_iter().collect()
-}
-
-/// The foam that was simulated.
-struct Foam {
-    model: DynamicsModel,
-    sponge: SpongeOnPlates,
-    foundation: Foundation,
-}
-
-impl Foam {
-    /// `None` where it was not.
-    fn of(plan: &Plan, robot: &RobotModel, settings: &SimulationSettings) -> Result<Option<Self>, SimulationError> {
-        let Some((on_plates, contact)) = sponge(plan, robot, settings).zip(settings.plant.contact) else {
-            return Ok(None);
-        };
-        let held = &plan.job.workcell.tool;
-        Ok(Some(Self {
-            model: DynamicsModel::new(robot, Some(held))?,
-            sponge: on_plates,
-            foundation: Foundation::stiff(&held.sponge, [contact.stiffness_pa; 2]),
-        }))
-    }
-
-    fn judge<'a>(&'a self, plan: &'a Plan, tip: &'a Frame, period_s: f64) -> Judge<'a> {
-        Judge {
-            model: &self.model,
-            sponge: &self.sponge,
-            tip,
-            foundation: self.foundation,
-            job: &plan.job,
-            period_s,
-        }
-    }
 }
 
 /// The tip at a sample.
