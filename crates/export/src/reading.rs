@@ -169,6 +169,16 @@ pub(crate) struct Line {
     pub(crate) tokens: Vec<Token>,
 }
 
+impl Line {
+    /// Its first token, where that is a word.
+    pub(crate) fn first_word(&self) -> Option<&str> {
+        match self.tokens.first()? {
+            Token::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+}
+
 /// Reads the lines of a file that say something. `is_skipped` names those that are none of the program, given whether all before them
 /// say nothing.
 ///

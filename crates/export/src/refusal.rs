@@ -35,17 +35,11 @@ pub enum Refusal {
         known: String,
     },
     /// The tool has no mass, or one that the controller or the arm does not take.
-    #[error("{reason}")]
-    Load {
-        /// Error in it, and advice.
-        reason: String,
-    },
+    #[error("{0}")]
+    Load(String),
     /// The tool's frame is not the plan's.
-    #[error("{reason}")]
-    Frame {
-        /// Difference, and its size.
-        reason: String,
-    },
+    #[error("{0}")]
+    Frame(String),
     /// The arm does not stand where the plan begins.
     #[error(
         "joint {} stands at {found_deg:.4}°, the plan starts at {expected_deg:.4}°: more than {most_deg}° away; move the arm there first",
@@ -115,8 +109,8 @@ impl Refusal {
             Self::Waived { .. } => "waived",
             Self::Arm { .. } | Self::Joint3 { .. } | Self::OtherArm { .. } => "arm",
             Self::Setting { .. } => "setting",
-            Self::Load { .. } => "load",
-            Self::Frame { .. } => "frame",
+            Self::Load(_) => "load",
+            Self::Frame(_) => "frame",
             Self::Start { .. } => "start",
             Self::TooClose { .. } => "segment_time",
             Self::NotKept { requirement, .. } => match requirement {

@@ -22,13 +22,11 @@ pub(crate) fn check_mount(tool: &Tool, arm: &RobotModel) -> Result<(), Refusal> 
     let mount = tool.mounting_frame(arm);
     let refused = |found: String| {
         let on = ToolMount::of(tool.mounted_on.as_deref().unwrap_or(ToolFrame::Tool0.name()));
-        Err(Refusal::Frame {
-            reason: format!(
-                "the tool is mounted on link '{}' along its {} axis, {found}; a program states the tool from the controller's tool0, whose z \
+        Err(Refusal::Frame(format!(
+            "the tool is mounted on link '{}' along its {} axis, {found}; a program states the tool from the controller's tool0, whose z \
                  axis leaves the flange along axis 6: plan with another mount (tool.mounted_on, --tool-mount LINK:AXIS)",
-                on.link, on.axis
-            ),
-        })
+            on.link, on.axis
+        )))
     };
     if arm.leads_out(&mount) == Some(false) {
         return refused(format!(
@@ -70,16 +68,14 @@ pub(crate) fn check(found: &Pose, expected: &Pose) -> Result<(), Refusal> {
     if off_m <= most_m && turned_rad <= most_rad {
         return Ok(());
     }
-    Err(Refusal::Frame {
-        reason: format!(
-            "the tool's tip is {:.2} mm and {:.2}° from the plan's; at most {:.1} mm and {:.1}° are accepted: calibrate the tool, or plan \
+    Err(Refusal::Frame(format!(
+        "the tool's tip is {:.2} mm and {:.2}° from the plan's; at most {:.1} mm and {:.1}° are accepted: calibrate the tool, or plan \
              with the tool as it is",
-            1e3 * off_m,
-            turned_rad.to_degrees(),
-            1e3 * most_m,
-            most_rad.to_degrees()
-        ),
-    })
+        1e3 * off_m,
+        turned_rad.to_degrees(),
+        1e3 * most_m,
+        most_rad.to_degrees()
+    )))
 }
 
 /// Largest difference of a part of the inertia from the plan's: as a share of its greatest part, and what digits round away \[kg·m²\].
@@ -89,15 +85,16 @@ const INERTIA_WITHIN: (f64, f64) = (1e-2, 2e-9);
 /// another one.
 pub(crate) fn refusal(found: Option<&ReadTool>, handed_over: Option<&ReadTool>, plan: &Tool) -> Option<Refusal> {
     let Some(found) = found else {
-        return handed_over.map(|_| Refusal::Load {
-            reason: "the program sets no tool, as it did when it was handed over: neither its tip nor its load"
-                .to_owned(),
+        return handed_over.map(|_| {
+            Refusal::Load(
+                "the program sets no tool, as it did when it was handed over: neither its tip nor its load".to_owned(),
+            )
         });
     };
     if found.tip.is_none() && handed_over.is_some_and(|tool| tool.tip.is_some()) {
-        return Some(Refusal::Frame {
-            reason: "the program does not set the tool's tip, as it did when it was handed over".to_owned(),
-        });
+        return Some(Refusal::Frame(
+            "the program does not set the tool's tip, as it did when it was handed over".to_owned(),
+        ));
     }
     found.refusal(plan)
 }
@@ -120,15 +117,13 @@ impl ReadTool {
         if is_near {
             return self.inertia_refusal(expected);
         }
-        Some(Refusal::Load {
-            reason: format!(
-                "the program states a load of {:.3} kg, its centre {:.1} mm from the plan's; the plan's weighs {:.3} kg: plan with the tool \
+        Some(Refusal::Load(format!(
+            "the program states a load of {:.3} kg, its centre {:.1} mm from the plan's; the plan's weighs {:.3} kg: plan with the tool \
                  as it is",
-                self.mass_kg,
-                1e3 * off_m,
-                expected.mass_kg
-            ),
-        })
+            self.mass_kg,
+            1e3 * off_m,
+            expected.mass_kg
+        )))
     }
 
     /// Returns the refusal where the moments and products of inertia that it states are not the plan's.
@@ -140,13 +135,11 @@ impl ReadTool {
         let found = turn.matrix() * Matrix3::from_diagonal(&Vector3::from(moments)) * turn.matrix().transpose();
         let (most_part, most_kg_m2) = INERTIA_WITHIN;
         let off_kg_m2 = (found - expected).amax();
-        (off_kg_m2 > most_part * expected.amax() + most_kg_m2).then(|| Refusal::Load {
-            reason: format!(
+        (off_kg_m2 > most_part * expected.amax() + most_kg_m2).then(|| Refusal::Load(format!(
                 "the program states a load whose inertia is {off_kg_m2:.2e} kg·m² from the plan's, whose greatest part is {:.2e} kg·m²: plan \
                  with the tool as it is",
                 expected.amax()
-            ),
-        })
+            )))
     }
 }
 

@@ -17,7 +17,7 @@ fn refused(change: impl Fn(&mut ToolMass)) -> String {
     change(&mut mass);
     job.workcell.tool.mass = Some(mass);
     match Rapid.accepts(&job, &arm) {
-        Err(Refusal::Load { reason }) => reason,
+        Err(Refusal::Load(reason)) => reason,
         other => panic!("{other:?}"),
     }
 }
@@ -46,7 +46,7 @@ fn rejects_loads_that_a_controller_refuses() {
     let arm = RobotModel::irb120().unwrap();
     let mut job = kitchen_terms(&arm, Vec::new());
     job.workcell.tool.mass = None;
-    assert!(matches!(Rapid.accepts(&job, &arm), Err(Refusal::Load { reason }) if reason.contains("no mass")));
+    assert!(matches!(Rapid.accepts(&job, &arm), Err(Refusal::Load(reason)) if reason.contains("no mass")));
 }
 
 #[test]

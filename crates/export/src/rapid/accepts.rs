@@ -39,56 +39,31 @@ pub fn accepts(job: &JobTerms, arm: &RobotModel) -> Result<(), Refusal> {
     };
     check_mass(mass)?;
     let stated_kg = job.simulation.payload_kg;
-    if is_built_in {
-        let rated_kg = stated_kg.map_or(PAYLOAD_KG, |stated_kg| stated_kg.min(PAYLOAD_KG));
-        within(
-            "the tool weighs",
-            mass.mass_kg,
-            rated_kg,
-            "kg, the arm's rated payload is",
-        )?;
-        let [about_5, about_6] = inertias_kg_m2(mass);
-        within(
-            "the tool's inertia about joint 5 is",
-            about_5,
-            JOINT_5_KG_M2,
-            "kg·m², allowed are",
-        )?;
-        return within(
-            "the tool's inertia about joint 6 is",
-            about_6,
-            JOINT_6_KG_M2,
-            "kg·m², allowed are",
-        );
+    let weighs = |rated_kg| {
+        let unit = "kg, the arm's rated payload is";
+        within("the tool weighs", mass.mass_kg, rated_kg, unit)
+    };
+    if !is_built_in {
+        return stated_kg.map_or(Ok(()), weighs);
     }
-    match stated_kg {
-        Some(rated_kg) => within(
-            "the tool weighs",
-            mass.mass_kg,
-            rated_kg,
-            "kg, the arm's rated payload is",
-        ),
-        None => Ok(()),
+    weighs(stated_kg.map_or(PAYLOAD_KG, |stated_kg| stated_kg.min(PAYLOAD_KG)))?;
+    let [about_5, about_6] = inertias_kg_m2(mass);
+    for (joint, found, most) in [(5, about_5, JOINT_5_KG_M2), (6, about_6, JOINT_6_KG_M2)] {
+        let what = format!("the tool's inertia about joint {joint} is");
+        within(&what, found, most, "kg·m², allowed are")?;
     }
+    Ok(())
 }
 
 fn check_mass(mass: &ToolMass) -> Result<(), Refusal> {
-    let ToolMass {
-        mass_kg,
-        com_m,
-        inertia_kg_m2,
-    } = mass;
-    if ![*mass_kg]
-        .iter()
-        .chain(com_m)
-        .chain(inertia_kg_m2)
-        .all(|value| value.is_finite())
-    {
+    let mut numbers = [mass.mass_kg].into_iter().chain(mass.com_m).chain(mass.inertia_kg_m2);
+    if !numbers.all(f64::is_finite) {
         return load(
             "the tool's mass, centre of mass and inertia must be finite: state them in the scenario, and plan again",
         );
     }
-    if *mass_kg < LEAST_KG {
+    let (mass_kg, com_m) = (mass.mass_kg, &mass.com_m);
+    if mass_kg < LEAST_KG {
         return load(&format!(
             "the tool weighs {mass_kg} kg, a controller takes {LEAST_KG} kg or more: state its mass in the scenario, and plan again"
         ));
@@ -123,6 +98,5 @@ fn within(what: &str, found: f64, most: f64, unit: &str) -> Result<(), Refusal> 
 }
 
 fn load(reason: &str) -> Result<(), Refusal> {
-    let reason = reason.to_owned();
-    Err(Refusal::Load { reason })
+    Err(Refusal::Load(reason.to_owned()))
 }

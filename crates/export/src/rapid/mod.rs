@@ -136,23 +136,8 @@ pub(crate) fn is_taken(name: &str) -> bool {
         || is_speed(&small)
 }
 
-/// Zones: radius at the tip \[mm\].
-const ZONES: [(&str, f32); 14] = [
-    ("z0", 0.3),
-    ("z1", 1.0),
-    ("z5", 5.0),
-    ("z10", 10.0),
-    ("z15", 15.0),
-    ("z20", 20.0),
-    ("z30", 30.0),
-    ("z40", 40.0),
-    ("z50", 50.0),
-    ("z60", 60.0),
-    ("z80", 80.0),
-    ("z100", 100.0),
-    ("z150", 150.0),
-    ("z200", 200.0),
-];
+/// Zones: radius at the tip \[mm\], `z1` and so on; that of `z0` is 0.3 mm.
+const ZONES: [u16; 14] = [0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200];
 
 /// Speeds of the tip \[mm/s\]: `v5` and so on.
 const SPEEDS: [u16; 25] = [
@@ -160,21 +145,26 @@ const SPEEDS: [u16; 25] = [
     6000, 7000,
 ];
 
+/// The number in a name in small letters of which there is one a number.
+fn numbered(name: &str, prefix: char, numbers: &[u16]) -> Option<u16> {
+    let number = name.strip_prefix(prefix)?.parse().ok()?;
+    (numbers.contains(&number) && name == format!("{prefix}{number}")).then_some(number)
+}
+
 /// The zone with a radius at the tip \[m\], if there is one by name.
-pub(crate) fn zone_named(radius_m: f64) -> Option<&'static str> {
-    let is_it = |mm: f32| (f64::from(mm) - radius_m * 1e3).abs() < 1e-6;
-    ZONES.iter().find(|(_, mm)| is_it(*mm)).map(|(name, _)| *name)
+pub(crate) fn zone_named(radius_m: f64) -> Option<String> {
+    let is_it = |name: &String| zone_mm(name).is_some_and(|mm| (f64::from(mm) - radius_m * 1e3).abs() < 1e-6);
+    ZONES.into_iter().map(|number| format!("z{number}")).find(is_it)
 }
 
 /// The radius of a zone \[mm\], by its name in small letters.
 pub(crate) fn zone_mm(name: &str) -> Option<f32> {
-    ZONES.iter().find(|(zone, _)| *zone == name).map(|(_, mm)| *mm)
+    numbered(name, 'z', &ZONES).map(|number| if number == 0 { 0.3 } else { f32::from(number) })
 }
 
 /// Checks that a name, in small letters, is the name of a speed.
 pub(crate) fn is_speed(name: &str) -> bool {
-    let number = name.strip_prefix('v').and_then(|number| number.parse().ok());
-    name == "vmax" || number.is_some_and(|number| SPEEDS.contains(&number) && name == format!("v{number}"))
+    name == "vmax" || numbered(name, 'v', &SPEEDS).is_some()
 }
 
 #[cfg(test)]
@@ -207,7 +197,10 @@ mod tests {
     #[test]
     fn knows_zones_and_speeds_by_name() {
         let zones = [0.005, 0.000_3, 0.004, f64::NAN].map(zone_named);
-        assert_eq!(zones, [Some("z5"), Some("z0"), None, None]);
+        assert_eq!(
+            zones.each_ref().map(Option::as_deref),
+            [Some("z5"), Some("z0"), None, None]
+        );
         assert_eq!((zone_mm("z5"), zone_mm("z3")), (Some(5.0), None));
         let speeds = ["v100", "vmax", "v7000", "v05", "v7", "v"].map(is_speed);
         assert_eq!(speeds, [true, true, true, false, false, false]);

@@ -94,6 +94,12 @@ fn tokens_of(file: &ProgramFile) -> Result<Vec<PlacedToken>, ReadError> {
 }
 
 impl Modules {
+    /// Data of a type, by name.
+    pub(crate) fn of_type(&self, name: &str, type_name: &str) -> Option<&Data> {
+        let data = self.data.get(&name.to_ascii_lowercase());
+        data.filter(|data| data.type_name == type_name)
+    }
+
     fn module(&mut self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
         cursor.keyword("MODULE")?;
         self.declare(cursor)?;
@@ -347,17 +353,11 @@ impl fmt::Display for Value {
     }
 }
 
-/// The tool of an arm that holds none.
-pub(crate) fn tool0() -> Value {
-    let list = |numbers: &[f32]| Value::List(numbers.iter().copied().map(Value::Number).collect());
-    let (turn, mut load) = (
-        list(&[1.0, 0.0, 0.0, 0.0]),
-        vec![Value::Number(0.001), list(&[0.0, 0.0, 0.001])],
-    );
-    load.push(turn.clone());
-    load.extend([Value::Number(0.0), Value::Number(0.0), Value::Number(0.0)]);
-    let frame = Value::List(vec![list(&[0.0; 3]), turn]);
-    Value::List(vec![Value::Truth(true), frame, Value::List(load)])
+/// A value that a text states.
+pub(crate) fn value_of(text: &str) -> Result<Value, ReadError> {
+    let (name, text) = ("value".to_owned(), text.to_owned());
+    let tokens = tokens_of(&ProgramFile { name, text })?;
+    Cursor::new("value", &tokens).value(0)
 }
 
 /// Joint positions of a joint target \[rad\].

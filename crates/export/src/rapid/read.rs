@@ -28,6 +28,9 @@ const USUAL_ACC_SET: [f32; 2] = [100.0, 100.0];
 /// Share of the speed \[%\] and greatest speed of the tip \[mm/s\] where no `VelSet` is carried out.
 const USUAL_VEL_SET: [f32; 2] = [100.0, 5000.0];
 
+/// The tool of an arm that holds none.
+const TOOL0: &str = "[TRUE,[[0,0,0],[1,0,0,0]],[0.001,[0,0,0.001],[1,0,0,0],0,0,0]]";
+
 /// Options of `MoveAbsJ` that are refused, and why.
 const REFUSED: [(&str, &str); 6] = [
     ("Conc", "lets the program run on during the motion"),
@@ -270,11 +273,9 @@ impl Modules {
         let Some(Token::Word(name)) = cursor.peek() else {
             return Ok((cursor.value(0)?, None));
         };
-        let data = self
-            .data
-            .get(&name.to_ascii_lowercase())
-            .filter(|data| data.type_name == type_name);
-        let value = data.and_then(|data| Some((data.value.clone()?, Some(data.place.clone()))));
+        let value = self
+            .of_type(name, type_name)
+            .and_then(|data| Some((data.value.clone()?, Some(data.place.clone()))));
         let value = value.ok_or_else(|| cursor.expected(&format!("a {type_name} with a value")))?;
         cursor.next("a name")?;
         Ok(value)
@@ -320,17 +321,14 @@ impl Modules {
 
     fn tool(&self, cursor: &mut Cursor<'_>) -> Result<Value, ReadError> {
         if cursor.take_word("tool0") {
-            return Ok(parse::tool0());
+            return parse::value_of(TOOL0);
         }
         Ok(self.named(cursor, "tooldata")?.0)
     }
 
     /// A number that is declared.
     fn number(&self, name: &str) -> Option<(f32, &Data)> {
-        let data = self
-            .data
-            .get(&name.to_ascii_lowercase())
-            .filter(|data| data.type_name == "num")?;
+        let data = self.of_type(name, "num")?;
         match data.value {
             Some(Value::Number(number)) => Some((number, data)),
             _ => None,
@@ -475,14 +473,13 @@ impl<'a> Run<'a> {
             return Err("this check must stand before the first motion".to_owned());
         }
         let declared = |name: &str| {
-            let number = self.modules.number(name).map(|(number, _)| number);
+            let number = self.modules.number(name);
             number.ok_or_else(|| format!("expected `{name}` to be declared as a num with a value"))
         };
         match key {
             CHECK_SHARE => {
-                let (share, most) = (declared(SHARE)?, declared(MOST)?);
-                let running = self.modules.data.get(&RUNNING.to_ascii_lowercase());
-                if !running.is_some_and(|data| data.type_name == "num" && !data.is_constant) {
+                let ((share, _), (most, Data { place, .. })) = (declared(SHARE)?, declared(MOST)?);
+                if self.modules.of_type(RUNNING, "num").is_none_or(|data| data.is_constant) {
                     return Err(format!("expected `{RUNNING}` to be declared as VAR num"));
                 }
                 if !(share > 0.0 && share <= most) {
@@ -492,18 +489,14 @@ impl<'a> Run<'a> {
                 }
                 self.running = Some(share);
                 self.most_share = most.to_string().parse().ok();
-                if let Some(Data { place, .. }) = self.modules.data.get(&MOST.to_ascii_lowercase()) {
-                    let accepted = Accepted::AtMost(f64::from(most));
-                    self.settings.note_with(MOST, &most.to_string(), place, accepted);
-                }
+                let accepted = Accepted::AtMost(f64::from(most));
+                self.settings.note_with(MOST, &most.to_string(), place, accepted);
             }
             CHECK_START if self.modules.procedures.contains_key(CHECK_JOINT) => {
                 let start = self
                     .modules
-                    .data
-                    .get("pwstart")
-                    .filter(|data| data.type_name == "jointtarget");
-                let start = start.and_then(|data| data.value.as_ref());
+                    .of_type("pwstart", "jointtarget")
+                    .and_then(|data| data.value.as_ref());
                 self.start_rad = Some(parse::target(
                     start.ok_or("expected `pwStart` to be declared as a jointtarget")?,
                 )?);

@@ -316,15 +316,15 @@ impl JointPoints {
     /// Checks that there are two points at least, as many times and speeds, and that all numbers make sense.
     fn check(&self, arm: &RobotModel) -> Result<(), PointsError> {
         let expected = self.q_rad.len();
-        let count = |what, found| match found {
-            found if found == expected => Ok(()),
-            found => Err(PointsError::Count { what, expected, found }),
-        };
-        self.t_s.as_ref().map_or(Ok(()), |all| count("times", all.len()))?;
-        for (what, rows) in self.rows() {
-            rows.map_or(Ok(()), |all| count(what, all.len()))?;
+        let times = ("times", self.t_s.as_ref().map(Vec::len));
+        let rates = ("rates", self.rates.as_ref().map(Vec::len));
+        let rows = self.rows().map(|(what, rows)| (what, rows.map(<[_]>::len)));
+        let counts = [times].into_iter().chain(rows).chain([rates]);
+        for (what, found) in counts.filter_map(|(what, found)| Some((what, found?))) {
+            if found != expected {
+                return Err(PointsError::Count { what, expected, found });
+            }
         }
-        self.rates.as_ref().map_or(Ok(()), |all| count("rates", all.len()))?;
         let is_finite = |point: usize| {
             let rates = self.rows().into_iter().filter_map(|(_, rows)| rows);
             let numbers = self.q_rad[point].iter().chain(rates.flat_map(|all| all[point].iter()));
@@ -389,18 +389,8 @@ impl JointPoints {
     }
 
     fn time_order(&self, point: usize) -> PointsError {
-        let time = |k: usize| {
-            self.t_s
-                .as_ref()
-                .and_then(|all| all.get(k))
-                .copied()
-                .unwrap_or(f64::NAN)
-        };
-        PointsError::TimeOrder {
-            point,
-            t_s: time(point),
-            before_s: time(point.saturating_sub(1)),
-        }
+        let [before_s, t_s] = [point - 1, point].map(|k| self.t_s.as_ref().map_or(f64::NAN, |all| all[k]));
+        PointsError::TimeOrder { point, t_s, before_s }
     }
 
     /// Finds the first turn of more than half a turn of a joint without limits, in a path without times.

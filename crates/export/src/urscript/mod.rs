@@ -70,16 +70,13 @@ impl Dialect for UrScript {
         tool_frame::check_mount(&job.workcell.tool, arm)?;
         match &job.workcell.tool.mass {
             Some(mass) if mass.mass_kg > 0.0 && mass.mass_kg.is_finite() => Ok(()),
-            Some(mass) => Err(Refusal::Load {
-                reason: format!(
-                    "set_payload needs a mass above 0; the tool has {} kg: state its mass",
-                    mass.mass_kg
-                ),
-            }),
-            None => Err(Refusal::Load {
-                reason: "set_payload needs the tool's mass, and the tool has none: state its mass and length"
-                    .to_owned(),
-            }),
+            Some(mass) => Err(Refusal::Load(format!(
+                "set_payload needs a mass above 0; the tool has {} kg: state its mass",
+                mass.mass_kg
+            ))),
+            None => Err(Refusal::Load(
+                "set_payload needs the tool's mass, and the tool has none: state its mass and length".to_owned(),
+            )),
         }
     }
 

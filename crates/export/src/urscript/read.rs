@@ -69,7 +69,7 @@ pub(crate) fn reading(file: &ProgramFile) -> Result<Reading, ReadError> {
 fn end_of(lines: &[Line]) -> Option<usize> {
     let mut depth = 1_usize;
     lines.iter().position(|line| {
-        match line.tokens.first().and_then(word) {
+        match line.first_word() {
             Some(word) if BLOCKS.contains(&word) => depth += 1,
             Some("end") => depth -= 1,
             _ => {}
@@ -78,18 +78,11 @@ fn end_of(lines: &[Line]) -> Option<usize> {
     })
 }
 
-fn word(token: &Token) -> Option<&str> {
-    match token {
-        Token::Word(word) => Some(word),
-        _ => None,
-    }
-}
-
 /// The name in `def NAME():`.
 fn head(tokens: &[Token]) -> Result<&str, String> {
     match tokens {
-        [def, Token::Word(name), open, close, colon]
-            if word(def) == Some("def") && open.is("(") && close.is(")") && colon.is(":") =>
+        [Token::Word(def), Token::Word(name), open, close, colon]
+            if def == "def" && open.is("(") && close.is(")") && colon.is(":") =>
         {
             Ok(name)
         }
@@ -130,18 +123,13 @@ impl<'a> Run<'a> {
             if self.steps > MOST_LINES {
                 return Err(self.refused(format!("more than {MOST_LINES} steps, the most that are carried out")));
             }
-            match line.tokens.first().and_then(word) {
+            match line.first_word() {
                 Some("def") => {
                     let name = head(&line.tokens).map_err(|reason| self.refused(reason))?;
                     let Some(end) = end_of(rest) else {
                         return Err(self.refused("this `def` has no `end`"));
                     };
-                    let opens = |line: &&Line| {
-                        line.tokens
-                            .first()
-                            .and_then(word)
-                            .is_some_and(|word| BLOCKS.contains(&word))
-                    };
+                    let opens = |line: &&Line| line.first_word().is_some_and(|word| BLOCKS.contains(&word));
                     if let Some(line) = rest[..end].iter().find(opens) {
                         self.line = line.number;
                         return Err(self.refused("in functions, only instructions are read: write out what moves"));
@@ -403,10 +391,7 @@ const ONLY: &str =
 
 /// Checks that the lines of a block are `popup(…)`, `halt` and `end`.
 fn is_popup_and_halt(block: &[Line]) -> bool {
-    let first = |line: &Line| line.tokens.first().and_then(word).map(str::to_owned);
     let [popup, halt, end, ..] = block else { return false };
-    first(popup).as_deref() == Some("popup")
-        && [(halt, "halt"), (end, "end")]
-            .into_iter()
-            .all(|(line, expected)| first(line).as_deref() == Some(expected) && line.tokens.len() == 1)
+    let is_alone = |line: &Line, word: &str| line.first_word() == Some(word) && line.tokens.len() == 1;
+    popup.first_word() == Some("popup") && is_alone(halt, "halt") && is_alone(end, "end")
 }

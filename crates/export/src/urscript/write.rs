@@ -3,13 +3,12 @@
 //! The first line is the program's `def`, and the header stands inside: a controller takes text from a socket from the first
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
-use crate::dialect::{Point, Program, start_within_deg};
+use crate::dialect::{Program, start_within_deg};
 use crate::header::wrapped;
 use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::words::{plate_name, plate_number};
-use std::fmt::Write;
 
 /// Decimals of a position \[rad, m\]: half a nanoradian.
 const DECIMALS: usize = 9;
@@ -37,17 +36,15 @@ pub(crate) fn text(program: &Program<'_>) -> String {
     text.push_str(&head(program));
     text.push_str(SERVO);
     let stretches = stretches(program);
-    for stretch in &stretches {
-        text.push_str(&function(program, stretch));
-    }
+    stretches.iter().for_each(|(_, function)| text.push_str(function));
     let Some((first, last)) = program.points.first().zip(program.points.last()) else {
         return text + "end\n";
     };
     text.push_str(&start(&first.q_rad, start_within_deg(&program.plan.job)));
     text.push_str(&tool(program));
     text.push_str(&format!("  movej(start, {SLOWLY})\n"));
-    for stretch in &stretches {
-        text.push_str(&format!("  {}()\n", stretch.name));
+    for (name, _) in &stretches {
+        text.push_str(&format!("  {name}()\n"));
     }
     let end = list(last.q_rad.iter().copied());
     text + &format!(
@@ -57,7 +54,7 @@ pub(crate) fn text(program: &Program<'_>) -> String {
 
 /// Header and units.
 fn head(program: &Program<'_>) -> String {
-    let share = shortest(program.speed_share);
+    let share = format!("{:?}", program.speed_share);
     let own = [
         "Units: rad, m, s, kg. Joints in the order base, shoulder, elbow, wrist 1, wrist 2, wrist 3.".to_owned(),
         format!(
@@ -106,28 +103,14 @@ fn start(q_rad: &JointVector, within_deg: f64) -> String {
     text
 }
 
-/// Points of one stretch of the plan.
-struct Stretch {
-    name: String,
-    said: String,
-    points: std::ops::Range<usize>,
-}
-
-/// The points behind the first one, by the plan's segments.
-fn stretches(program: &Program<'_>) -> Vec<Stretch> {
+/// The stretches of the plan, each as a function: its name and its text.
+fn stretches(program: &Program<'_>) -> Vec<(String, String)> {
     let mut stretches = Vec::new();
-    let mut from = 1;
-    for points in program
-        .points
-        .get(1..)
-        .unwrap_or_default()
-        .chunk_by(|a, b| a.segment == b.segment)
-    {
+    let mut before = program.points.first();
+    let points = program.points.get(1..).unwrap_or_default();
+    for points in points.chunk_by(|a, b| a.segment == b.segment) {
         let count = stretches.len();
-        let segment = points
-            .first()
-            .and_then(|point| program.plan.segments.get(point.segment));
-        let (name, said) = match segment {
+        let (name, said) = match program.plan.segments.get(points[0].segment) {
             Some(segment) => {
                 let (kind, plate) = (segment.kind.name(), segment.plate);
                 let time = format!("{} to {} s", fixed(segment.t_start_s, 3), fixed(segment.t_end_s, 3));
@@ -138,40 +121,20 @@ fn stretches(program: &Program<'_>) -> Vec<Stretch> {
             }
             None => (format!("part_{count}"), "a part of the plan".to_owned()),
         };
-        stretches.push(Stretch {
-            name,
-            said,
-            points: from..from + points.len(),
-        });
-        from += points.len();
+        let mut text = format!("  # {said}\n  def {name}():\n");
+        for point in points {
+            let ends = [before.unwrap_or(point), point];
+            let [from, to] = ends.map(|point| (point.t_s / program.speed_share * PER_S).round() as i64);
+            before = Some(point);
+            // Nothing takes no time: points as close as that are one.
+            if to > from {
+                let (q, t) = (list(point.q_rad.iter().copied()), seconds(to - from));
+                text += &format!("    servoj({q}, t={t}, lookahead_time=lookahead, gain=gain)\n");
+            }
+        }
+        stretches.push((name, text + "  end\n"));
     }
     stretches
-}
-
-/// A stretch as a function.
-fn function(program: &Program<'_>, stretch: &Stretch) -> String {
-    let mut text = format!("  # {}\n  def {}():\n", stretch.said, stretch.name);
-    for k in stretch.points.clone() {
-        let Some([before, point]) = program
-            .points
-            .get(k - 1..=k)
-            .and_then(|pair| <&[Point; 2]>::try_from(pair).ok())
-        else {
-            continue;
-        };
-        let [from, to] = [before, point].map(|point| (point.t_s / program.speed_share * PER_S).round() as i64);
-        // Nothing takes no time: points as close as that are one.
-        if to <= from {
-            continue;
-        }
-        let _ = writeln!(
-            text,
-            "    servoj({}, t={}, lookahead_time=lookahead, gain=gain)",
-            list(point.q_rad.iter().copied()),
-            seconds(to - from)
-        );
-    }
-    text + "  end\n"
 }
 
 /// Nanoseconds, in seconds without zeros that say nothing.
@@ -180,11 +143,6 @@ fn seconds(ns: i64) -> String {
     let decimals = format!("{rest:09}");
     let decimals = decimals.trim_end_matches('0');
     format!("{whole}.{}", if decimals.is_empty() { "0" } else { decimals })
-}
-
-/// A share with as many decimals as it has, one at least.
-fn shortest(share: f64) -> String {
-    format!("{share:?}")
 }
 
 fn list(numbers: impl IntoIterator<Item = f64>) -> String {

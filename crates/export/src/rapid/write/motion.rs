@@ -31,8 +31,9 @@ pub struct Routine {
 }
 
 /// The zone at targets that are no stops: one by its name, the program's own, or none where every target is a stop.
-pub fn zone(radius_m: f64) -> &'static str {
-    zone_named(radius_m).unwrap_or(if radius_m > 0.0 { OWN_ZONE } else { "fine" })
+pub fn zone(radius_m: f64) -> String {
+    let other = if radius_m > 0.0 { OWN_ZONE } else { "fine" };
+    zone_named(radius_m).unwrap_or_else(|| other.to_owned())
 }
 
 /// The aggregate of a joint target, in the maker's joints. Axis 3 is counted with axis 2 as it is written, whose rounding is no error of joint 3.
@@ -123,7 +124,7 @@ fn motion(program: &Program<'_>, clock: &mut Clock, from: &Point, point: &Point,
     }
     let waits_next = next.is_some_and(|next| target(next) == target_here);
     let stops = point.rests || next.is_none() || waits_next;
-    let zone = if stops { "fine" } else { zone(program.corner_m) };
+    let zone = if stops { "fine" } else { &zone(program.corner_m) };
     format!("MoveAbsJ {target_here}\\NoEOffs,v100\\T:={time}/{RUNNING},{zone},pwTool\\WObj:=wobj0;")
 }
 
