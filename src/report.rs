@@ -63,7 +63,7 @@ impl WashReport {
             visits: planned.visits.clone(),
             transits: planned.transits.clone(),
             tour: planned.tour,
-            jerk_rad_s3: planned.largest_jerk().into(),
+            jerk_rad_s3: planned.largest_jerk.into(),
             findings: findings.to_vec(),
             certificate,
         }

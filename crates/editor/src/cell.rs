@@ -255,7 +255,7 @@ fn answer_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWrit
 /// Reason that there is no plan, without another place for a plate: that follows in a line of its own.
 fn reason(error: PlanError) -> String {
     match error {
-        PlanError::Unwashable(plate) => plate.reason_text().to_string(),
+        PlanError::Unwashable(plate) => plate.reason_text(),
         other => Failure::from(other).to_string(),
     }
 }
@@ -265,7 +265,7 @@ impl From<&UnwashablePlate> for UnwashableReport {
         Self {
             plate: plate.plate,
             proved: plate.is_proved(),
-            words: plate.reason_text().to_string(),
+            words: plate.reason_text(),
             causes: plate.causes.iter().map(ToString::to_string).collect(),
             share: plate.share,
             free_m: plate.free_m.clone(),

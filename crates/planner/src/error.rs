@@ -17,6 +17,35 @@ use platewash_workcell::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, plate_name, printable};
 
+/// A value outside of its range.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("{name} must be in [{least}, {most}]; found {found}")]
+pub struct OutOfRange {
+    /// Its name in the planner's settings, in a map's, or in the input of a search.
+    pub name: &'static str,
+    /// Least value.
+    pub least: f64,
+    /// Greatest value.
+    pub most: f64,
+    /// Value given.
+    pub found: f64,
+}
+
+impl OutOfRange {
+    /// Refuses a value outside of its range, or NaN.
+    pub(crate) fn check(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Self> {
+        if (least..=most).contains(&found) {
+            return Ok(());
+        }
+        Err(Self {
+            name,
+            least,
+            most,
+            found,
+        })
+    }
+}
+
 /// Reason that a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -25,17 +54,8 @@ pub enum PlanError {
     #[error("the job is one of the paper's program, which is not planned as a washing")]
     PaperJob,
     /// A setting with which nothing can be planned.
-    #[error("{name} must be in [{least}, {most}]; found {found}")]
-    Setting {
-        /// Its name in the planner's settings, or in a map's.
-        name: &'static str,
-        /// Least value.
-        least: f64,
-        /// Greatest value.
-        most: f64,
-        /// Value given.
-        found: f64,
-    },
+    #[error(transparent)]
+    Setting(#[from] OutOfRange),
     /// There is no such plate.
     #[error("there is no {}; there are {count}", plate_name(*.plate))]
     Plate {
@@ -168,19 +188,6 @@ pub enum PlanError {
 }
 
 impl PlanError {
-    /// Refuses a setting that is not within its range.
-    pub(crate) fn unless_within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Self> {
-        if (least..=most).contains(&found) {
-            return Ok(());
-        }
-        Err(Self::Setting {
-            name,
-            least,
-            most,
-            found,
-        })
-    }
-
     /// Returns true where the input is valid but no plan was found.
     #[must_use]
     pub fn is_infeasible(&self) -> bool {

@@ -32,7 +32,7 @@ pub struct InfeasibleReport {
 }
 
 /// A plate because of which a job cannot be done.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct InfeasiblePlate {
     /// The plate.
     pub plate: usize,
@@ -179,14 +179,7 @@ impl InfeasiblePlate {
     fn unreachable_by_transit(plate: usize) -> Self {
         Self {
             plate,
-            centre_m: None,
-            washable_share: None,
-            conclusion: None,
-            beyond_reach_share: None,
-            required_share: None,
-            causes: Vec::new(),
-            nearest_m: None,
-            place_search: None,
+            ..Self::default()
         }
     }
 }
@@ -309,9 +302,6 @@ fn shares_in_percent(beyond: f64, left: f64) -> [String; 2] {
     enough.unwrap_or_else(|| told(MOST_DECIMALS))
 }
 
-/// Display of the reason that a plate cannot be washed, without another place for it.
-struct UnwashableReason<'a>(&'a UnwashablePlate);
-
 impl UnwashablePlate {
     /// Returns true where it is proved that no plan of the job washes the plate.
     #[must_use]
@@ -330,48 +320,34 @@ impl UnwashablePlate {
 
     /// Returns the reason in words that it cannot be washed, or that no way was found; without another place for it.
     #[must_use]
-    pub fn reason_text(&self) -> impl fmt::Display + '_ {
-        UnwashableReason(self)
-    }
-}
-
-impl fmt::Display for UnwashableReason<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(of) = self;
-        let ([x, y], plate) = (of.centre_m, plate_name(of.plate));
-        match of.is_proved() {
-            true => {
-                let [beyond, left] = shares_in_percent(of.beyond_reach_share, 1.0 - of.required_share);
-                let tilt_deg = of.tilt_max_rad.to_degrees();
-                write!(
-                    f,
-                    "{plate} at ({x:.3}, {y:.3}) m cannot be washed: at least {beyond} % of its face is beyond the arm's links with \
-                     every wash path and tilts up to {tilt_deg:.1}°, and {left} % may be left"
-                )?;
-            }
-            false => write!(
-                f,
+    pub fn reason_text(&self) -> String {
+        let ([x, y], plate, is_proved) = (self.centre_m, plate_name(self.plate), self.is_proved());
+        let [beyond, left] = shares_in_percent(self.beyond_reach_share, 1.0 - self.required_share);
+        let tilt_deg = self.tilt_max_rad.to_degrees();
+        let verdict = match is_proved {
+            true => format!(
+                "{plate} at ({x:.3}, {y:.3}) m cannot be washed: at least {beyond} % of its face is beyond the arm's links with \
+                 every wash path and tilts up to {tilt_deg:.1}°, and {left} % may be left"
+            ),
+            false => format!(
                 "no way to wash {plate} at ({x:.3}, {y:.3}) m whole was found, which does not prove that there is none"
-            )?,
-        }
-        match of.share.map(|share| 100.0 * share) {
-            Some(percent) => write!(
-                f,
-                "{} configurations were found for {percent:.1} % of the wash path that was tried",
-                if of.is_proved() { ";" } else { ":" }
-            )?,
-            None => write!(f, ": {}", of.error)?,
-        }
-        for cause in &of.causes {
-            write!(f, "; {cause}")?;
-        }
-        Ok(())
+            ),
+        };
+        let sign = if is_proved { ";" } else { ":" };
+        let found = match self.share.map(|share| 100.0 * share) {
+            Some(percent) => {
+                format!("{sign} configurations were found for {percent:.1} % of the wash path that was tried")
+            }
+            None => format!(": {}", self.error),
+        };
+        let causes: String = self.causes.iter().map(|cause| format!("; {cause}")).collect();
+        verdict + &found + &causes
     }
 }
 
 impl fmt::Display for UnwashablePlate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.reason_text().fmt(f)?;
+        f.write_str(&self.reason_text())?;
         match (self.nearest_m, self.place_search) {
             (Some([x, y]), _) => write!(
                 f,

@@ -192,13 +192,8 @@ fn check(u: &[f64], q: &[JointVector], ends: &Ends) -> Result<(), JointPathError
     }
 }
 
-/// One row of the system: `lower m_{k−1} + diagonal m_k + upper m_{k+1} = right`.
-struct Row {
-    lower: f64,
-    diagonal: f64,
-    upper: f64,
-    right: JointVector,
-}
+/// One row of the system, `lower m_{k−1} + diagonal m_k + upper m_{k+1} = right`: these three, and the right-hand side.
+type Row = ([f64; 3], JointVector);
 
 /// Slopes at the samples, by elimination. No pivoting: with every row the pivots stay positive, and the ratio of the
 /// entry above to its pivot stays below 1.
@@ -210,40 +205,30 @@ fn slopes(u: &[f64], q: &[JointVector], ends: &Ends) -> Vec<JointVector> {
         return slopes_of_few_samples(last, step, chord);
     }
     let row = |k: usize| match (ends, k) {
-        (Ends::Clamped([first, _]), 0) => fixed_slope(first),
-        (Ends::Clamped([_, end]), k) if k == last => fixed_slope(end),
+        (Ends::Clamped([first, _]), 0) => ([0.0, 1.0, 0.0], *first),
+        (Ends::Clamped([_, end]), k) if k == last => ([0.0, 1.0, 0.0], *end),
         (Ends::NotAKnot, 0) => {
             let (diagonal, upper, right) = not_a_knot([step(0), step(1)], [chord(0), chord(1)]);
-            Row {
-                lower: 0.0,
-                diagonal,
-                upper,
-                right,
-            }
+            ([0.0, diagonal, upper], right)
         }
         (Ends::NotAKnot, k) if k == last => {
             let [near, next] = [last - 1, last - 2];
             let (diagonal, lower, right) = not_a_knot([step(near), step(next)], [chord(near), chord(next)]);
-            Row {
-                lower,
-                diagonal,
-                upper: 0.0,
-                right,
-            }
+            ([lower, diagonal, 0.0], right)
         }
         (_, k) => inner([step(k - 1), step(k)], [chord(k - 1), chord(k)]),
     };
     let mut slopes: Vec<JointVector> = Vec::with_capacity(u.len());
     let mut ratio = vec![0.0; u.len()];
     for k in 0..=last {
-        let row = row(k);
+        let ([lower, diagonal, upper], right) = row(k);
         let (above, before) = match k {
             0 => (0.0, JointVector::zeros()),
             _ => (ratio[k - 1], slopes[k - 1]),
         };
-        let pivot = row.diagonal - row.lower * above;
-        ratio[k] = row.upper / pivot;
-        slopes.push((row.right - before * row.lower) / pivot);
+        let pivot = diagonal - lower * above;
+        ratio[k] = upper / pivot;
+        slopes.push((right - before * lower) / pivot);
     }
     for k in (0..last).rev() {
         slopes[k] = slopes[k] - slopes[k + 1] * ratio[k];
@@ -251,25 +236,11 @@ fn slopes(u: &[f64], q: &[JointVector], ends: &Ends) -> Vec<JointVector> {
     slopes
 }
 
-fn fixed_slope(slope: &JointVector) -> Row {
-    Row {
-        lower: 0.0,
-        diagonal: 1.0,
-        upper: 0.0,
-        right: *slope,
-    }
-}
-
 /// The row of a sample between two pieces, scaled by the sum of their lengths.
 fn inner([left, right]: [f64; 2], [before, after]: [JointVector; 2]) -> Row {
     let sum = left + right;
     let (l, r) = (left / sum, right / sum);
-    Row {
-        lower: r,
-        diagonal: 2.0,
-        upper: l,
-        right: (before * r + after * l) * 3.0,
-    }
+    ([r, 2.0, l], (before * r + after * l) * 3.0)
 }
 
 /// The row of an end (diagonal, neighbour, right-hand side) from the two pieces next to it, the nearer first: the

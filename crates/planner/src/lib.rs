@@ -37,7 +37,7 @@ pub mod transit;
 mod washable_map;
 mod watch;
 
-pub use crate::error::PlanError;
+pub use crate::error::{OutOfRange, PlanError};
 pub use crate::infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport, PlaceSearch, UnwashablePlate};
 pub use crate::order::{EXACT_UP_TO, Optimality};
 pub use crate::outlook::PlateOutlook;

@@ -33,7 +33,8 @@ pub struct PlannedJob {
     pub transits: Vec<TransitSummary>,
     /// Travel time saved by the order.
     pub tour: TourSummary,
-    pub(crate) largest_jerk: JointVector,
+    /// Largest jerk of each joint between knots \[rad/s³\]: no plan keeps a limit of it. At knots the acceleration may jump.
+    pub largest_jerk: JointVector,
 }
 
 /// Washing of one plate.
@@ -96,14 +97,6 @@ impl VisitSummary {
             None if self.curve.closing_ring => format!("spiral of {:.2} turns and a ring", self.curve.turns),
             None => format!("spiral of {:.2} turns", self.curve.turns),
         }
-    }
-}
-
-impl PlannedJob {
-    /// Largest jerk of each joint between knots \[rad/s³\]: no plan keeps a limit of it. At knots the acceleration may jump.
-    #[must_use]
-    pub fn largest_jerk(&self) -> JointVector {
-        self.largest_jerk
     }
 }
 

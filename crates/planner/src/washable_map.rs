@@ -1,6 +1,6 @@
 //! Map of the places at which a plate could be washed: the squares, and the answers for them.
 
-use crate::error::PlanError;
+use crate::error::{OutOfRange, PlanError};
 use platewash_workcell::job::WashJob;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -89,22 +89,23 @@ impl MapArea {
 
     /// Refuses one with too many squares, or that is none.
     pub(crate) fn check(&self) -> Result<(), PlanError> {
-        let within = PlanError::unless_within;
+        let within = OutOfRange::check;
         for at in self.centre_m {
             within("map.centre_m", at, [-FARTHEST_M, FARTHEST_M])?;
         }
         within("map.radius_m", self.radius_m, RADII_M)?;
         let steps = [MOST_ACROSS, LEAST_ACROSS].map(|across| self.radius_m / across);
-        within("map.step_m", self.step_m, steps)
+        Ok(within("map.step_m", self.step_m, steps)?)
     }
 }
 
 /// The levels of a map, coarse to fine, with the answers so far.
 #[derive(Debug)]
 pub(crate) struct Levels<'a> {
-    area: &'a MapArea,
-    /// Answers square by square of each level: true where the plate could be washed.
-    found: Vec<BTreeMap<Square, bool>>,
+    /// The whole of the map.
+    pub area: &'a MapArea,
+    /// Answers square by square of each level that was begun: true where the plate could be washed.
+    pub found: Vec<BTreeMap<Square, bool>>,
 }
 
 impl<'a> Levels<'a> {
@@ -113,11 +114,16 @@ impl<'a> Levels<'a> {
         Self { area, found }
     }
 
-    /// The squares of the next level and their edge \[m\]; `None` behind the finest. First all whose centre lies in the area, then
-    /// quarters of those along the border between squares where the plate could be washed and others.
-    pub fn next(&self) -> Option<(f64, Vec<Square>)> {
+    /// The edge of the squares of a level \[m\]; `None` behind the finest.
+    pub fn edge_m(&self, level: usize) -> Option<f64> {
+        Some(self.area.step_m * f64::from(*LEVELS.get(level)?))
+    }
+
+    /// Begins the next level, and returns its squares and their edge \[m\]; `None` behind the finest. First all whose centre lies in the area,
+    /// then quarters of those along the border between squares where the plate could be washed and others.
+    pub fn next(&mut self) -> Option<(f64, Vec<Square>)> {
         let level = self.found.len();
-        let step_m = self.area.step_m * f64::from(*LEVELS.get(level)?);
+        let step_m = self.edge_m(level)?;
         let squares = match self.found.last() {
             None => self.all(step_m),
             Some(coarser) => {
@@ -125,12 +131,26 @@ impl<'a> Levels<'a> {
                 border.flat_map(|&square| quarters(square)).collect()
             }
         };
+        self.found.push(BTreeMap::new());
         Some((step_m, squares))
     }
 
-    /// Takes the answers for the squares of a level.
+    /// Takes answers for squares of the level that was begun.
     pub fn add(&mut self, answers: impl IntoIterator<Item = (Square, bool)>) {
-        self.found.push(answers.into_iter().collect());
+        if let Some(found) = self.found.last_mut() {
+            found.extend(answers);
+        }
+    }
+
+    /// Checks that the plate could be washed with its centre there \[m\]: the answer of the finest square.
+    pub fn at(&self, place: [f64; 2]) -> bool {
+        let Some(level) = self.found.len().checked_sub(1) else {
+            return false;
+        };
+        let Some(edge_m) = self.edge_m(level) else { return false };
+        let [x, y] = self.area.centre_m;
+        let [column, row] = [(x, place[0]), (y, place[1])].map(|(from, at)| ((at - from) / edge_m).floor() as i32);
+        self.answer(level, (column, row))
     }
 
     /// The middle of a square of some edge \[m\].

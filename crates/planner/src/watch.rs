@@ -35,10 +35,11 @@ impl fmt::Debug for Watch<'_> {
 }
 
 /// Current activity of planning.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Activity {
     /// Drawing a layout of which every plate can be washed.
+    #[error("layout {drawn} of at most {most}: whether it can be washed")]
     Layout {
         /// The layout, from 1.
         drawn: usize,
@@ -46,6 +47,7 @@ pub enum Activity {
         most: usize,
     },
     /// Looking for configurations that wash a plate, and timing its wash.
+    #[error("washing of {} ({turn} of {of})", plate_name(*.plate))]
     Wash {
         /// The plate.
         plate: usize,
@@ -55,6 +57,7 @@ pub enum Activity {
         of: usize,
     },
     /// Looking for a transit between plates, or from or to home.
+    #[error("transit {turn} of {of} between home and plates")]
     Transit {
         /// The transit, from 1.
         turn: usize,
@@ -62,11 +65,13 @@ pub enum Activity {
         of: usize,
     },
     /// Searching for the obstruction that keeps a plate from being washed, on every branch of the arm.
+    #[error("what keeps {} from being washed, branch by branch", plate_name(*.plate))]
     Cause {
         /// The plate.
         plate: usize,
     },
     /// Looking for another place for a plate.
+    #[error("another place for {}: {away_m:.2} m away (ring {ring} of {of})", plate_name(*.plate))]
     Relocation {
         /// The plate.
         plate: usize,
@@ -78,43 +83,11 @@ pub enum Activity {
         away_m: f64,
     },
     /// Planning the job with a plate at another place.
+    #[error("another place for {}: the job with it at ({:.3}, {:.3}) m", plate_name(*.plate), .centre_m[0], .centre_m[1])]
     Trial {
         /// The plate.
         plate: usize,
         /// Its centre \[m\].
         centre_m: [f64; 2],
     },
-}
-
-impl fmt::Display for Activity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Layout { drawn, most } => write!(f, "layout {drawn} of at most {most}: whether it can be washed"),
-            Self::Wash { plate, turn, of } => write!(f, "washing of {} ({turn} of {of})", plate_name(plate)),
-            Self::Transit { turn, of } => write!(f, "transit {turn} of {of} between home and plates"),
-            Self::Cause { plate } => write!(
-                f,
-                "what keeps {} from being washed, branch by branch",
-                plate_name(plate)
-            ),
-            Self::Relocation {
-                plate,
-                ring,
-                of,
-                away_m,
-            } => write!(
-                f,
-                "another place for {}: {away_m:.2} m away (ring {ring} of {of})",
-                plate_name(plate)
-            ),
-            Self::Trial {
-                plate,
-                centre_m: [x, y],
-            } => write!(
-                f,
-                "another place for {}: the job with it at ({x:.3}, {y:.3}) m",
-                plate_name(plate)
-            ),
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use crate::SOON;
 use crate::jobs::{job, on};
 use platewash_planner::{
-    Activity, InfeasibleReport, PlaceSearch, PlanError, Watch, check, draw_washable_layout, plan, plan_with,
+    Activity, InfeasibleReport, OutOfRange, PlaceSearch, PlanError, Watch, check, draw_washable_layout, plan, plan_with,
 };
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plate};
@@ -106,7 +106,7 @@ fn rejects_impossible_jobs_before_any_search() {
         assert!(
             matches!(
                 check(lifted.arm(), lifted.terms()),
-                Err(PlanError::Setting { name: "lift_m", .. })
+                Err(PlanError::Setting(OutOfRange { name: "lift_m", .. }))
             ),
             "{bad}"
         );
@@ -114,7 +114,7 @@ fn rejects_impossible_jobs_before_any_search() {
     let far = job(|_, settings| settings.arc.points = usize::MAX);
     assert!(matches!(
         check(far.arm(), far.terms()),
-        Err(PlanError::Setting { name: "arc.points", .. })
+        Err(PlanError::Setting(OutOfRange { name: "arc.points", .. }))
     ));
     // Bent forward, the tool is in the floor.
     let low = job(|terms, _| terms.home_rad[1] = [0.0, 90.0, 0.0, 0.0, 0.0, 0.0].map(f64::to_radians).into());

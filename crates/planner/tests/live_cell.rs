@@ -3,7 +3,7 @@
 use crate::SOON;
 use crate::jobs::{job, on};
 use platewash_planner::{
-    Activity, Chance, MapArea, MapPatch, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
+    Activity, Chance, MapArea, MapPatch, OutOfRange, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
     nearest_place, other_unwashable_plates, plan, plan_here, plan_with, plate_outlooks, unwashable_plates,
     washable_map,
 };
@@ -402,7 +402,7 @@ fn rejects_invalid_numbers() {
         ];
         for (area, name) in areas.iter().zip(["map.radius_m", "map.step_m", "map.centre_m"]) {
             match map(&job, 0, area) {
-                Err(PlanError::Setting { name: found, .. }) => assert_eq!(found, name, "{bad}"),
+                Err(PlanError::Setting(OutOfRange { name: found, .. })) => assert_eq!(found, name, "{bad}"),
                 other => panic!("{bad}: {other:?}"),
             }
         }

@@ -57,7 +57,7 @@ impl PlannedObject {
     /// jump.
     #[getter]
     fn largest_jerk_rad_s3<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        arrays::array(py, &[6], self.inner.largest_jerk().as_slice())
+        arrays::array(py, &[6], self.inner.largest_jerk.as_slice())
     }
 
     /// Proves the plan and sums it up. A record; its text is the report that the command prints.

@@ -536,31 +536,14 @@ impl fmt::Display for Shortfall {
             );
         }
         let [found, required] = distinct_decimals(scale * self.found, scale * self.required, 1);
-        match self.promised {
-            ContactPromise::Strain => write!(
-                f,
-                "the sponge is compressed by up to {found} {unit} of its height, {required} {unit} are allowed"
-            ),
-            ContactPromise::GreatestForce => write!(
-                f,
-                "the sponge presses with up to {found} {unit}, {required} {unit} are allowed"
-            ),
-            ContactPromise::LeastForce => write!(
-                f,
-                "the sponge presses with {found} {unit} at some moments, {required} {unit} are required"
-            ),
-            ContactPromise::Pressed => write!(
-                f,
-                "{found} {unit} of the face are pressed, {required} {unit} are required"
-            ),
-            ContactPromise::ContactTime => write!(
-                f,
-                "{found} {unit} of the face are pressed long enough, {required} {unit} are required"
-            ),
-            ContactPromise::ContactDose => write!(
-                f,
-                "{found} {unit} of the face get the dose, {required} {unit} are required"
-            ),
-        }
+        let [before, after, verdict] = match self.promised {
+            ContactPromise::Strain => ["the sponge is compressed by up to ", " of its height", "allowed"],
+            ContactPromise::GreatestForce => ["the sponge presses with up to ", "", "allowed"],
+            ContactPromise::LeastForce => ["the sponge presses with ", " at some moments", "required"],
+            ContactPromise::Pressed => ["", " of the face are pressed", "required"],
+            ContactPromise::ContactTime => ["", " of the face are pressed long enough", "required"],
+            ContactPromise::ContactDose => ["", " of the face get the dose", "required"],
+        };
+        write!(f, "{before}{found} {unit}{after}, {required} {unit} are {verdict}")
     }
 }

@@ -20,6 +20,6 @@ mod visit;
 mod visits;
 
 pub use crate::pipeline::phases::{check, plan, plan_here, plan_in_order, plan_unexplained, plan_with};
-pub(crate) use crate::pipeline::places::with_moved_plate;
 pub use crate::pipeline::places::{draw_washable_layout, nearest_place, plate_outlooks, washable_map};
+pub(crate) use crate::pipeline::places::{fill, with_moved_plate};
 pub use crate::pipeline::visits::{other_unwashable_plates, unwashable_plates};

@@ -160,18 +160,29 @@ pub fn washable_map(
     tell: &mut dyn FnMut(MapPatch),
     watch: &Watch<'_>,
 ) -> Result<(), PlanError> {
+    fill(&mut Levels::new(map), job, plate, tell, watch)
+}
+
+/// Fills the levels of a map as [`washable_map`] does; where it ends early, those begun have the answers so far.
+pub(crate) fn fill(
+    levels: &mut Levels<'_>,
+    job: &WashJob,
+    plate: usize,
+    tell: &mut dyn FnMut(MapPatch),
+    watch: &Watch<'_>,
+) -> Result<(), PlanError> {
     with_moved_plate(job, plate, watch, |pipeline, asked| {
-        map.check()?;
+        levels.area.check()?;
         let here = Vector2::from(asked.scene.centre_in_world(&pipeline.plates[plate]));
-        let mut levels = Levels::new(map);
         while let Some((step_m, mut squares)) = levels.next() {
             let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
             squares.sort_by(|a, b| away(a).total_cmp(&away(b)));
-            let mut answers: Vec<(Square, bool)> = Vec::with_capacity(squares.len());
+            let mut done = 0;
             for some in squares.chunks(IN_A_PATCH) {
                 let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();
                 let washable = pipeline.suitable_centres(asked, &centres)?;
-                answers.extend(some.iter().copied().zip(washable.iter().copied()));
+                levels.add(some.iter().copied().zip(washable.iter().copied()));
+                done += some.len();
                 let of_answer = |wanted: bool| {
                     let told = centres.iter().zip(&washable).filter(|(_, answer)| **answer == wanted);
                     told.map(|(centre, _)| *centre).collect()
@@ -180,11 +191,10 @@ pub fn washable_map(
                     step_m,
                     washable_m: of_answer(true),
                     unwashable_m: of_answer(false),
-                    done: answers.len(),
+                    done,
                     of: squares.len(),
                 });
             }
-            levels.add(answers);
         }
         Ok(())
     })

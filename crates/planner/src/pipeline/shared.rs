@@ -1,6 +1,6 @@
 //! Data that the phases of planning share.
 
-use crate::error::PlanError;
+use crate::error::{OutOfRange, PlanError};
 use crate::infeasible::PlaceSearch;
 use crate::pattern::Patterns;
 use crate::redundancy::places::SEARCHED_M;
@@ -75,8 +75,8 @@ impl<'a> Pipeline<'a> {
         if !terms.workcell.tool.is_present() {
             return Err(PlanError::NoTool);
         }
-        PlanError::unless_within("lift_m", settings.lift_m, [0.0, LONGEST_LIFT_M])?;
-        PlanError::unless_within("arc.points", settings.arc.points as f64, [2.0, MOST_ARC_POINTS])?;
+        OutOfRange::check("lift_m", settings.lift_m, [0.0, LONGEST_LIFT_M])?;
+        OutOfRange::check("arc.points", settings.arc.points as f64, [2.0, MOST_ARC_POINTS])?;
         for (end, q) in ends(terms) {
             if let Some(violation) = robot.limits().violation(q) {
                 return Err(PlanError::Home { end, violation });

@@ -5,13 +5,13 @@ use crate::joint_path::{Ends, JointPath};
 use crate::pattern::{Pattern, Shortfall, foundation};
 use crate::pipeline::shared::Pipeline;
 use crate::redundancy::Washing;
-use crate::scene::{Contact, Scene};
+use crate::scene::Scene;
 use crate::timing::{self, TimedPath};
 use crate::transit::LiftLine;
 use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
+use platewash_kinematics::Pose;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::contact::{Columns, SpongePose};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
@@ -74,19 +74,9 @@ pub(crate) struct Visit {
     pub lines: [LiftLine; 2],
 }
 
-/// The wash path on a plate by a pattern that ends in the direction of `towards` \[m\].
-pub(crate) fn wash_path(pipeline: &Pipeline<'_>, plate: usize, pattern: &Pattern, towards: &Vector3<f64>) -> WashPath {
-    WashPath {
-        plate,
-        curve: turned(pattern.curve, &pipeline.plates[plate].local(towards)),
-        lift_m: pipeline.settings.lift_m,
-        cone_rad: pattern.cone_rad,
-    }
-}
-
 /// Turns a curve so that it ends in a direction of its plate's frame; it leaves the centre at an angle within a turn of 0, for
 /// any number of turns.
-fn turned(curve: WashCurve, towards: &Vector3<f64>) -> WashCurve {
+pub(crate) fn turned(curve: WashCurve, towards: &Vector3<f64>) -> WashCurve {
     let start_angle_rad = (atan2(towards.y, towards.x) - curve.end() % TAU) % TAU;
     WashCurve {
         start_angle_rad,
@@ -107,24 +97,6 @@ pub(crate) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
     }
 }
 
-impl Visit {
-    /// Plans a visit with the configurations found for it.
-    pub fn plan(pipeline: &Pipeline<'_>, scene: &Scene<'_>, mut turn: Turn) -> Result<Self, PlanError> {
-        let wash = match turn.wash.take() {
-            Some(wash) => wash,
-            None => turn.timed(pipeline, scene)?,
-        };
-        let Turn { path, washing, .. } = turn;
-        let lines = lines(pipeline, scene, &path, &washing)?;
-        Ok(Self {
-            path,
-            washing,
-            wash,
-            lines,
-        })
-    }
-}
-
 /// The lines over the beginning and the end of a wash path.
 pub(crate) fn lines(
     pipeline: &Pipeline<'_>,
@@ -135,79 +107,43 @@ pub(crate) fn lines(
     let last = washing.q.len() - 1;
     let scene = &scene.clone().leaning_aside(washing.aside_rad);
     let (wanted, wash_m_s) = (&pipeline.terms.requirements, pipeline.terms.wash_speed_m_s());
+    let (plate, lift_m, sponge) = (path.plate, path.lift_m, &pipeline.terms.workcell.tool.sponge);
+    // With the tool turned as it is at the end, and no faster than asked from where the free sponge may meet the plate. Where nothing is
+    // asked: from where the tilted rim touches while it washes, and a sample more.
     let line = |end: usize, k: usize, asked_m_s: Option<f64>| {
-        let touching = TouchSpeed {
-            from: asked_m_s.map_or(Reach::Compressed, |_| Reach::Free),
-            speed_m_s: asked_m_s.map_or(TOUCHING * wash_m_s, |asked| LANDING * asked.min(wash_m_s)),
+        let (foot, tilt_rad, q) = (&washing.feet[end], washing.tilt_rad[k], &washing.q[k]);
+        let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
+        let (touches_m, speed_m_s) = match asked_m_s {
+            None => {
+                let rim_m = sponge.radius_m * sin(scene.stance.lean_rad(tilt_rad));
+                (rim_m + LINE_STEP_M, TOUCHING * wash_m_s)
+            }
+            Some(asked) => {
+                let touches_m = pipeline.first_contact_height_m(plate, lift_m, over);
+                (touches_m, LANDING * asked.min(wash_m_s))
+            }
         };
-        line(
-            pipeline,
-            scene,
-            path,
-            &washing.feet[end],
-            washing.tilt_rad[k],
-            &washing.q[k],
-            touching,
-        )
-    };
-    Ok([line(0, 0, wanted.landing_m_s)?, line(1, last, wanted.lifting_m_s)?])
-}
-
-/// Reach of a sponge towards a plate that it comes down on or leaves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Reach {
-    /// Reach while it washes.
-    Compressed,
-    /// Reach while nothing presses it.
-    Free,
-}
-
-/// Speed limit of the sponge near contact.
-#[derive(Debug, Clone, Copy)]
-struct TouchSpeed {
-    from: Reach,
-    speed_m_s: f64,
-}
-
-/// The line over a contact point, with the tool turned as it is there.
-fn line(
-    pipeline: &Pipeline<'_>,
-    scene: &Scene<'_>,
-    path: &WashPath,
-    foot: &Contact,
-    tilt_rad: f64,
-    q: &JointVector,
-    touch_speed: TouchSpeed,
-) -> Result<LiftLine, PlanError> {
-    let (plate, lift_m, terms) = (path.plate, path.lift_m, pipeline.terms);
-    let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
-    let touches_m = match touch_speed.from {
-        // The tilted rim touches up to there, and a sample more.
-        Reach::Compressed => terms.workcell.tool.sponge.radius_m * sin(scene.stance.lean_rad(tilt_rad)) + LINE_STEP_M,
-        Reach::Free => pipeline.first_contact_height_m(plate, lift_m, over),
-    };
-    let heights = match touch_speed.from {
+        let mut heights = evenly(0.0, lift_m, 4.0);
         // A sample where it meets the plate: from there on it may be faster.
-        Reach::Free if touches_m < lift_m - LINE_STEP_M => {
-            let mut heights = evenly(0.0, touches_m, 2.0);
+        if asked_m_s.is_some() && touches_m < lift_m - LINE_STEP_M {
+            heights = evenly(0.0, touches_m, 2.0);
             heights.pop();
             heights.extend(evenly(touches_m, lift_m, 2.0));
-            heights
         }
-        Reach::Compressed | Reach::Free => evenly(0.0, lift_m, 4.0),
+        let poses: Vec<_> = heights.iter().map(over).collect();
+        let found = scene.solver.solve_path(&poses, q);
+        let not_found = |error| PlanError::Line {
+            plate,
+            lift_m,
+            error: Box::new(error),
+        };
+        let mut configurations = found.map_err(not_found)?.q;
+        // To the bit where the wash begins or ends.
+        configurations[0] = *q;
+        let line = LiftLine::line(plate, heights, configurations)?;
+        Ok::<_, PlanError>(line.no_faster(touches_m, speed_m_s))
     };
-    let poses: Vec<_> = heights.iter().map(over).collect();
-    let found = scene.solver.solve_path(&poses, q);
-    let not_found = |error| PlanError::Line {
-        plate,
-        lift_m,
-        error: Box::new(error),
-    };
-    let mut configurations = found.map_err(not_found)?.q;
-    // To the bit where the wash begins or ends.
-    configurations[0] = *q;
-    let line = LiftLine::line(plate, heights, configurations)?;
-    Ok(line.no_faster(touches_m, touch_speed.speed_m_s))
+    Ok([line(0, 0, wanted.landing_m_s)?, line(1, last, wanted.lifting_m_s)?])
 }
 
 /// Heights from one to another, evenly, no farther apart than [`LINE_STEP_M`] and in that many steps or more.

@@ -7,9 +7,9 @@ use crate::infeasible::{PlaceSearch, UnwashablePlate};
 use crate::pattern::{Margin, Pattern, Promise, SampledWash};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
-use crate::pipeline::visit::{Turn, Visit, turned_as, wash_path};
+use crate::pipeline::visit::{self, Turn, Visit, turned, turned_as};
 use crate::redundancy::beyond_reach::{required_share, share_beyond_reach};
-use crate::redundancy::washability::{self, Points, Washability};
+use crate::redundancy::washability::{self, WashablePart};
 use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
 use crate::watch::{Activity, Watch};
@@ -47,9 +47,19 @@ impl Pipeline<'_> {
         }
         let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
         for turn in self.turns(scene, order, Self::quickest_washing, |_| true) {
-            let turn = turn.map_err(|failed| self.unwashable(scene, *failed))?;
+            let mut turn = turn.map_err(|failed| self.unwashable(scene, *failed))?;
             self.check_promise(&turn)?;
-            visits.push(Visit::plan(self, scene, turn)?);
+            let wash = match turn.wash.take() {
+                Some(wash) => wash,
+                None => turn.timed(self, scene)?,
+            };
+            let Turn { path, washing, .. } = turn;
+            visits.push(Visit {
+                lines: visit::lines(self, scene, &path, &washing)?,
+                path,
+                washing,
+                wash,
+            });
         }
         Ok(visits)
     }
@@ -122,7 +132,13 @@ impl Pipeline<'_> {
 
     /// The wash path on a plate by the pattern that is tried first, with the widest cone of all.
     pub fn widest_path(&self, plate: usize, towards: &Vector3<f64>) -> WashPath {
-        wash_path(self, plate, &self.patterns[plate].widest(), towards)
+        let pattern = self.patterns[plate].widest();
+        WashPath {
+            plate,
+            curve: turned(pattern.curve, &self.plates[plate].local(towards)),
+            lift_m: self.settings.lift_m,
+            cone_rad: pattern.cone_rad,
+        }
     }
 
     /// The washing of a plate by its patterns, with a path that ends where `like` does: by the first with which the arm finds a way and
@@ -368,13 +384,11 @@ impl Pipeline<'_> {
         let plate = path.plate;
         (self.watch.tell)(&Activity::Cause { plate });
         let part = match Task::new(scene, &path, self.clearance_m(), &near) {
-            Ok(task) if self.explains => Some(washability::washable_part(&task)?),
+            Ok(task) if self.explains => washability::washable_part(&task)?,
             _ => None,
         };
-        let (share, causes, points) = match part {
-            Some(Washability::Part { share, causes, points }) => (Some(share), causes, points),
-            _ => (None, Vec::new(), Points::default()),
-        };
+        let share = part.as_ref().map(|part| part.share);
+        let WashablePart { causes, points, .. } = part.unwrap_or_default();
         let lies = &self.plates[plate];
         Ok(UnwashablePlate {
             plate,

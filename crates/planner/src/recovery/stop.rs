@@ -21,7 +21,7 @@ const PRINTED_S: f64 = 0.005;
 const LOOKS: u32 = 4;
 
 /// Stop of a plan.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Stop {
     /// Time in the plan \[s\]: as stated, or else the nearest moment at which as few plates were washed as at the first that fits. `None`
     /// where the arm is far from the plan.
@@ -91,13 +91,8 @@ impl Stop {
         };
         let nearest_rad = moments().map(&off_rad).fold(f64::INFINITY, f64::min);
         let unknown = Self {
-            time_s: None,
-            is_stated: false,
-            joints_fit: false,
-            earlier_s: None,
             off_rad: nearest_rad,
-            washed: Vec::new(),
-            at_plate: None,
+            ..Self::default()
         };
         if nearest_rad > ON_PLAN_RAD {
             return (unknown, nearest_rad);

@@ -1,12 +1,9 @@
 //! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
-//!
-//! Also here: the rule that says if these lines must be clear.
 
 use crate::redundancy::task::{Stop, Task};
 use crate::scene::{Contact, Hindrance, Start, Stretch};
 use platewash_kinematics::JointVector;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 /// Number of places on a line that are checked.
 const PLACES: u32 = 8;
@@ -55,50 +52,10 @@ impl Task<'_> {
 
     /// Refuses bodies too near to each other, where that counts.
     fn check_apart(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
-        if !self.lines.must_be_clear() {
+        let Some(is_blocked) = &self.blocked_line else {
             return Ok(());
-        }
+        };
         let clear = self.check_clear_in(q, stretch);
-        clear.inspect_err(|_| self.lines.record_blocked_line())
-    }
-}
-
-/// Rule for the lines over the ends of a path, with a flag that is set once a line is refused because it is not clear.
-#[derive(Debug, Clone)]
-pub(crate) struct Lines {
-    must_be_clear: bool,
-    stood_in_the_way: Arc<AtomicBool>,
-}
-
-impl Lines {
-    /// Rule under which lines must be clear.
-    pub fn clear() -> Self {
-        Self {
-            must_be_clear: true,
-            stood_in_the_way: Arc::default(),
-        }
-    }
-
-    /// Rule under which lines need not be clear: the caller that plans them reports those that are not.
-    pub fn any() -> Self {
-        Self {
-            must_be_clear: false,
-            ..Self::clear()
-        }
-    }
-
-    /// Returns true where lines must be clear.
-    pub fn must_be_clear(&self) -> bool {
-        self.must_be_clear
-    }
-
-    /// A line was refused because it is not clear.
-    pub fn record_blocked_line(&self) {
-        self.stood_in_the_way.store(true, Ordering::Relaxed);
-    }
-
-    /// Returns true once a line was refused because it is not clear.
-    pub fn has_blocked_line(&self) -> bool {
-        self.stood_in_the_way.load(Ordering::Relaxed)
+        clear.inspect_err(|_| is_blocked.store(true, Ordering::Relaxed))
     }
 }

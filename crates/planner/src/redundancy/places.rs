@@ -65,13 +65,7 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// [`RedundancyError`] for numbers out of range, or where the search was given up.
     pub fn is_suitable(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
-        let MovedPlate {
-            scene,
-            path,
-            clearance_m,
-            near,
-            ..
-        } = self.moved;
+        let (asked, scene, path) = (self.moved, self.moved.scene, self.moved.path);
         scene.check_cancelled()?;
         let (plate, count) = (path.plate, self.plates.len());
         let lies = self
@@ -91,7 +85,7 @@ impl<'a> Trial<'a> {
             return Ok(false);
         }
         let scene = scene.among(&self.clearance, &self.plates);
-        let task = Task::new(&scene, path, clearance_m, near)?;
+        let task = Task::new(&scene, path, asked.clearance_m, asked.near)?;
         Ok(by_policy(&task, Width::Near)?.is_some())
     }
 }
@@ -105,11 +99,8 @@ pub const RINGS: u32 = 30;
 /// Greatest distance from a plate's own place at which another place is searched for \[m\].
 pub const SEARCHED_M: f64 = 0.6;
 
-/// Places of the grid in a metre.
+/// Places of the grid in a metre; its answers can be printed in full.
 const PER_METRE: f64 = 1000.0;
-
-/// Grid of the answers, so that they can be printed in full \[m\].
-pub const GRID_M: f64 = 1.0 / PER_METRE;
 
 /// Positions tried on a ring.
 const DIRECTIONS: u32 = 24;
@@ -123,7 +114,7 @@ const FURTHER_M: [f64; 7] = [0.0, 1e-3, 2e-3, 3e-3, 5e-3, 9e-3, 17e-3];
 /// Greatest number of calls of the caller's check: it may plan a whole job.
 pub const MOST_CHECKS: usize = 32;
 
-/// The nearest centre (x, y) on the grid of [`GRID_M`] \[m\] at which the plate can be washed whole by a policy of tilts,
+/// The nearest centre (x, y) in whole millimetres \[m\] at which the plate can be washed whole by a policy of tilts,
 /// overlaps neither another plate nor the base, and `holds` agrees; `None` if there is none within [`SEARCHED_M`] of the plate's
 /// own place. Places are tried in 24 directions on growing rings, halved towards the plate's own place, put on the grid, and
 /// stepped further out until the place on the grid itself passes: right to about a tenth of its distance. `holds` is called

@@ -2,7 +2,7 @@
 //!
 //! Also here: bounds of planning on a plate; errors of a search for configurations along a wash path.
 
-use crate::redundancy::lines::Lines;
+use crate::error::OutOfRange;
 use crate::redundancy::samples::{Samples, TiltSpline};
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use nalgebra::{Vector3, Vector6};
@@ -14,6 +14,8 @@ use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST
 use platewash_workcell::words::plate_name;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// Joint 5, by its index.
 const WRIST: usize = 4;
@@ -50,7 +52,9 @@ pub struct Task<'a> {
     pub(crate) plate: &'a Plate,
     pub(crate) samples: Samples,
     pub(crate) clearance_m: f64,
-    pub(crate) lines: Lines,
+    /// Set once a line over an end of the path is refused because it is not clear. `None` where lines need not be clear: the caller that
+    /// plans them reports those that are not.
+    pub(crate) blocked_line: Option<Arc<AtomicBool>>,
     /// The configuration not far from which it starts \[rad\].
     pub(crate) near: JointVector,
 }
@@ -86,7 +90,7 @@ impl<'a> Task<'a> {
             plate,
             samples: Samples::new(path, plate, scene.stance.axis_share),
             clearance_m,
-            lines: Lines::clear(),
+            blocked_line: Some(Arc::default()),
             near: *near,
         })
     }
@@ -94,7 +98,7 @@ impl<'a> Task<'a> {
     /// The same task without the rule that the lines over the ends of the path must be clear.
     pub(crate) fn with_any_lines(&self) -> Self {
         Self {
-            lines: Lines::any(),
+            blocked_line: None,
             ..self.clone()
         }
     }
@@ -116,7 +120,7 @@ impl<'a> Task<'a> {
     {
         Task {
             scene,
-            lines: Lines::clear(),
+            blocked_line: Some(Arc::default()),
             ..self.clone()
         }
     }
@@ -364,6 +368,7 @@ pub(crate) fn check_input(
     near: &JointVector,
 ) -> Result<(), RedundancyError> {
     let curve = &path.curve;
+    let within = OutOfRange::check;
     within("cone_rad", path.cone_rad, [0.0, LARGEST_TILT_RAD])?;
     within("clearance_m", clearance_m, [0.0, 1.0])?;
     within("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, LARGEST_M])?;
@@ -380,18 +385,6 @@ pub(crate) fn check_input(
         within("near", joint, [-1e3, 1e3])?;
     }
     Ok(())
-}
-
-fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), RedundancyError> {
-    if (least..=most).contains(&found) {
-        return Ok(());
-    }
-    Err(RedundancyError::Input {
-        name,
-        least,
-        most,
-        found,
-    })
 }
 
 /// A contact point at which no tilt is left.
@@ -419,17 +412,8 @@ pub struct Reason {
 #[non_exhaustive]
 pub enum RedundancyError {
     /// A number that makes no sense.
-    #[error("{name} must be in [{least}, {most}]; found {found}")]
-    Input {
-        /// Its name.
-        name: &'static str,
-        /// Least value.
-        least: f64,
-        /// Greatest value.
-        most: f64,
-        /// Value given.
-        found: f64,
-    },
+    #[error(transparent)]
+    Input(#[from] OutOfRange),
     /// There is no such plate.
     #[error("there is no {}; there are {count}", plate_name(*.plate))]
     Plate {

@@ -3,26 +3,20 @@
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::reasons;
 use crate::redundancy::task::{Reason, Task};
-use crate::redundancy::washing::{by_policy, search_starts};
-use crate::scene::{Filter, Hindrance, Start, Width};
+use crate::redundancy::washing::search_starts;
+use crate::scene::{Filter, Hindrance, Start};
 use platewash_workcell::cancel::Cancelled;
 use std::fmt;
 
-/// Extent to which a plate can be washed.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Washability {
-    /// Each contact point on its own. (That they connect is for [`crate::redundancy::washing()`] to find; it always did.)
-    Whole,
-    /// Not all of it.
-    Part {
-        /// Share of the wash path for which configurations were found, on the best branch of the arm.
-        share: f64,
-        /// The parts of the rest, by their obstruction, the largest first: they add up to the rest.
-        causes: Vec<Cause>,
-        /// The contact points that were checked.
-        points: Points,
-    },
+/// The part of a plate that can be washed along a path, where it is not the whole.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WashablePart {
+    /// Share of the wash path with a configuration at some tilt.
+    pub share: f64,
+    /// The parts of the rest, by their obstruction, the largest first: they add up to the rest.
+    pub causes: Vec<Cause>,
+    /// The contact points that were checked.
+    pub points: Points,
 }
 
 /// Contact points that were checked one by one, in the order of the wash path, world frame \[m\].
@@ -67,22 +61,12 @@ impl fmt::Display for Cause {
     }
 }
 
-/// Determines the extent to which a plate can be washed along a path.
+/// Determines the part of a wash path for which configurations are found, where no policy of tilts follows all of it. `None` where each contact
+/// point on its own has one. (That they connect is for [`crate::redundancy::washing()`] to find; it always did.)
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn washable(task: &Task<'_>) -> Result<Washability, Cancelled> {
-    match by_policy(task, Width::Everywhere)? {
-        Some(_) => Ok(Washability::Whole),
-        None => washable_part(task),
-    }
-}
-
-/// Determines the part of a wash path for which configurations are found, where no policy of tilts follows all of it.
-///
-/// # Errors
-/// [`Cancelled`].
-pub fn washable_part(task: &Task<'_>) -> Result<Washability, Cancelled> {
+pub fn washable_part(task: &Task<'_>) -> Result<Option<WashablePart>, Cancelled> {
     let graph = Graph::new(task);
     let mut starts = search_starts(task, &graph)?;
     starts.push(task.anywhere_near());
@@ -93,7 +77,7 @@ pub fn washable_part(task: &Task<'_>) -> Result<Washability, Cancelled> {
     }
     let best = best.unwrap_or_default();
     if best.is_empty() {
-        return Ok(Washability::Whole);
+        return Ok(None);
     }
     let tried = graph.surveyed().len() as f64;
     let mut unwashed = Vec::with_capacity(best.len());
@@ -104,11 +88,11 @@ pub fn washable_part(task: &Task<'_>) -> Result<Washability, Cancelled> {
         let reasons = reasons(graph.tilts.iter().filter_map(hindrance));
         unwashed.push((task.scene.distance(&contact.point), reasons));
     }
-    Ok(Washability::Part {
+    Ok(Some(WashablePart {
         share: 1.0 - best.len() as f64 / tried,
         causes: causes(unwashed, tried),
         points: points(task, &graph, &best),
-    })
+    }))
 }
 
 /// The contact points of a survey, by whether their layer is among the `unwashed`.

@@ -16,6 +16,8 @@ use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use serde::Serialize;
 use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Passes of smoothing tried on a searched path, the smoothest first.
 const SMOOTHING: [usize; 6] = [256, 64, 16, 4, 1, 0];
@@ -96,7 +98,8 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
         }
     }
     // The caller that plans the lines reports their obstructions.
-    if task.lines.has_blocked_line() {
+    let is_blocked = |blocked: &Arc<AtomicBool>| blocked.load(Ordering::Relaxed);
+    if task.blocked_line.as_ref().is_some_and(is_blocked) {
         return washing_by_any(&task.with_any_lines());
     }
     found
@@ -220,21 +223,16 @@ fn extremes_are_reachable(task: &Task<'_>, tilts: &[f64]) -> bool {
         return true;
     }
     let contact = &task.samples.contact;
-    let mut extremes = [(0, f64::INFINITY), (0, f64::NEG_INFINITY)];
-    for (k, contact) in contact.iter().enumerate() {
-        let r = task.scene.distance(&contact.point);
-        if r < extremes[0].1 {
-            extremes[0] = (k, r);
-        }
-        if r > extremes[1].1 {
-            extremes[1] = (k, r);
-        }
-    }
+    let distance = |contact: &Contact| task.scene.distance(&contact.point);
+    let distances: Vec<f64> = contact.iter().map(distance).collect();
+    let farther = |a: &usize, b: &usize| distances[*a].total_cmp(&distances[*b]);
+    let nearest = (0..contact.len()).min_by(farther);
+    let farthest = (0..contact.len()).rev().max_by(farther);
     let reached = |k: usize| {
         let target = task.scene.tip_rigid(&contact[k], tilts[k]);
         inverse.starts(&target, &task.near, Width::Near).is_ok()
     };
-    extremes.iter().all(|(k, _)| reached(*k))
+    nearest.into_iter().chain(farthest).all(reached)
 }
 
 /// The branches on which some tilt reaches the first contact point, those of the smallest tilts first.

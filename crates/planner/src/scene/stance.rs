@@ -169,12 +169,6 @@ impl Contact {
         let point = self.point + self.normal * height_m;
         Self { point, ..*self }
     }
-
-    /// The point with the tool on the normal.
-    #[must_use]
-    pub fn with_tool_on_normal(&self) -> Self {
-        Self::on_normal(self.point, self.normal)
-    }
 }
 
 /// The amplitude that is tried before greater ones \[rad\]: 15°. More saves no joint travel worth the clearance.

@@ -1,15 +1,14 @@
 //! Where an arm with its tool washes a plate: a map of squares, and the widest sector about axis 1 within them.
 
 use crate::error::PlanError;
-use crate::pipeline::washable_map;
+use crate::pipeline::fill;
 use crate::trig::sin_cos;
-use crate::washable_map::{MapArea, MapPatch};
+use crate::washable_map::{Levels, MapArea, Square};
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_kinematics::{Pose, RobotModel};
 use platewash_workcell::job::WashJob;
 use platewash_workcell::tool::Tool;
-use std::collections::BTreeMap;
 
 /// Finest squares across the radius of the map.
 const ACROSS: f64 = 24.0;
@@ -106,15 +105,15 @@ pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegio
         step_m: reach.radius_m / ACROSS,
         ..reach
     };
-    let mut map = Map::of(&area);
-    let done = washable_map(&alone, 0, &area, &mut |patch| map.add(&patch), watch);
+    let mut levels = Levels::new(&area);
+    let done = fill(&mut levels, &alone, 0, &mut |_| (), watch);
     let is_complete = done.is_ok();
     match done {
         Err(PlanError::Cancelled(_)) if watch.cancel.is_late() => {}
         done => done?,
     }
     let axis = alone.terms().workcell.mount.rotation * Vector3::z();
-    let (region, is_vertical) = (map.region(), axis.xy().norm() <= UPRIGHT);
+    let (region, is_vertical) = (region(&levels), axis.xy().norm() <= UPRIGHT);
     Ok(SuggestedRegion {
         is_complete,
         // Seen from above, only a vertical axis 1 is a place.
@@ -124,118 +123,81 @@ pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegio
     })
 }
 
-/// The checked squares, by their edge: the finest last.
-#[derive(Debug)]
-struct Map<'a> {
-    area: &'a MapArea,
-    levels: Vec<(f64, BTreeMap<[i64; 2], bool>)>,
+/// The region that the squares make.
+fn region(levels: &Levels<'_>) -> SuggestedRegion {
+    let mut squares = Vec::new();
+    for (level, told) in levels.found.iter().enumerate() {
+        let edge_m = levels.edge_m(level).unwrap_or_default();
+        // One of its quarters stands for it.
+        let is_quartered = |(column, row): Square| {
+            let finer = levels.found.get(level + 1);
+            finer.is_some_and(|finer| finer.contains_key(&(2 * column, 2 * row)))
+        };
+        for (&square, &is_washable) in told.iter().filter(|(square, _)| !is_quartered(**square)) {
+            squares.push(RegionSquare {
+                centre_m: levels.centre(edge_m, square),
+                edge_m,
+                is_washable,
+            });
+        }
+    }
+    let washable: Vec<_> = squares.iter().filter(|square| square.is_washable).collect();
+    let [x, y] = levels.area.centre_m;
+    let rho = washable.iter().map(|s| {
+        let [dx, dy] = [s.centre_m[0] - x, s.centre_m[1] - y];
+        (dx * dx + dy * dy).sqrt()
+    });
+    let ends = rho.fold([f64::INFINITY, 0.0_f64], |[least, most], rho| {
+        [least.min(rho), most.max(rho)]
+    });
+    SuggestedRegion {
+        is_complete: true,
+        step_m: levels.area.step_m,
+        area_m2: washable.iter().map(|square| square.edge_m * square.edge_m).sum(),
+        rho_m: (!washable.is_empty()).then_some(ends),
+        sector: sector(levels),
+        squares,
+    }
 }
 
-impl<'a> Map<'a> {
-    fn of(area: &'a MapArea) -> Self {
-        let levels = Vec::new();
-        Self { area, levels }
-    }
-
-    fn add(&mut self, patch: &MapPatch) {
-        if self.levels.last().is_none_or(|(step_m, _)| *step_m != patch.step_m) {
-            self.levels.push((patch.step_m, BTreeMap::new()));
+/// The sector of the greatest area all of whose steps are washable.
+fn sector(levels: &Levels<'_>) -> Option<Sector> {
+    let step_m = levels.area.radius_m / DISTANCES as f64;
+    let degrees = 360.0 / DIRECTIONS as f64;
+    // By distance and by direction from −180° on: how many washable steps in a row end there.
+    let [x, y] = levels.area.centre_m;
+    let ways: Vec<_> = (0..DIRECTIONS)
+        .map(|direction| sin_cos((degrees * direction as f64 - 180.0).to_radians()))
+        .collect();
+    let mut run = vec![0; DIRECTIONS];
+    let mut runs: Vec<Vec<usize>> = Vec::with_capacity(DISTANCES);
+    for k in 0..DISTANCES {
+        let away = step_m * k as f64;
+        for (run, (s, c)) in run.iter_mut().zip(&ways) {
+            *run = if levels.at([x + away * c, y + away * s]) {
+                *run + 1
+            } else {
+                0
+            };
         }
-        let area = self.area;
-        let Some((step_m, squares)) = self.levels.last_mut() else {
-            return;
-        };
-        for (centres, answer) in [(&patch.washable_m, true), (&patch.unwashable_m, false)] {
-            squares.extend(centres.iter().map(|centre| (square(area, *step_m, *centre), answer)));
-        }
+        runs.push(run.clone());
     }
-
-    /// Checks that the plate could be washed with its centre there \[m\]: the answer of the finest square.
-    fn at(&self, place: [f64; 2]) -> bool {
-        let told = self.levels.iter().rev();
-        let mut answers = told.filter_map(|(step_m, squares)| squares.get(&square(self.area, *step_m, place)));
-        answers.next().copied().unwrap_or(false)
-    }
-
-    fn region(&self) -> SuggestedRegion {
-        let mut squares = Vec::new();
-        for (level, (edge_m, told)) in self.levels.iter().enumerate() {
-            for (&[column, row], &is_washable) in told {
-                let [x, y] = self.area.centre_m;
-                let middle = |from: f64, k: i64| from + edge_m * (k as f64 + 0.5);
-                let centre_m = [middle(x, column), middle(y, row)];
-                // One of its quarters stands for it.
-                let quarter_m = [centre_m[0] - 0.25 * edge_m, centre_m[1] - 0.25 * edge_m];
-                let finer = self.levels.get(level + 1);
-                let is_quartered =
-                    finer.is_some_and(|(step_m, told)| told.contains_key(&square(self.area, *step_m, quarter_m)));
-                if !is_quartered {
-                    squares.push(RegionSquare {
-                        centre_m,
-                        edge_m: *edge_m,
-                        is_washable,
-                    });
-                }
+    let mut best: Option<(f64, Sector)> = None;
+    for (far, ends) in runs.iter().enumerate() {
+        for near in 1..far {
+            let fits = |direction: usize| ends[direction % DIRECTIONS] > far - near;
+            let Some((first, count)) = longest(fits) else { continue };
+            let [a, b] = [near, far].map(|k| step_m * k as f64);
+            let area = (b * b - a * a) * (count - 1) as f64;
+            if best.as_ref().is_none_or(|(most, _)| area > *most) {
+                let from = degrees * first as f64 - 180.0;
+                let azimuth_deg = [from, from + degrees * (count - 1) as f64];
+                let rho_m = [a, b];
+                best = Some((area, Sector { rho_m, azimuth_deg }));
             }
         }
-        let washable: Vec<_> = squares.iter().filter(|square| square.is_washable).collect();
-        let [x, y] = self.area.centre_m;
-        let rho = washable.iter().map(|s| {
-            let [dx, dy] = [s.centre_m[0] - x, s.centre_m[1] - y];
-            (dx * dx + dy * dy).sqrt()
-        });
-        let ends = rho.fold([f64::INFINITY, 0.0_f64], |[least, most], rho| {
-            [least.min(rho), most.max(rho)]
-        });
-        SuggestedRegion {
-            is_complete: true,
-            step_m: self.area.step_m,
-            area_m2: washable.iter().map(|square| square.edge_m * square.edge_m).sum(),
-            rho_m: (!washable.is_empty()).then_some(ends),
-            sector: self.sector(),
-            squares,
-        }
     }
-
-    /// The sector of the greatest area all of whose steps are washable.
-    fn sector(&self) -> Option<Sector> {
-        let step_m = self.area.radius_m / DISTANCES as f64;
-        let degrees = 360.0 / DIRECTIONS as f64;
-        // By distance and by direction from −180° on: how many washable steps in a row end there.
-        let [x, y] = self.area.centre_m;
-        let ways: Vec<_> = (0..DIRECTIONS)
-            .map(|direction| sin_cos((degrees * direction as f64 - 180.0).to_radians()))
-            .collect();
-        let mut run = vec![0; DIRECTIONS];
-        let mut runs: Vec<Vec<usize>> = Vec::with_capacity(DISTANCES);
-        for k in 0..DISTANCES {
-            let away = step_m * k as f64;
-            for (run, (s, c)) in run.iter_mut().zip(&ways) {
-                *run = if self.at([x + away * c, y + away * s]) {
-                    *run + 1
-                } else {
-                    0
-                };
-            }
-            runs.push(run.clone());
-        }
-        let mut best: Option<(f64, Sector)> = None;
-        for (far, ends) in runs.iter().enumerate() {
-            for near in 1..far {
-                let fits = |direction: usize| ends[direction % DIRECTIONS] > far - near;
-                let Some((first, count)) = longest(fits) else { continue };
-                let [a, b] = [near, far].map(|k| step_m * k as f64);
-                let area = (b * b - a * a) * (count - 1) as f64;
-                if best.as_ref().is_none_or(|(most, _)| area > *most) {
-                    let from = degrees * first as f64 - 180.0;
-                    let azimuth_deg = [from, from + degrees * (count - 1) as f64];
-                    let rho_m = [a, b];
-                    best = Some((area, Sector { rho_m, azimuth_deg }));
-                }
-            }
-        }
-        best.filter(|(area, _)| *area > 0.0).map(|(_, sector)| sector)
-    }
+    best.filter(|(area, _)| *area > 0.0).map(|(_, sector)| sector)
 }
 
 /// The first direction of the longest run of those that fit, round the turn, and how many these are.
@@ -253,12 +215,6 @@ fn longest(fits: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
     best
 }
 
-/// The square of an edge that a place lies in.
-fn square(area: &MapArea, step_m: f64, place: [f64; 2]) -> [i64; 2] {
-    let [x, y] = area.centre_m;
-    [(x, place[0]), (y, place[1])].map(|(from, at)| ((at - from) / step_m).floor() as i64)
-}
-
 #[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests {
@@ -267,22 +223,18 @@ mod tests {
     const AREA: MapArea = MapArea {
         centre_m: [0.0, 0.0],
         radius_m: 1.0,
-        step_m: 0.04,
+        step_m: 0.01,
     };
 
     /// Map with all squares of one level, washable by a rule.
     fn map(rule: impl Fn(f64, f64) -> bool) -> SuggestedRegion {
-        let mut map = Map::of(&AREA);
-        let places = (-25..25).flat_map(|i| (-25..25).map(move |k| [i, k].map(|n| 0.04 * (f64::from(n) + 0.5))));
-        let (washable_m, unwashable_m) = places.partition(|[x, y]| rule(*x, *y));
-        map.add(&MapPatch {
-            step_m: 0.04,
-            washable_m,
-            unwashable_m,
-            done: 2500,
-            of: 2500,
-        });
-        map.region()
+        let mut levels = Levels::new(&AREA);
+        let (step_m, squares) = levels.next().unwrap();
+        for square in squares {
+            let [x, y] = levels.centre(step_m, square);
+            levels.add([(square, rule(x, y))]);
+        }
+        region(&levels)
     }
 
     #[test]

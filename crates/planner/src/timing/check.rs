@@ -73,8 +73,8 @@ fn tip_demand(
     limits: &TipLimits,
 ) -> [f64; 2] {
     let limits = [limits.speed_m_s, limits.acceleration_m_s2];
-    let rates = model.higher_rates(magnitudes);
-    let between = [rates.third / limits[0], rates.fourth / limits[1]].map(|rate| 0.125 * piece.h * piece.h * rate);
+    let [third, fourth] = model.higher_rates(magnitudes);
+    let between = [third / limits[0], fourth / limits[1]].map(|rate| 0.125 * piece.h * piece.h * rate);
     let look = |share: f64| {
         let [q, qd, qdd] = piece.at(share * piece.h);
         let known = start.filter(|_| share == 0.0);

@@ -155,15 +155,6 @@ pub(crate) struct Magnitudes {
     pub jerk: JointVector,
 }
 
-/// Upper bounds on the tip's third and fourth derivatives by time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct HigherRates {
-    /// |p⃛| \[m/s³\].
-    pub third: f64,
-    /// |p⁗| \[m/s⁴\].
-    pub fourth: f64,
-}
-
 impl<'a> TipModel<'a> {
     /// The frame `tip` on `robot`.
     pub fn new(robot: &'a RobotModel, tip: &Frame) -> Self {
@@ -186,7 +177,7 @@ impl<'a> TipModel<'a> {
         rates.moving(first)
     }
 
-    /// Bounds on the tip's higher derivatives while the joints move as cubics in time within the magnitudes.
+    /// Bounds on the tip's third and fourth derivatives \[m/s³, m/s⁴\] while the joints move as cubics in time within the magnitudes.
     ///
     /// A k-th derivative of p by joints `j₁ ≤ … ≤ j_k` is `z_{j₁} × (… × c_{j_k})`, no longer than the lever of the
     /// last joint. So each term of the chain rule,
@@ -194,7 +185,7 @@ impl<'a> TipModel<'a> {
     /// `p⁗ = D⁴p[q̇, …] + 6 D³p[q̇, q̇, q̈] + 4 D²p[q̇, q⃛] + 3 D²p[q̈, q̈]`,
     /// is at most a product of sums of magnitudes; its tuples whose last joint is m, with lever r_m, are what the
     /// product over joints ≤ m exceeds that over joints < m by.
-    pub fn higher_rates(&self, most: &Magnitudes) -> HigherRates {
+    pub fn higher_rates(&self, most: &Magnitudes) -> [f64; 2] {
         let (mut v, mut a, mut j) = (0.0, 0.0, 0.0);
         let mut last = [0.0; 2];
         let mut bounds = [0.0; 2];
@@ -211,10 +202,7 @@ impl<'a> TipModel<'a> {
             }
             last = terms;
         }
-        HigherRates {
-            third: bounds[0],
-            fourth: bounds[1],
-        }
+        bounds
     }
 }
 
@@ -330,8 +318,8 @@ mod tests {
             });
             let third = (before.0 + after.0 - here.0 * 2.0).norm() / (h * h);
             let fourth = (before.1 + after.1 - here.1 * 2.0).norm() / (h * h);
-            prop_assert!(third <= bounds.third + 1e-6, "{third} {bounds:?}");
-            prop_assert!(fourth <= bounds.fourth + 1e-6, "{fourth} {bounds:?}");
+            prop_assert!(third <= bounds[0] + 1e-6, "{third} {bounds:?}");
+            prop_assert!(fourth <= bounds[1] + 1e-6, "{fourth} {bounds:?}");
         }
     }
 }

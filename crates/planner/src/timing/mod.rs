@@ -173,28 +173,21 @@ pub struct SlowStretch {
 }
 
 /// A limit by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Limit {
     /// Speed of a joint, by index.
+    #[error("speed of joint {}", .0 + 1)]
     JointSpeed(usize),
     /// Acceleration of a joint, by index.
+    #[error("acceleration of joint {}", .0 + 1)]
     JointAcceleration(usize),
     /// Speed of the tip.
+    #[error("speed of the tip")]
     TipSpeed,
     /// Acceleration of the tip.
+    #[error("acceleration of the tip")]
     TipAcceleration,
-}
-
-impl std::fmt::Display for Limit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::JointSpeed(joint) => write!(f, "speed of joint {}", joint + 1),
-            Self::JointAcceleration(joint) => write!(f, "acceleration of joint {}", joint + 1),
-            Self::TipSpeed => write!(f, "speed of the tip"),
-            Self::TipAcceleration => write!(f, "acceleration of the tip"),
-        }
-    }
 }
 
 impl MotionLimits {

@@ -59,11 +59,13 @@ pub enum TransitError {
 }
 
 /// Obstruction that ends a direct transit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TransitObstruction {
     /// A joint would be beyond its limit.
+    #[error("{0}")]
     Limit(LimitViolation),
     /// Two bodies would be too near.
+    #[error("{0}")]
     TooNear(ClearanceShortfall),
 }
 
@@ -72,15 +74,6 @@ impl TransitError {
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         matches!(self, Self::NotFound { .. } | Self::Line { .. } | Self::Home { .. })
-    }
-}
-
-impl fmt::Display for TransitObstruction {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Limit(violation) => violation.fmt(f),
-            Self::TooNear(too_near) => too_near.fmt(f),
-        }
     }
 }
 

@@ -44,20 +44,6 @@ pub(crate) fn lines(
     to: &JointVector,
     rng: &mut Pcg64,
 ) -> Result<Result<FreeLines, usize>, Cancelled> {
-    let mut lines = match connect(rules, from, to, rng)? {
-        Ok(lines) => lines,
-        Err(nodes) => return Ok(Err(nodes)),
-    };
-    shorten(rules, &mut lines.corners, rng)?;
-    Ok(Ok(lines))
-}
-
-fn connect(
-    rules: &TransitRules<'_>,
-    from: &JointVector,
-    to: &JointVector,
-    rng: &mut Pcg64,
-) -> Result<Result<FreeLines, usize>, Cancelled> {
     let root = |q: &JointVector| vec![Node { q: *q, parent: 0 }];
     let mut trees = [root(from), root(to)];
     let limits = rules.scene.robot.limits();
@@ -72,7 +58,8 @@ fn connect(
             trees[growing].push(Node { q, parent: near });
             if meet(rules, &mut trees[1 - growing], &q) {
                 let nodes = trees.iter().map(Vec::len).sum();
-                let corners = joined(&trees);
+                let mut corners = joined(&trees);
+                shorten(rules, &mut corners, rng)?;
                 return Ok(Ok(FreeLines { corners, nodes }));
             }
         } else {

@@ -13,7 +13,6 @@ use platewash_kinematics::{Axes, JointVector, RobotModel};
 use platewash_workcell::arc::Arc;
 use rand_pcg::Pcg64;
 use serde::Serialize;
-use std::fmt;
 
 /// Pace of the joints on a direct path \[rad of the fastest joint per metre of the parameter\], the candidates.
 const PACES_RAD_M: [f64; 3] = [2.0, 3.5, 6.0];
@@ -307,28 +306,21 @@ impl TransitRules<'_> {
 }
 
 /// Kind of route of a transit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, thiserror::Error)]
 #[serde(rename_all = "snake_case")]
 pub enum TransitKind {
     /// Quintic from top to top in the joints.
+    #[error("straight in joint space")]
     Direct,
     /// The same connection over a raised configuration.
+    #[error("in joint space over a raised point")]
     Raised,
     /// Round the base.
+    #[error("on an arc around the base")]
     Arc,
     /// Found by random trees.
+    #[error("found by sampling")]
     Sampled,
-}
-
-impl fmt::Display for TransitKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Direct => "straight in joint space",
-            Self::Raised => "in joint space over a raised point",
-            Self::Arc => "on an arc around the base",
-            Self::Sampled => "found by sampling",
-        })
-    }
 }
 
 /// Largest joint motion between neighbouring configurations that are checked \[rad\].

@@ -2,6 +2,7 @@
 
 use super::world::{HOME, RADIUS_M, check, curve, path, plate_at, within};
 use platewash_kinematics::JointVector;
+use platewash_planner::OutOfRange;
 use platewash_planner::redundancy::{RedundancyError, Task};
 use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::plate::Plate;
@@ -15,7 +16,7 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
         within(&kitchen_tool(), &[plate_at(0.36, 0.0)], |world| {
             let scene = world.scene.among(world.clearance, &plates);
             match Task::new(&scene, path, clearance_m, near) {
-                Err(RedundancyError::Input { name, .. }) => name,
+                Err(RedundancyError::Input(OutOfRange { name, .. })) => name,
                 other => panic!("{other:?}"),
             }
         })

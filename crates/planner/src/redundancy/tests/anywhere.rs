@@ -5,7 +5,7 @@
 //! where it changes nothing but joint 6: with the tool along axis 6.
 
 use crate::redundancy::task::Task;
-use crate::scene::Width;
+use crate::scene::{Contact, Width};
 use crate::trig::sin_cos;
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
@@ -35,10 +35,8 @@ pub struct FoundConfiguration {
 /// [`Cancelled`].
 pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<FoundConfiguration>, Cancelled> {
     let scene = task.scene;
-    let contact = task
-        .samples
-        .at(theta.clamp(0.0, task.path.curve.end()))
-        .with_tool_on_normal();
+    let contact = task.samples.at(theta.clamp(0.0, task.path.curve.end()));
+    let contact = Contact::on_normal(contact.point, contact.normal);
     let out = scene.outward_direction(&contact);
     let steps = (task.tilt_max_rad() / TILT_STEP_RAD).ceil();
     for k in 0..=steps as u32 {

@@ -11,7 +11,7 @@ use self::world::*;
 use crate::redundancy::places::{MovedPlate, nearest_washable, on_grid};
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::Profile;
-use crate::redundancy::washability::{Cause, Points, Washability, washable};
+use crate::redundancy::washability::{Cause, Points, WashablePart, washable_part};
 use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
 use crate::redundancy::*;
 use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, stance};
@@ -132,7 +132,7 @@ fn failures_name_obstructions_of_the_arm_itself() {
             let anywhere = |end: &&DeadEnd| anywhere(&task, end.theta).unwrap().is_some();
             let feasible = ends.iter().filter(anywhere).count() as f64 / ends.len() as f64;
             assert!(feasible <= elsewhere, "{rho} {azimuth}: {feasible}");
-            let Washability::Part { share, causes, points } = washable(&task).unwrap() else {
+            let Some(WashablePart { share, causes, points }) = washable_part(&task).unwrap() else {
                 panic!("{rho} {azimuth}: washable");
             };
             assert!(0.4 < share && share < 1.0, "{share}");
