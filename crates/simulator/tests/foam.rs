@@ -240,7 +240,7 @@ fn dropped(surface: Surface, contact: Option<FoamContact>, integrator: Integrato
         if contact.is_some() {
             let push = cell.sponge.push(&cell.model, &state);
             deepest_m = deepest_m.max(push.load.deepest_m);
-            all.push(energy.total_j() + push.energy_j);
+            all.push(energy.kinetic_j + energy.potential_j + push.energy_j);
             let next = plant.step_on(&cell.sponge, &state, &JointVector::zeros(), h).0;
             // The work on the way, by the mean torque of its two ends.
             let then = cell.sponge.push(&cell.model, &next);
@@ -248,7 +248,7 @@ fn dropped(surface: Surface, contact: Option<FoamContact>, integrator: Integrato
             unpaid_j = unpaid_j.max(worked_j + then.energy_j);
             state = next;
         } else {
-            all.push(energy.total_j());
+            all.push(energy.kinetic_j + energy.potential_j);
             state = plant.step(&state, &JointVector::zeros(), h).0;
         }
         assert!(state.q.amax() < 1e4, "{}", state.q);

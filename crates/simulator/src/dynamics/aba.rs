@@ -17,7 +17,7 @@ use platewash_kinematics::{AXES, Frame, JointVector};
 type SpatialVector = Vector6<f64>;
 
 /// Results of the inward pass for a joint that the outward pass needs.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Joint {
     /// S.
     axis: SpatialVector,
@@ -78,14 +78,8 @@ impl DynamicsModel {
 /// Inertias, bias wrenches and joints of the moving arm.
 #[inline(always)]
 fn outwards(pass: &Pass, qd: &JointVector) -> ([Matrix6<f64>; AXES], [SpatialVector; AXES], [Joint; AXES]) {
-    let still = Joint {
-        axis: SpatialVector::zeros(),
-        drift: SpatialVector::zeros(),
-        share: SpatialVector::zeros(),
-        free: 0.0,
-    };
-    let (mut inertias, mut biases, mut joints) =
-        ([Matrix6::zeros(); AXES], [SpatialVector::zeros(); AXES], [still; AXES]);
+    let mut joints = [Joint::default(); AXES];
+    let (mut inertias, mut biases) = ([Matrix6::zeros(); AXES], [SpatialVector::zeros(); AXES]);
     let (mut w, mut v) = (Vector3::zeros(), Vector3::zeros());
     for i in 0..AXES {
         let (axis, moment) = (pass.axes[i], pass.moments[i]);

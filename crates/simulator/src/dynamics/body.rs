@@ -8,7 +8,7 @@ use platewash_kinematics::rotation::RigidTransform;
 use platewash_workcell::tool::ToolMass;
 
 /// Mass properties of a rigid body in some frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RigidBody {
     /// Mass \[kg\].
     pub mass_kg: f64,
@@ -19,16 +19,6 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// Body without mass.
-    #[must_use]
-    pub fn none() -> Self {
-        Self {
-            mass_kg: 0.0,
-            com_m: Vector3::zeros(),
-            inertia_kg_m2: Matrix3::zeros(),
-        }
-    }
-
     /// The same body in another frame; `placed` is `T_new_old`.
     #[must_use]
     pub fn in_frame(&self, placed: &RigidTransform) -> Self {
@@ -45,7 +35,7 @@ impl RigidBody {
     pub fn with(&self, other: &Self) -> Self {
         let mass_kg = self.mass_kg + other.mass_kg;
         if mass_kg <= 0.0 {
-            return Self::none();
+            return Self::default();
         }
         let com_m = (self.com_m * self.mass_kg + other.com_m * other.mass_kg) / mass_kg;
         let about = |body: &Self| body.inertia_kg_m2 + steiner(body.mass_kg, &(body.com_m - com_m));
@@ -171,7 +161,7 @@ mod tests {
         assert!((whole.com_m - Vector3::new(1.0, 2.0, 3.25)).norm() < 1e-15);
         assert!((whole.inertia_kg_m2.m11 - 1.0 / 12.0).abs() < 1e-15);
         assert!((whole.inertia_about_origin().m33 - 5.0).abs() < 1e-14);
-        assert_eq!(whole.with(&RigidBody::none()), whole);
+        assert_eq!(whole.with(&RigidBody::default()), whole);
     }
 
     fn body(inertia_kg_m2: Matrix3<f64>) -> RigidBody {
@@ -191,7 +181,7 @@ mod tests {
                 com_m: Vector3::from(*at),
                 inertia_kg_m2: Matrix3::zeros(),
             };
-            let whole = points.iter().map(point).fold(RigidBody::none(), |all, one| all.with(&one));
+            let whole = points.iter().map(point).fold(RigidBody::default(), |all, one| all.with(&one));
             prop_assert_eq!(check(&whole), Ok(()));
         }
 

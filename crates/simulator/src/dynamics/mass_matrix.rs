@@ -46,14 +46,6 @@ pub struct Energy {
     pub potential_j: f64,
 }
 
-impl Energy {
-    /// Both together \[J\].
-    #[must_use]
-    pub fn total_j(&self) -> f64 {
-        self.kinetic_j + self.potential_j
-    }
-}
-
 impl DynamicsModel {
     /// Energy at positions `q` \[rad\] and speeds `qd` \[rad/s\].
     #[must_use]

@@ -98,7 +98,7 @@ impl DynamicsModel {
     /// # Errors
     /// [`DynamicsError`], naming the link.
     pub fn new(robot: &RobotModel, tool: Option<&Tool>) -> Result<Self, DynamicsError> {
-        let mut bodies = [RigidBody::none(); AXES];
+        let mut bodies = [RigidBody::default(); AXES];
         for link in robot.links() {
             if let (Some(body), Some(part)) = (behind_joint(link), mass_of(robot, link)?) {
                 bodies[body] = bodies[body].with(&part.in_frame(link.frame.on_body()));

@@ -17,7 +17,7 @@ use platewash_kinematics::trig::{SeparateMulAdd, sin_cos_lanes};
 use platewash_kinematics::{AXES, JointVector};
 
 /// Velocity and acceleration of a body, its own frame.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Motion {
     /// ω \[rad/s\].
     turning: Vector3<f64>,
@@ -28,7 +28,7 @@ struct Motion {
 }
 
 /// Force and moment about the origin, the body's own frame.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Wrench {
     /// f \[N\].
     force: Vector3<f64>,
@@ -45,14 +45,10 @@ impl DynamicsModel {
         let placed: [RigidTransform; AXES] =
             std::array::from_fn(|i| self.folded[i].turned_about_z(sines[i], cosines[i]));
         let mut motion = Motion {
-            turning: Vector3::zeros(),
-            turning_rate: Vector3::zeros(),
             linear_rate: -self.gravity,
+            ..Motion::default()
         };
-        let mut wrenches = [Wrench {
-            force: Vector3::zeros(),
-            moment: Vector3::zeros(),
-        }; AXES];
+        let mut wrenches = [Wrench::default(); AXES];
         for i in 0..AXES {
             motion = motion.next_body_motion(&placed[i], qd[i], qdd[i]);
             wrenches[i] = motion.wrench(&self.bodies[i]);

@@ -124,13 +124,18 @@ pub(crate) fn share_within(rho_squared: f64, rim_m: f64, half_m: f64) -> (f64, f
     if within_m > 0.0 && rho_squared <= within_m * within_m {
         return (1.0, 0.0);
     }
-    let past = (rho_squared.sqrt() - rim_m) / (2.0 * half_m) + 0.5;
+    falling((rho_squared.sqrt() - rim_m) / (2.0 * half_m) + 0.5, 2.0 * half_m)
+}
+
+/// Smooth fall from 1 to 0 within a width, at that share of the way past its beginning; and its slope.
+#[inline]
+pub(crate) fn falling(past: f64, width: f64) -> (f64, f64) {
     if past <= 0.0 {
         (1.0, 0.0)
     } else if past < 1.0 {
         (
             1.0 - past * past * (3.0 - 2.0 * past),
-            -3.0 * past * (1.0 - past) / half_m,
+            -6.0 * past * (1.0 - past) / width,
         )
     } else {
         (0.0, 0.0)

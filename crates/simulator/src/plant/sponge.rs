@@ -14,7 +14,7 @@
 
 use crate::dynamics::{DynamicsModel, FrameMotion, MassMatrix};
 use crate::plant::arm::PlantState;
-use crate::plant::foam::{DENSE_FACTOR, Foam, FoamLoad, Wrench, share_within};
+use crate::plant::foam::{DENSE_FACTOR, Foam, FoamLoad, Wrench, falling, share_within};
 use crate::plant::level::LevelColumns;
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
@@ -279,17 +279,7 @@ impl SpongeOnPlates {
 /// Remaining share of the law at a cosine between tool and plate's axis, and its slope by the cosine.
 fn fade(cosine: f64) -> (f64, f64) {
     let [from, to] = FADES;
-    let past = (from - cosine) / (from - to);
-    if past <= 0.0 {
-        (1.0, 0.0)
-    } else if past < 1.0 {
-        (
-            1.0 - past * past * (3.0 - 2.0 * past),
-            6.0 * past * (1.0 - past) / (from - to),
-        )
-    } else {
-        (0.0, 0.0)
-    }
+    falling((from - cosine) / (from - to), to - from)
 }
 
 #[allow(clippy::disallowed_methods)]

@@ -17,10 +17,6 @@ use platewash_workcell::words::{count_with_noun, plate_name};
 /// Significant digits of a rate that is suggested.
 const RATE_DIGITS: usize = 5;
 
-fn counted_a_sample(substeps: usize) -> String {
-    format!("with {} a sample", count_with_noun(substeps, "step"))
-}
-
 /// Reason that a plan could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -82,8 +78,8 @@ pub enum SimulationError {
     },
     /// Foam that is too stiff for the steps of integration.
     #[error(
-        "the sponge's contact is not stable with a stiffness of {stiffness_pa} Pa, integrated {} at {rate_hz} Hz: it needs at least {} \
-         steps a sample, or {} Hz", counted_a_sample(*.substeps), least_substeps, rounded_up(*.least_rate_hz, RATE_DIGITS)
+        "the sponge's contact is not stable with a stiffness of {stiffness_pa} Pa, integrated with {} a sample at {rate_hz} Hz: it needs at least {} \
+         steps a sample, or {} Hz", count_with_noun(*.substeps, "step"), least_substeps, rounded_up(*.least_rate_hz, RATE_DIGITS)
     )]
     StiffContact {
         /// The stiffness \[Pa\].

@@ -22,7 +22,6 @@ use platewash_workcell::tool::{Tool, Touch};
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use rayon::prelude::*;
 use serde::Serialize;
-use std::fmt;
 
 /// Cell size, as in the planner's own report: the proven error is about a tenth of a percent.
 const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
@@ -295,14 +294,23 @@ fn sideways_m(plate: &Plate, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     plate.pose.inverse_transform_vector(&(to - from)).xy().norm()
 }
 
+/// Shares in percent, with as many decimals as tell them apart.
+fn percents(found: f64, required: f64) -> [String; 2] {
+    distinct_decimals(100.0 * found, 100.0 * required, 1)
+}
+
 /// Cause that less is swept than planned, or that a plate is not washed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
 #[serde(tag = "cause", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Cause {
     /// There is no tool body: the flange hovers.
+    #[error("there is no tool body: the flange hovers")]
     NoTool,
     /// The tip lifts off: it is farther above the plate than the sponge is compressed.
+    #[error(
+        "contact is lost for {:.1} % of the wash: the tip lifts by up to {:.1} mm (at {t_s:.3} s)", 100.0 * .share, 1e3 * .most_m
+    )]
     Lifted {
         /// Share of the wash's samples.
         share: f64,
@@ -312,6 +320,10 @@ pub enum Cause {
         t_s: f64,
     },
     /// The arm sinks: the tip is deeper below the surface than the sponge is high, where in truth the plate would stop it.
+    #[error(
+        "the arm sinks for {:.1} % of the wash: the tip is up to {:.1} mm below the surface (at {t_s:.3} s), deeper than the sponge is high",
+        100.0 * .share, 1e3 * .most_m
+    )]
     Sunk {
         /// Share of the wash's samples.
         share: f64,
@@ -321,6 +333,7 @@ pub enum Cause {
         t_s: f64,
     },
     /// The tip strays sideways from its path by more than a tenth of the sponge's radius.
+    #[error("the tip strays sideways by {:.1} mm rms, {:.1} mm at most (at {t_s:.3} s)", 1e3 * .rms_m, 1e3 * .most_m)]
     Strayed {
         /// Root mean square of the horizontal distance \[m\].
         rms_m: f64,
@@ -330,42 +343,11 @@ pub enum Cause {
         t_s: f64,
     },
     /// Less is surely swept than is required.
+    #[error("{0} % is surely swept, {1} % is required", percents(*.at_least, *.required)[0], percents(*.at_least, *.required)[1])]
     NotSwept {
         /// Share that is surely swept.
         at_least: f64,
         /// Share required.
         required: f64,
     },
-}
-
-impl fmt::Display for Cause {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (percent, mm) = (|share: f64| 100.0 * share, |length: f64| 1e3 * length);
-        match *self {
-            Self::NoTool => write!(f, "there is no tool body: the flange hovers"),
-            Self::Lifted { share, most_m, t_s } => write!(
-                f,
-                "contact is lost for {:.1} % of the wash: the tip lifts by up to {:.1} mm (at {t_s:.3} s)",
-                percent(share),
-                mm(most_m)
-            ),
-            Self::Sunk { share, most_m, t_s } => write!(
-                f,
-                "the arm sinks for {:.1} % of the wash: the tip is up to {:.1} mm below the surface (at {t_s:.3} s), deeper than \
-                 the sponge is high",
-                percent(share),
-                mm(most_m)
-            ),
-            Self::Strayed { rms_m, most_m, t_s } => write!(
-                f,
-                "the tip strays sideways by {:.1} mm rms, {:.1} mm at most (at {t_s:.3} s)",
-                mm(rms_m),
-                mm(most_m)
-            ),
-            Self::NotSwept { at_least, required } => {
-                let [swept, required] = distinct_decimals(percent(at_least), percent(required), 1);
-                write!(f, "{swept} % is surely swept, {required} % is required")
-            }
-        }
-    }
 }
