@@ -93,11 +93,11 @@ pub fn place_in_front(arm: &RobotModel, tool: &Tool, mount: &Pose) -> [f64; 2] {
 }
 
 /// Computes the region in which the first plate of a job could be washed from its home, were it alone: a map that takes a second
-/// or two, longer for arms whose inverse kinematics is a search, and a summary of it. It is an estimate, as [`washable_map`] is: transits are
+/// or two, longer for arms whose inverse kinematics is a search, and a summary of it. It is an estimate, as [`washable_map`](crate::washable_map) is: transits are
 /// not checked, and a search may wash more. Where the token's time passes, the map is that of the squares checked until then.
 ///
 /// # Errors
-/// As [`washable_map`].
+/// As [`washable_map`](crate::washable_map).
 pub fn suggest_region(job: &WashJob, watch: &Watch<'_>) -> Result<SuggestedRegion, PlanError> {
     let alone = job.on_plates(job.terms().plates.iter().take(1).copied().collect())?;
     let reach = MapArea::within_reach(&alone, 0)?;
