@@ -5,28 +5,49 @@
 
 #![allow(unsafe_code)]
 
-use crate::trig::{MulAdd, SeparateMulAdd};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Numbers in a vector.
 pub(crate) const LANES: usize = 4;
 
+/// One double or a vector of them. A product and a sum are rounded one after the other, with the same bits on every machine: Rust never
+/// contracts the two into one instruction. [`run`] alone has a vector that rounds once.
+pub(crate) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// Returns the same number in every lane.
+    fn splat(x: f64) -> Self;
+
+    /// Returns `self · b + c`.
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    /// Returns `self · b − c`.
+    #[inline(always)]
+    fn mul_sub(self, b: Self, c: Self) -> Self {
+        self * b - c
+    }
+
+    /// Returns `c − self · b`.
+    #[inline(always)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        x
+    }
+}
+
 /// Four doubles; every operation is lane by lane, rounded as IEEE 754 says.
-pub(crate) trait Vector:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    /// Rounding of [`Vector::mul_add`].
-    type Rounding: MulAdd;
+pub(crate) trait Vector: Number + Div<Output = Self> {
     /// Builds a vector from its lanes.
     fn from_array(lanes: [f64; LANES]) -> Self;
     /// Returns the lanes.
     fn to_array(self) -> [f64; LANES];
-    /// Returns `self · b + c`.
-    fn mul_add(self, b: Self, c: Self) -> Self;
-    /// Returns `self · b − c`.
-    fn mul_sub(self, b: Self, c: Self) -> Self;
-    /// Returns `c − self · b`.
-    fn neg_mul_add(self, b: Self, c: Self) -> Self;
     /// Returns the bits that both have.
     fn and(self, other: Self) -> Self;
     /// Returns the bits that one of the two has.
@@ -52,12 +73,6 @@ pub(crate) trait Vector:
     #[inline(always)]
     fn all_at_most(self, bound: f64) -> bool {
         self.at_most(Self::splat(bound)).sign_bits() == (1 << LANES) - 1
-    }
-
-    /// Returns the same number in every lane.
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self::from_array([x; LANES])
     }
 }
 
@@ -151,9 +166,14 @@ impl PortableVector {
     }
 }
 
-impl Vector for PortableVector {
-    type Rounding = SeparateMulAdd;
+impl Number for PortableVector {
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self([x; LANES])
+    }
+}
 
+impl Vector for PortableVector {
     #[inline(always)]
     fn from_array(lanes: [f64; LANES]) -> Self {
         Self(lanes)
@@ -162,21 +182,6 @@ impl Vector for PortableVector {
     #[inline(always)]
     fn to_array(self) -> [f64; LANES] {
         self.0
-    }
-
-    #[inline(always)]
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
-    #[inline(always)]
-    fn mul_sub(self, b: Self, c: Self) -> Self {
-        self * b - c
-    }
-
-    #[inline(always)]
-    fn neg_mul_add(self, b: Self, c: Self) -> Self {
-        c - self * b
     }
 
     #[inline(always)]
@@ -242,53 +247,43 @@ impl Vector for PortableVector {
 
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use crate::lanes::{Kernel, LANES, Vector};
-    use crate::trig::{FusedMulAdd, MulAdd, SeparateMulAdd};
+    use crate::lanes::{Kernel, LANES, Number, Vector};
     use std::arch::x86_64::{
         __m256d, _CMP_GT_OQ, _CMP_LE_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_blendv_pd, _mm256_castpd_si256,
         _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cvtepi32_pd, _mm256_cvttpd_epi32, _mm256_div_pd, _mm256_fmadd_pd,
         _mm256_fmsub_pd, _mm256_fnmadd_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd,
         _mm256_slli_epi64, _mm256_sqrt_pd, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
     };
-    use std::marker::PhantomData;
     use std::mem::transmute;
     use std::ops::{Add, Div, Mul, Sub};
 
     /// The only place where [`Avx2`] with fused rounding is named, hence the only one where its FMA instructions are used.
     #[target_feature(enable = "avx2,fma")]
     pub fn run<K: Kernel>(kernel: K) -> K::Output {
-        kernel.run::<Avx2<FusedMulAdd>>()
+        kernel.run::<Avx2<true>>()
     }
 
     /// The only place where [`Avx2`] with separate rounding is named.
     #[target_feature(enable = "avx2")]
     pub fn run_exact<K: Kernel>(kernel: K) -> K::Output {
-        kernel.run::<Avx2<SeparateMulAdd>>()
+        kernel.run::<Avx2<false>>()
     }
 
-    /// Four doubles in a register of AVX. Private: there is none except within [`run`], which only runs where the
+    /// Four doubles in a register of AVX, whose products and sums are `FUSED` or rounded one after the other. Private: there is none except within [`run`], which only runs where the
     /// processor has AVX2 and FMA, and [`run_exact`], where it has AVX2. This is what every `unsafe` below that calls an instruction relies
     /// on.
-    struct Avx2<M>(__m256d, PhantomData<M>);
-
-    impl<M> Clone for Avx2<M> {
-        #[inline(always)]
-        fn clone(&self) -> Self {
-            *self
-        }
-    }
-
-    impl<M> Copy for Avx2<M> {}
+    #[derive(Clone, Copy)]
+    struct Avx2<const FUSED: bool>(__m256d);
 
     /// An operator that is one instruction.
     macro_rules! instruction {
         ($trait:ident, $name:ident, $intrinsic:ident) => {
-            impl<M> $trait for Avx2<M> {
+            impl<const FUSED: bool> $trait for Avx2<FUSED> {
                 type Output = Self;
                 #[inline(always)]
                 fn $name(self, other: Self) -> Self {
                     // SAFETY: needs AVX only, see `Avx2`; no pointer, no other precondition.
-                    Self(unsafe { $intrinsic(self.0, other.0) }, PhantomData)
+                    Self(unsafe { $intrinsic(self.0, other.0) })
                 }
             }
         };
@@ -298,57 +293,45 @@ mod avx2 {
     instruction!(Mul, mul, _mm256_mul_pd);
     instruction!(Div, div, _mm256_div_pd);
 
-    /// Operations that differ between the roundings.
-    trait Fusing: MulAdd + Sized {
-        fn mul_add(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self>;
-        fn mul_sub(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self>;
-        fn neg_mul_add(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self>;
-    }
-
-    impl Fusing for SeparateMulAdd {
+    impl<const FUSED: bool> Number for Avx2<FUSED> {
         #[inline(always)]
-        fn mul_add(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self> {
-            a * b + c
+        fn splat(x: f64) -> Self {
+            Self::from_array([x; LANES])
         }
 
         #[inline(always)]
-        fn mul_sub(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self> {
-            a * b - c
+        fn mul_add(self, b: Self, c: Self) -> Self {
+            match FUSED {
+                // SAFETY: needs FMA only; this rounding is named in `run` alone.
+                true => Self(unsafe { _mm256_fmadd_pd(self.0, b.0, c.0) }),
+                false => self * b + c,
+            }
         }
 
         #[inline(always)]
-        fn neg_mul_add(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self> {
-            c - a * b
-        }
-    }
-
-    impl Fusing for FusedMulAdd {
-        #[inline(always)]
-        fn mul_add(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self> {
-            // SAFETY: needs FMA only; this rounding is named in `run` alone.
-            Avx2(unsafe { _mm256_fmadd_pd(a.0, b.0, c.0) }, PhantomData)
+        fn mul_sub(self, b: Self, c: Self) -> Self {
+            match FUSED {
+                // SAFETY: needs FMA only; this rounding is named in `run` alone.
+                true => Self(unsafe { _mm256_fmsub_pd(self.0, b.0, c.0) }),
+                false => self * b - c,
+            }
         }
 
         #[inline(always)]
-        fn mul_sub(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self> {
-            // SAFETY: needs FMA only; this rounding is named in `run` alone.
-            Avx2(unsafe { _mm256_fmsub_pd(a.0, b.0, c.0) }, PhantomData)
-        }
-
-        #[inline(always)]
-        fn neg_mul_add(a: Avx2<Self>, b: Avx2<Self>, c: Avx2<Self>) -> Avx2<Self> {
-            // SAFETY: needs FMA only; this rounding is named in `run` alone.
-            Avx2(unsafe { _mm256_fnmadd_pd(a.0, b.0, c.0) }, PhantomData)
+        fn neg_mul_add(self, b: Self, c: Self) -> Self {
+            match FUSED {
+                // SAFETY: needs FMA only; this rounding is named in `run` alone.
+                true => Self(unsafe { _mm256_fnmadd_pd(self.0, b.0, c.0) }),
+                false => c - self * b,
+            }
         }
     }
 
-    impl<M: Fusing> Vector for Avx2<M> {
-        type Rounding = M;
-
+    impl<const FUSED: bool> Vector for Avx2<FUSED> {
         #[inline(always)]
         fn from_array(lanes: [f64; LANES]) -> Self {
             // SAFETY: both are 32 bytes without padding, and every bit pattern is valid for both.
-            Self(unsafe { transmute::<[f64; LANES], __m256d>(lanes) }, PhantomData)
+            Self(unsafe { transmute::<[f64; LANES], __m256d>(lanes) })
         }
 
         #[inline(always)]
@@ -358,43 +341,28 @@ mod avx2 {
         }
 
         #[inline(always)]
-        fn mul_add(self, b: Self, c: Self) -> Self {
-            <M as Fusing>::mul_add(self, b, c)
-        }
-
-        #[inline(always)]
-        fn mul_sub(self, b: Self, c: Self) -> Self {
-            M::mul_sub(self, b, c)
-        }
-
-        #[inline(always)]
-        fn neg_mul_add(self, b: Self, c: Self) -> Self {
-            M::neg_mul_add(self, b, c)
-        }
-
-        #[inline(always)]
         fn and(self, other: Self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            Self(unsafe { _mm256_and_pd(self.0, other.0) }, PhantomData)
+            Self(unsafe { _mm256_and_pd(self.0, other.0) })
         }
 
         #[inline(always)]
         fn xor(self, other: Self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            Self(unsafe { _mm256_xor_pd(self.0, other.0) }, PhantomData)
+            Self(unsafe { _mm256_xor_pd(self.0, other.0) })
         }
 
         #[inline(always)]
         fn shift_left<const BY: i32>(self) -> Self {
             // SAFETY: needs AVX2 only, see `Avx2`; the casts keep the bits.
             let shifted = unsafe { _mm256_castsi256_pd(_mm256_slli_epi64::<BY>(_mm256_castpd_si256(self.0))) };
-            Self(shifted, PhantomData)
+            Self(shifted)
         }
 
         #[inline(always)]
         fn if_sign_bit(self, yes: Self, no: Self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, self.0) }, PhantomData)
+            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, self.0) })
         }
 
         #[inline(always)]
@@ -410,31 +378,25 @@ mod avx2 {
                     _mm256_permute2f128_pd::<0x31>(high, high_2),
                 ]
             };
-            let [a, b, c, d] = halves;
-            [
-                Self(a, PhantomData),
-                Self(b, PhantomData),
-                Self(c, PhantomData),
-                Self(d, PhantomData),
-            ]
+            halves.map(Self)
         }
 
         #[inline(always)]
         fn sqrt(self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            Self(unsafe { _mm256_sqrt_pd(self.0) }, PhantomData)
+            Self(unsafe { _mm256_sqrt_pd(self.0) })
         }
 
         #[inline(always)]
         fn truncated(self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            Self(unsafe { _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(self.0)) }, PhantomData)
+            Self(unsafe { _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(self.0)) })
         }
 
         #[inline(always)]
         fn at_most(self, bound: Self) -> Self {
             // SAFETY: needs AVX only, see `Avx2`.
-            Self(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, bound.0) }, PhantomData)
+            Self(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, bound.0) })
         }
 
         #[inline(always)]
@@ -448,7 +410,7 @@ mod avx2 {
             // SAFETY: needs AVX only, see `Avx2`.
             let above = unsafe { _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, bound.0) };
             // SAFETY: the same.
-            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, above) }, PhantomData)
+            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, above) })
         }
     }
 }
@@ -494,6 +456,11 @@ pub(crate) mod tests {
                     let expected = [s, c, atan2(a[l], b[l])].map(bits);
                     prop_assert_eq!([sin[l], cos[l], angle[l]].map(bits), expected);
                 }
+            }
+            let [sin, cos, _] = run(Backend::Detected, Trigonometry(a, b));
+            for l in (0..LANES).filter(|l| a[*l].abs() <= 1e5) {
+                let (s, c) = sin_cos(a[l]);
+                prop_assert!((sin[l] - s).abs() <= 2.3e-16 && (cos[l] - c).abs() <= 2.3e-16);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Inverse cosine and sine: one polynomial on [0, 1/2] and a square root, without a branch.
 
-use crate::trig::mul_add::{SeparateMulAdd, polynomial};
 use crate::trig::sin_cos::SIGN;
+use crate::trig::sin_cos::polynomial;
 use std::f64::consts::FRAC_PI_2;
 
 /// (arcsin s − s)/s³ in powers of s², terms 0–5: minimax for the relative error of arcsin s on |s| ≤ 1/2, 2⁻⁵⁵·⁸.
@@ -78,7 +78,7 @@ fn first_third(x: f64) -> (bool, f64, f64) {
     let z = if large { rest } else { x * x };
     let s = if large { rest.sqrt() } else { x };
     let z2 = z * z;
-    let p = polynomial::<SeparateMulAdd>(&LOW, z, z2) + z2 * z2 * z2 * polynomial::<SeparateMulAdd>(&HIGH, z, z2);
+    let p = polynomial(&LOW, z, z2) + z2 * z2 * z2 * polynomial(&HIGH, z, z2);
     (large, s, s * (z * p))
 }
 

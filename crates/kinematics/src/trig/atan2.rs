@@ -1,8 +1,7 @@
 //! The inverse functions: one division, one short polynomial and a table of angles.
 
 use crate::lanes::Vector;
-use crate::trig::mul_add::{SeparateMulAdd, polynomial};
-use crate::trig::sin_cos::{SIGN, polynomial_of};
+use crate::trig::sin_cos::{SIGN, polynomial};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Bounds of the fast path: the larger of |x|, |y| at least the first, their sum at most the second, so that
@@ -117,7 +116,7 @@ fn fast_atan2(y: f64, x: f64) -> f64 {
     let turn = u64::from(steep ^ backward) << 63;
     let t = f64::from_bits(tangent.to_bits() ^ turn);
     let z = t * t;
-    let bend = t * z * polynomial::<SeparateMulAdd>(&ARCTAN, z, z * z);
+    let bend = t * z * polynomial(&ARCTAN, z, z * z);
     let (high, low) = ANGLES[usize::from(steep) + 2 * usize::from(backward)][step & 7];
     let angle = high + (t + (bend + low));
     f64::from_bits(angle.to_bits() ^ (y.to_bits() & SIGN))
@@ -152,7 +151,7 @@ pub(crate) fn atan2_vector<V: Vector>(y: V, x: V) -> V {
     let turn = ay.if_above(ax, sign, zero).xor(x_sign);
     let t = tangent.xor(turn);
     let z = t * t;
-    let bend = t * z * polynomial_of(&ARCTAN, z, z * z);
+    let bend = t * z * polynomial(&ARCTAN, z, z * z);
     let [i, j, k, l] = row.to_array();
     let (i, j, k, l) = (angle_in(i), angle_in(j), angle_in(k), angle_in(l));
     let high = V::from_array([i.0, j.0, k.0, l.0]);

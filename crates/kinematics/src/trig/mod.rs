@@ -17,13 +17,11 @@
 
 mod arc_sine;
 mod atan2;
-mod mul_add;
 mod sin_cos;
 
 pub use crate::trig::arc_sine::{acos, asin};
 pub use crate::trig::atan2::atan2;
 pub(crate) use crate::trig::atan2::atan2_vector;
-pub use crate::trig::mul_add::{FusedMulAdd, MulAdd, SeparateMulAdd};
 pub(crate) use crate::trig::sin_cos::sin_cos_vector;
 pub use crate::trig::sin_cos::{cos, sin, sin_cos, sin_cos_lanes};
 

@@ -1,7 +1,6 @@
 //! Sine and cosine together: three-part reduction by π/2, then one polynomial each, without a branch.
 
-use crate::lanes::Vector;
-use crate::trig::mul_add::{MulAdd, SeparateMulAdd, polynomial};
+use crate::lanes::{Number, Vector};
 
 /// Largest |angle| \[rad\] of the fast path. Up to here a quadrant number has at most 16 bits, so that its products with [`HALF_PI_HIGH`]
 /// and [`HALF_PI_MIDDLE`] (37 bits each) are exact.
@@ -56,7 +55,7 @@ pub(crate) const SIGN: u64 = 1 << 63;
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.abs() <= BOUND {
-        one_lane::<SeparateMulAdd>(angle)
+        one_lane(angle)
     } else {
         beyond_bound(angle)
     }
@@ -79,16 +78,15 @@ pub fn cos(angle: f64) -> f64 {
 /// Sines and cosines of `N` angles \[rad\], the formula of [`sin_cos`] in a form that the compiler turns into
 /// vector instructions.
 ///
-/// With [`SeparateMulAdd`] each lane has the bits of [`sin_cos`]; with [`FusedMulAdd`](crate::trig::FusedMulAdd) it is within
-/// 2⁻⁵² of them. A lane beyond the bound of the fast path, or not finite, is computed as [`sin_cos`] does.
+/// Each lane has the bits of [`sin_cos`]. A lane beyond the bound of the fast path, or not finite, is computed as [`sin_cos`] does.
 #[inline(always)]
 #[must_use]
-pub fn sin_cos_lanes<M: MulAdd, const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+pub fn sin_cos_lanes<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
     let mut inside = true;
     for ((&angle, s), c) in angles.iter().zip(&mut sines).zip(&mut cosines) {
         inside &= angle.abs() <= BOUND;
-        (*s, *c) = one_lane::<M>(angle);
+        (*s, *c) = one_lane(angle);
     }
     if !inside {
         recompute_lanes(angles, &mut sines, &mut cosines);
@@ -96,7 +94,7 @@ pub fn sin_cos_lanes<M: MulAdd, const N: usize>(angles: &[f64; N]) -> ([f64; N],
     (sines, cosines)
 }
 
-/// Sines and cosines of the angles \[rad\] in a vector, with the bits of [`sin_cos_lanes`] of the vector's rounding.
+/// Sines and cosines of the angles \[rad\] in a vector: the bits of [`sin_cos`], or within 2⁻⁵² of them where the vector fuses products and sums.
 #[inline(always)]
 pub(crate) fn sin_cos_vector<V: Vector>(angles: V) -> (V, V) {
     let sign_bit = V::splat(-0.0);
@@ -118,11 +116,14 @@ pub(crate) fn sin_cos_vector<V: Vector>(angles: V) -> (V, V) {
     (V::from_array(sines), V::from_array(cosines))
 }
 
-/// [`one_lane`] in vectors, up to the quadrant.
+/// Sine and cosine of angle − n π/2, with n the nearest integer, and a number whose last bits are those of n. The angle is from 0 to
+/// [`BOUND`]; elsewhere the answer is meaningless.
 #[inline(always)]
-fn first_quadrant<V: Vector>(angle: V) -> (V, V, V) {
+fn first_quadrant<V: Number>(angle: V) -> (V, V, V) {
     let rounded = angle.mul_add(V::splat(std::f64::consts::FRAC_2_PI), V::splat(ROUNDER));
     let n = rounded - V::splat(ROUNDER);
+    // r + tail = angle − n π/2 with |r| ≤ π/4 and |tail| at most half a unit in r's last place. Exact: both products fit, and the two
+    // differences cancel or leave their error in `lost`.
     let first = n.mul_add(V::splat(-HALF_PI_HIGH), angle);
     let middle = V::splat(-HALF_PI_MIDDLE);
     let second = n.mul_add(middle, first);
@@ -133,39 +134,31 @@ fn first_quadrant<V: Vector>(angle: V) -> (V, V, V) {
 
     let z = r * r;
     let z2 = z * z;
+    // cos r = w + (what rounding took from w) + …, with w = 1 − r²/2.
     let half = V::splat(0.5) * z;
     let w = V::splat(1.0) - half;
     let rest = r.neg_mul_add(tail, (V::splat(1.0) - w) - half);
-    let cos = w + z2.mul_add(polynomial_of(&COS, z, z2), rest);
-    let sin = r + (r * z).mul_add(polynomial_of(&SIN, z, z2), tail * w);
+    let cos = w + z2.mul_add(polynomial(&COS, z, z2), rest);
+    // The derivative of sin r is cos r ≈ w.
+    let sin = r + (r * z).mul_add(polynomial(&SIN, z, z2), tail * w);
     (sin, cos, rounded)
 }
 
-/// The polynomial of [`polynomial`] in vectors.
+/// Returns c₀ + c₁z + … + c₅z⁵, in pairs to shorten the chain of dependent operations (G. Estrin, 1960).
 #[inline(always)]
-pub(crate) fn polynomial_of<V: Vector>(c: &[f64; 6], z: V, z2: V) -> V {
+pub(crate) fn polynomial<V: Number>(c: &[f64; 6], z: V, z2: V) -> V {
     let pair = |k: usize| z.mul_add(V::splat(c[k + 1]), V::splat(c[k]));
     z2.mul_add(z2.mul_add(pair(4), pair(2)), pair(0))
 }
 
 /// The fast path, for |angle| ≤ [`BOUND`]; elsewhere the answer is meaningless.
 #[inline(always)]
-fn one_lane<M: MulAdd>(angle: f64) -> (f64, f64) {
+fn one_lane(angle: f64) -> (f64, f64) {
     let sign = angle.to_bits() & SIGN;
-    let (r, tail, quadrant) = reduce::<M>(angle.abs());
-    let z = r * r;
-    let z2 = z * z;
-
-    // cos r = w + (what rounding took from w) + …, with w = 1 − r²/2.
-    let half = 0.5 * z;
-    let w = 1.0 - half;
-    let rest = M::mul_add(-r, tail, (1.0 - w) - half);
-    let cos = w + M::mul_add(z2, polynomial::<M>(&COS, z, z2), rest);
-    // The derivative of sin r is cos r ≈ w.
-    let sin = r + M::mul_add(r * z, polynomial::<M>(&SIN, z, z2), tail * w);
+    let (sin, cos, quadrant) = first_quadrant(angle.abs());
 
     // Quadrant q turns (sin, cos) by q·π/2.
-    let (sin, cos) = (sin.to_bits(), cos.to_bits());
+    let (sin, cos, quadrant) = (sin.to_bits(), cos.to_bits(), quadrant.to_bits());
     // Masks instead of branches, and no check for overflow: either would keep the lanes from becoming vectors.
     let swap = (sin ^ cos) & 0_u64.wrapping_sub(quadrant & 1);
     let sin_sign = (quadrant << 62) & SIGN;
@@ -174,21 +167,6 @@ fn one_lane<M: MulAdd>(angle: f64) -> (f64, f64) {
         f64::from_bits(sin ^ swap ^ sin_sign ^ sign),
         f64::from_bits(cos ^ swap ^ cos_sign),
     )
-}
-
-/// (r, t, n) with angle = n π/2 + r + t, |r| ≤ π/4 and |t| at most half a unit in r's last place; only the last bits
-/// of the returned n count.
-#[inline(always)]
-fn reduce<M: MulAdd>(angle: f64) -> (f64, f64, u64) {
-    let rounded = M::mul_add(angle, std::f64::consts::FRAC_2_PI, ROUNDER);
-    let n = rounded - ROUNDER;
-    // Exact: both products fit, and the two differences cancel or leave their error in `lost`.
-    let first = M::mul_add(n, -HALF_PI_HIGH, angle);
-    let second = M::mul_add(n, -HALF_PI_MIDDLE, first);
-    let lost = M::mul_add(n, -HALF_PI_MIDDLE, first - second);
-    let low = M::mul_add(n, HALF_PI_LOW, -lost);
-    let r = second - low;
-    (r, (second - r) - low, rounded.to_bits())
 }
 
 /// Slow path: large angles by Payne and Hanek's method in the `libm` crate; NaN for angles that are not finite.

@@ -12,7 +12,7 @@
 use crate::dynamics::body::{self, MassPropertiesError, RigidBody, steiner};
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::trig::{SeparateMulAdd, sin_cos_lanes};
+use platewash_kinematics::trig::sin_cos_lanes;
 use platewash_kinematics::{AXES, JointVector, Link, Pose, RobotModel, ToolFrameError};
 use platewash_workcell::tool::Tool;
 
@@ -237,7 +237,7 @@ impl DynamicsModel {
     /// `T_base_i` of the six bodies at `q` \[rad\].
     #[inline(always)]
     pub(crate) fn poses(&self, q: &JointVector) -> [RigidTransform; AXES] {
-        let (sines, cosines) = sin_cos_lanes::<SeparateMulAdd, AXES>(q.as_ref());
+        let (sines, cosines) = sin_cos_lanes::<AXES>(q.as_ref());
         let mut poses = self.folded;
         let mut before = RigidTransform::identity();
         for (i, pose) in poses.iter_mut().enumerate() {

@@ -13,7 +13,7 @@
 use crate::dynamics::model::{Body, DynamicsModel};
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_kinematics::trig::{SeparateMulAdd, sin_cos_lanes};
+use platewash_kinematics::trig::sin_cos_lanes;
 use platewash_kinematics::{AXES, JointVector};
 
 /// Velocity and acceleration of a body, its own frame.
@@ -41,7 +41,7 @@ impl DynamicsModel {
     /// \[rad/s²\]: τ = M(q) q̈ + C(q, q̇) q̇ + g(q).
     #[must_use]
     pub fn inverse_dynamics(&self, q: &JointVector, qd: &JointVector, qdd: &JointVector) -> JointVector {
-        let (sines, cosines) = sin_cos_lanes::<SeparateMulAdd, AXES>(q.as_ref());
+        let (sines, cosines) = sin_cos_lanes::<AXES>(q.as_ref());
         let placed: [RigidTransform; AXES] =
             std::array::from_fn(|i| self.folded[i].turned_about_z(sines[i], cosines[i]));
         let mut motion = Motion {
