@@ -171,8 +171,7 @@ pub fn prove_arm_motion(
     let excluded = excluded.into_iter();
     let not_judged = excluded.filter(|left_out| !clearance.iter().any(|line| is_pair_of(left_out, line)));
     let excluded = not_judged.collect();
-    world.checks_to_world(&mut checks);
-    world.pairs_to_world(&mut clearance);
+    world.move_to_world(&mut checks, &mut clearance, &mut []);
     Ok(ArmMotionProof {
         checks,
         clearance,
@@ -275,13 +274,7 @@ fn jump(pieces: &[Piece], limits: &JointVector, rests_outside: bool) -> Option<C
             joint: Some(joint),
             ..WorstCase::default()
         };
-        let measure = Measure {
-            bound: None,
-            seen: None,
-            limit: limits[joint],
-            sense: Sense::AtMost,
-            unit: Unit::RadianPerSecondSquared,
-        };
+        let measure = Measure::new(Sense::AtMost, limits[joint], Unit::RadianPerSecondSquared, [None; 2]);
         Some(Check {
             status: Status::Violated,
             ..Check::measured(Requirement::JointAcceleration, measure, worst)

@@ -28,8 +28,8 @@ pub enum ProveError {
         name: String,
     },
     /// The knots do not form a motion.
-    #[error("{0}")]
-    Knots(KnotError),
+    #[error(transparent)]
+    Knots(#[from] KnotError),
     /// The motion has fewer than two knots.
     #[error("{}; a motion has at least 2", count_with_noun(*.found, "knot"))]
     NoMotion {
@@ -95,27 +95,9 @@ fn far(position_rad: f64, most_rad: f64) -> String {
     format!("{position_rad:.3e}")
 }
 
-// The messages above hold those of their causes, which are therefore not told again as sources.
-impl From<JobError> for ProveError {
-    fn from(error: JobError) -> Self {
-        Self::Job(error)
-    }
-}
-
-impl From<KnotError> for ProveError {
-    fn from(error: KnotError) -> Self {
-        Self::Knots(error)
-    }
-}
-
+// The message above holds that of its cause, which is therefore not told again as a source.
 impl From<ClearanceError> for ProveError {
     fn from(error: ClearanceError) -> Self {
         Self::Clearance(error)
-    }
-}
-
-impl From<CoverageError> for ProveError {
-    fn from(error: CoverageError) -> Self {
-        Self::Coverage(error)
     }
 }

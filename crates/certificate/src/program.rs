@@ -107,12 +107,12 @@ pub fn prove_program(
 
     let mut subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
     // Speeds are those of the plan's time: what is left of a limit at a share of the speed is more.
-    subject.limits.tilt_rad += TILT_RAD;
-    subject.limits.joints.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
+    subject.tilt_rad += TILT_RAD;
+    subject.joints.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
     let tip = Arm::new(arm, &plan.job.workcell.tool, cancel);
     let along = tip.along(&pieces);
     let tips = Tips::new(&tip, &subject, &along, Some(&schedule));
-    let [position, speed, _] = joints::checks(&pieces, &subject.limits.joints, Some(&schedule));
+    let [position, speed, _] = joints::checks(&pieces, &subject.joints, Some(&schedule));
     let rates = tips.checks(&subject, &pieces, Some(&schedule));
     let (tilt, rates): (Vec<_>, _) = rates
         .into_iter()
@@ -131,14 +131,13 @@ pub fn prove_program(
         contact(&tips, &pieces, &schedule, limits.deviation_m),
         judged,
     ];
-    checks.extend(pairs::checks(subject.limits.clearance_m, &clearance));
+    checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance));
     checks.push(coverage::check(&subject, &swept));
     // A tip is where it should be at any tilt, and the sponge is not.
     checks.extend(tilt);
     checks.retain(|check| subject.asks_for(check.requirement));
     cancel.check()?;
-    world.checks_to_world(&mut checks);
-    world.pairs_to_world(&mut clearance);
+    world.move_to_world(&mut checks, &mut clearance, &mut []);
     let is_implied = |check: &Check| {
         let is_of_tip = matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
         is_of_tip && subject.asks_for(check.requirement)

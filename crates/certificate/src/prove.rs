@@ -80,9 +80,7 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     let mut proof = under_proof.proof(Check::stated(Requirement::Segments, gaps))?;
     cancel.check()?;
     let world = World::of(&plan.job.workcell.mount);
-    world.checks_to_world(&mut proof.checks);
-    world.pairs_to_world(&mut proof.clearance);
-    world.contact_to_world(&mut proof.contact);
+    world.move_to_world(&mut proof.checks, &mut proof.clearance, &mut proof.contact);
     Ok(certificate(plan, &judged.job, arm, proof))
 }
 
@@ -105,14 +103,13 @@ pub fn prove_motion(
     let model = Exclusions::of(&subject)?.model(&subject)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
     let tips = Tips::new(&carrier, &subject, &carrier.along(&pieces), None);
-    let mut clearance = pairs::judge_all(arm, subject.limits.clearance_m, &model, &timeline, cancel)?;
-    pairs::add_still(subject.limits.clearance_m, &model, &mut clearance);
+    let mut clearance = pairs::judge_all(arm, subject.job.requirements.clearance_m, &model, &timeline, cancel)?;
+    pairs::add_still(subject.job.requirements.clearance_m, &model, &mut clearance);
     cancel.check()?;
-    let mut checks = Vec::from(joints::checks(&pieces, &subject.limits.joints, None));
+    let mut checks = Vec::from(joints::checks(&pieces, &subject.joints, None));
     checks.extend(tips.moving_checks(&subject, &pieces, None));
-    checks.extend(pairs::checks(subject.limits.clearance_m, &clearance));
-    world.checks_to_world(&mut checks);
-    world.pairs_to_world(&mut clearance);
+    checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance));
+    world.move_to_world(&mut checks, &mut clearance, &mut []);
     Ok(MotionProof { checks, clearance })
 }
 
@@ -188,11 +185,11 @@ impl PlanUnderProof<'_> {
             schedule::rest_at_wash_ends(plan, schedule),             // 10
             plates::plates_apart(subject)?,                          // 11
         ]);
-        checks.extend(joints::checks(pieces, &subject.limits.joints, schedule)); // 12–14: position, speed, acceleration
+        checks.extend(joints::checks(pieces, &subject.joints, schedule)); // 12–14: position, speed, acceleration
         checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
         checks.push(landing::check(&arm, subject, (pieces, &along), schedule, &tips)); // 21: contact speed
         checks.extend(deviations); // 22, 23: path, line
-        checks.extend(pairs::checks(subject.limits.clearance_m, &clearance)); // 24: all pairs, pairs of reduced clearance
+        checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance)); // 24: all pairs, pairs of reduced clearance
         checks.push(reach::check(subject, &swept)); // 25
         checks.push(coverage::check(subject, &swept)); // 26
         checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: share, time, dose, strain, force
@@ -284,7 +281,7 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
 
 /// Checks that the job can be computed with, and that its bodies are valid.
 pub(crate) fn check_job(job: &JobTerms) -> Result<(), ProveError> {
-    job.validate()?;
+    job.validate().map_err(ProveError::Job)?;
     subject::check(&job.workcell)
 }
 

@@ -19,7 +19,9 @@ use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcel
 pub(crate) struct Subject<'a> {
     pub job: &'a JobTerms,
     pub robot: &'a RobotModel,
-    pub limits: Limits,
+    pub joints: JointLimits,
+    /// Greatest angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
+    pub tilt_rad: f64,
     /// Upwards, in the frame of the arm's base. [`Subject::new`] takes it for that of the world.
     pub up: Vector3<f64>,
     paths: Vec<Option<WashPath>>,
@@ -28,14 +30,13 @@ pub(crate) struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// Joins a job, its arm and the wash paths of its plates; a path may be missing.
     pub fn new(job: &'a JobTerms, robot: &'a RobotModel, paths: Vec<Option<WashPath>>) -> Self {
-        let mut limits = Limits::new(job, robot);
         // A path may state a narrower cone than the job allows; what one states, all keep.
         let cones = paths.iter().flatten().map(|path| path.cone_rad);
-        limits.tilt_rad = cones.fold(limits.tilt_rad, f64::min);
         Self {
             job,
             robot,
-            limits,
+            joints: JointLimits::new(robot, JointVector::from(job.limits.joint_acceleration_rad_s2)),
+            tilt_rad: cones.fold(job.tilt_max_rad(), f64::min),
             up: Vector3::z(),
             paths,
         }
@@ -98,43 +99,6 @@ impl JointLimits {
             position_rad: [limits.lower, limits.upper],
             speed_rad_s: limits.velocity,
             acceleration_rad_s2: limits.within_acceleration(&acceleration_rad_s2),
-        }
-    }
-}
-
-/// Limits of the motion, from the job and the arm.
-#[derive(Debug, Clone)]
-pub(crate) struct Limits {
-    /// Limits of the joints.
-    pub joints: JointLimits,
-    /// Greatest speed of the tip anywhere \[m/s\].
-    pub tip_speed_m_s: f64,
-    /// Greatest acceleration of the tip anywhere \[m/s²\].
-    pub tip_acceleration_m_s2: f64,
-    /// Greatest speed of the tip while it washes \[m/s\].
-    pub wash_speed_m_s: f64,
-    /// Greatest acceleration of the tip while it washes \[m/s²\].
-    pub wash_acceleration_m_s2: f64,
-    /// Greatest angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
-    pub tilt_rad: f64,
-    /// Least clearance \[m\].
-    pub clearance_m: f64,
-    /// Least swept share of a plate's face.
-    pub coverage: f64,
-}
-
-impl Limits {
-    /// Returns the limits of a job and its arm.
-    pub fn new(job: &JobTerms, robot: &RobotModel) -> Self {
-        Self {
-            joints: JointLimits::new(robot, JointVector::from(job.limits.joint_acceleration_rad_s2)),
-            tip_speed_m_s: job.limits.tip_speed_m_s,
-            tip_acceleration_m_s2: job.limits.tip_acceleration_m_s2,
-            wash_speed_m_s: job.wash_speed_m_s(),
-            wash_acceleration_m_s2: job.wash_acceleration_m_s2(),
-            tilt_rad: job.tilt_max_rad(),
-            clearance_m: job.requirements.clearance_m,
-            coverage: job.requirements.coverage,
         }
     }
 }

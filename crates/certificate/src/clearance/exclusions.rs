@@ -87,7 +87,9 @@ impl Exclusions {
             return Check::stated(Requirement::Exclusions, wrong);
         }
         let near = clearance.iter().filter(|line| line.status == Status::Waived);
-        let near = near.map(|line| not_clear(line, subject.limits.clearance_m)).collect();
+        let near = near
+            .map(|line| not_clear(line, subject.job.requirements.clearance_m))
+            .collect();
         Check::stated(Requirement::Exclusions, near).waived_if(true)
     }
 }
@@ -100,7 +102,7 @@ fn not_near_at_stop(subject: &Subject<'_>, model: &ClearanceModel) -> Vec<Discre
     }
     let there = model.all(&subject.job.home_rad[0]);
     let too_little = |reduced: &&ReducedClearance| {
-        let kept_m = subject.limits.clearance_m - reduced.by_m;
+        let kept_m = subject.job.requirements.clearance_m - reduced.by_m;
         let found = there.iter().find(|pair| is_pair(&reduced.pair, (&pair.a, &pair.b)))?;
         (kept_m < found.distance_m - NEARER_M - ROUNDING_M).then(|| {
             let what = format!("clearance of {}, as near at the stop", pair_text(&reduced.pair));

@@ -25,7 +25,7 @@ impl ClearanceRule {
     /// # Errors
     /// [`ProveError`] for a job with which nothing can be computed, or a shape that is none.
     pub fn new(plan: &Plan, arm: &RobotModel) -> Result<Self, ProveError> {
-        plan.job.validate()?;
+        plan.job.validate().map_err(ProveError::Job)?;
         let plan = &*plan.seen_from_base();
         let subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
         let exclusions = Exclusions::of(&subject)?;

@@ -100,7 +100,7 @@ pub(crate) fn judge(
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
     let tasks = tasks(subject, model, waived, timeline, schedule);
-    let limit_m = subject.limits.clearance_m;
+    let limit_m = subject.job.requirements.clearance_m;
     let mut lines = judge_tasks(subject.robot, limit_m, model, &tasks, timeline, cancel)?;
     add_still(limit_m, model, &mut lines);
     Ok(lines)
@@ -323,8 +323,12 @@ fn line(
     limit_m: f64,
 ) -> PairBound {
     let measured = found.filter(|f| f.seen_m.is_finite());
-    let judged =
-        |found: PairDistance| Check::measured(Requirement::Clearance, measure(limit_m, &found), WorstCase::default());
+    let judged = |found: PairDistance| {
+        let at_least_m = Some(found.at_least_m).filter(|b| *b > f64::NEG_INFINITY);
+        let seen_m = Some(found.seen_m).filter(|s| *s < f64::INFINITY);
+        let measure = measure(limit_m, [at_least_m, seen_m]);
+        Check::measured(Requirement::Clearance, measure, WorstCase::default())
+    };
     let status = match (rule, found.map_or(Status::NotProved, |found| judged(found).status)) {
         (PairRule::Touching, _) => Status::Proved,
         (PairRule::Waived, Status::Violated | Status::NotProved) => Status::Waived,
@@ -343,14 +347,10 @@ fn line(
     }
 }
 
-fn measure(limit_m: f64, found: &PairDistance) -> Measure {
-    Measure {
-        bound: Some(found.at_least_m).filter(|b| *b > f64::NEG_INFINITY),
-        seen: Some(found.seen_m).filter(|s| *s < f64::INFINITY),
-        limit: limit_m,
-        sense: if limit_m > 0.0 { Sense::AtLeast } else { Sense::Above },
-        unit: Unit::Metre,
-    }
+/// Measure of a distance \[m\], from its bound and the least one seen; where nothing is required a contact breaks it.
+fn measure(limit_m: f64, bounds: [Option<f64>; 2]) -> Measure {
+    let sense = if limit_m > 0.0 { Sense::AtLeast } else { Sense::Above };
+    Measure::new(sense, limit_m, Unit::Metre, bounds)
 }
 
 /// Checks the clearance over all lines that require it, with the least bound and the position of the least distance found; and, where there
@@ -395,24 +395,17 @@ fn check(requirement: Requirement, limit_m: f64, lines: &[&PairBound]) -> Check 
         key(a).total_cmp(&key(b))
     });
     let bounded = lines.iter().all(|l| l.at_least_m.is_some());
+    let bounds = || [least(|l| l.at_least_m).filter(|_| bounded), least(|l| l.seen_m)];
     Check {
-        requirement,
         status: status(lines),
-        measure: (!lines.is_empty()).then(|| Measure {
-            bound: least(|l| l.at_least_m).filter(|_| bounded),
-            seen: least(|l| l.seen_m),
-            limit: limit_m,
-            sense: if limit_m > 0.0 { Sense::AtLeast } else { Sense::Above },
-            unit: Unit::Metre,
-        }),
+        measure: (!lines.is_empty()).then(|| measure(limit_m, bounds())),
         worst: worst.map_or_else(WorstCase::default, |l| WorstCase {
             time_s: l.time_s,
             place_m: l.place_m,
             pair: Some(l.pair.clone()),
             ..WorstCase::default()
         }),
-        discrepancies: Vec::new(),
-        more_discrepancies: 0,
+        ..Check::not_judged(requirement)
     }
 }
 

@@ -95,13 +95,8 @@ fn check(
         ..WorstCase::default()
     };
     let number = |v: f64| Some(v).filter(|v| v.is_finite() || *v == f64::INFINITY && sense == Sense::AtLeast);
-    let measure = Measure {
-        bound: number(extreme.bound),
-        seen: number(extreme.attained),
-        limit: extreme.limit,
-        sense,
-        unit,
-    };
+    let bounds = [extreme.bound, extreme.attained].map(number);
+    let measure = Measure::new(sense, extreme.limit, unit, bounds);
     Check::measured(name, measure, worst)
 }
 

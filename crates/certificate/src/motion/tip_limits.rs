@@ -5,7 +5,7 @@
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Moment, Stretch, TipPiece};
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
@@ -55,7 +55,7 @@ enum TiltNormal {
 impl Tips {
     /// Bounds all quantities. Without a schedule the whole motion counts as not washing.
     pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[TipPiece<'_>], schedule: Option<&Schedule>) -> Self {
-        let limits = &subject.limits;
+        let (job, limits) = (subject.job, &subject.job.limits);
         let pair = |speed: f64, acceleration: f64| {
             [speed, acceleration].map(|limit| BoundTracker::new(limit, RESOLUTION * limit))
         };
@@ -82,21 +82,21 @@ impl Tips {
         };
         let mut of_limit: Vec<(f64, Vec<&[TipPiece<'_>]>)> = Vec::new();
         if washing.is_empty() {
-            of_limit.push((limits.wash_speed_m_s, Vec::new()));
+            of_limit.push((job.wash_speed_m_s(), Vec::new()));
         }
         for span in washing {
-            let own = limit(span).unwrap_or(limits.wash_speed_m_s);
+            let own = limit(span).unwrap_or(job.wash_speed_m_s());
             match of_limit.iter_mut().find(|(other, _)| *other == own) {
                 Some((_, pieces)) => pieces.push(of(span)),
                 None => of_limit.push((own, vec![of(span)])),
             }
         }
         for (limit, pieces) in of_limit {
-            let mut rates = pair(limit, limits.wash_acceleration_m_s2);
+            let mut rates = pair(limit, job.wash_acceleration_m_s2());
             track_rates(arm, &mut rates, &pieces);
             tips.washing.push((limit, rates));
         }
-        let sine = sin(limits.tilt_rad + TILT_ROUNDING_RAD);
+        let sine = sin(subject.tilt_rad + TILT_ROUNDING_RAD);
         for (i, span) in schedule.spans.iter().enumerate().filter(|(_, s)| s.kind.is_at_plate()) {
             let Some(plate) = subject.plates().get(span.plate) else {
                 continue;
@@ -169,7 +169,7 @@ impl Tips {
 
     /// Checks speed and acceleration while the tip does not wash.
     pub fn moving_checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
-        let (limits, [speed, acceleration]) = (&subject.limits, &self.moving);
+        let (limits, [speed, acceleration]) = (&subject.job.limits, &self.moving);
         let at = |tracker: &BoundTracker| worst_case(tracker, pieces, schedule);
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
         let (v, a) = (limits.tip_speed_m_s, limits.tip_acceleration_m_s2);
@@ -181,7 +181,6 @@ impl Tips {
 
     /// Checks all requirements about the tip.
     pub fn checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Check> {
-        let limits = &subject.limits;
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
         let at = |tracker: &BoundTracker| worst_case(tracker, pieces, schedule);
         let mut all = Vec::from(self.moving_checks(subject, pieces, schedule));
@@ -199,7 +198,7 @@ impl Tips {
         let angle = tilt.through(angle);
         let place = |tracker: &BoundTracker| in_segment(tracker, pieces, schedule);
         let rates = self.washing.iter().map(|(v, [speed, acceleration])| {
-            let a = limits.wash_acceleration_m_s2;
+            let a = subject.job.wash_acceleration_m_s2();
             [
                 check(Requirement::WashSpeed, speed, *v, m_s, at(speed)),
                 check(Requirement::WashAcceleration, acceleration, a, m_s2, at(acceleration)),
@@ -207,7 +206,7 @@ impl Tips {
         });
         let rates = rates.reduce(|[v, a], [w, b]| [tighter(v, w), tighter(a, b)]);
         all.extend(rates.unwrap_or([Requirement::WashSpeed, Requirement::WashAcceleration].map(Check::not_judged)));
-        let most_tilt_rad = limits.tilt_rad + TILT_ROUNDING_RAD;
+        let most_tilt_rad = subject.tilt_rad + TILT_ROUNDING_RAD;
         all.extend([
             check(Requirement::Tilt, &angle, most_tilt_rad, Unit::Radian, place(&tilt)),
             check(
@@ -230,14 +229,7 @@ pub(crate) fn check(
     unit: Unit,
     worst: WorstCase,
 ) -> Check {
-    let finite = |v: f64| Some(v).filter(|v| v.is_finite());
-    let measure = Measure {
-        bound: finite(tracker.bound),
-        seen: finite(tracker.seen),
-        limit,
-        sense: Sense::AtMost,
-        unit,
-    };
+    let measure = Measure::new(Sense::AtMost, limit, unit, [tracker.bound, tracker.seen].map(finite));
     Check::measured(requirement, measure, worst)
 }
 

@@ -3,7 +3,7 @@
 //! Requirement 32 of `docs/certificate.md`.
 
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
@@ -45,13 +45,8 @@ pub(crate) fn check(subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&S
         return Some(Check::not_judged(Requirement::Wrist));
     };
     let (bound, piece) = worst.margin();
-    let measure = Measure {
-        bound: Some(bound).filter(|b| b.is_finite()),
-        seen: Some(bound + 2.0 * worst.rounding).filter(|s| s.is_finite()),
-        limit,
-        sense: Sense::AtLeast,
-        unit: Unit::Radian,
-    };
+    let bounds = [bound, bound + 2.0 * worst.rounding].map(finite);
+    let measure = Measure::new(Sense::AtLeast, limit, Unit::Radian, bounds);
     let place = WorstCase {
         time_s: Some(nearest_0(&pieces[piece])),
         joint: Some(JOINT),

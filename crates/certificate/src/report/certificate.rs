@@ -74,7 +74,7 @@ pub struct Certificate {
     /// The first line in words: the verdict, the numbers reached and required, the waived and the broken requirements.
     pub headline: String,
     /// True if a dry run was compared with its parent plan, and agrees.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub parent_compared: bool,
     /// Requirements that are not kept and that the job waives: [`Status::Waived`].
     pub waived: Vec<Requirement>,
@@ -95,11 +95,6 @@ pub struct Certificate {
     pub clearance: Vec<PairBound>,
     /// Basis of the verdict.
     pub rests_on: VerdictBasis,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks for it
-fn is_false(flag: &bool) -> bool {
-    !flag
 }
 
 impl Certificate {
@@ -164,32 +159,13 @@ impl World {
         Self((*mount != Pose::identity()).then_some(*mount))
     }
 
-    /// Transforms the worst positions of checks to the world frame.
-    pub fn checks_to_world(&self, checks: &mut [Check]) {
-        for check in checks {
-            self.place_to_world(check.worst.place_m.as_mut());
-        }
-    }
-
-    /// Transforms the nearest positions of pairs to the world frame.
-    pub fn pairs_to_world(&self, pairs: &mut [PairBound]) {
-        for pair in pairs {
-            self.place_to_world(pair.place_m.as_mut());
-        }
-    }
-
-    /// Transforms the positions of contact results to the world frame.
-    pub fn contact_to_world(&self, plates: &mut [PlateContact]) {
-        for plate in plates {
-            for place in plate.places_mut() {
-                self.place_to_world(Some(place));
-            }
-        }
-    }
-
-    /// Transforms a position from the base frame to the world frame \[m\].
-    fn place_to_world(&self, place: Option<&mut [f64; 3]>) {
-        if let (Some(mount), Some(place)) = (&self.0, place) {
+    /// Transforms the positions of checks, pairs and contact results to the world frame.
+    pub fn move_to_world(&self, checks: &mut [Check], pairs: &mut [PairBound], plates: &mut [PlateContact]) {
+        let Some(mount) = &self.0 else { return };
+        let of_checks = checks.iter_mut().filter_map(|check| check.worst.place_m.as_mut());
+        let of_pairs = pairs.iter_mut().filter_map(|pair| pair.place_m.as_mut());
+        let of_plates = plates.iter_mut().flat_map(PlateContact::places_mut);
+        for place in of_checks.chain(of_pairs).chain(of_plates) {
             *place = (mount * Point3::from(*place)).into();
         }
     }

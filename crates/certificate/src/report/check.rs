@@ -159,7 +159,23 @@ const MOST_DISCREPANCIES: usize = 20;
 /// Relative amount by which a value may exceed a limit, for the rounding of everything that leads to a bound.
 pub(crate) const ROUNDING: f64 = 1e-9;
 
+/// Returns a number, where it is finite.
+pub(crate) fn finite(number: f64) -> Option<f64> {
+    Some(number).filter(|number| number.is_finite())
+}
+
 impl Measure {
+    /// Returns a measure of its bound and the worst value seen.
+    pub(crate) fn new(sense: Sense, limit: f64, unit: Unit, [bound, seen]: [Option<f64>; 2]) -> Self {
+        Self {
+            bound,
+            seen,
+            limit,
+            sense,
+            unit,
+        }
+    }
+
     /// Checks that a value is on the right side of the limit. False for NaN.
     pub(crate) fn is_within_limit(&self, value: f64) -> bool {
         let slack = ROUNDING * self.limit.abs().max(1e-3);
@@ -167,6 +183,16 @@ impl Measure {
             Sense::AtMost => value <= self.limit + slack,
             Sense::AtLeast => reaches(value, self.limit),
             Sense::Above => value > self.limit,
+        }
+    }
+}
+
+impl WorstCase {
+    /// Returns the worst case that is known by its plate alone.
+    pub(crate) fn on_plate(plate: usize) -> Self {
+        Self {
+            plate: Some(plate),
+            ..Self::default()
         }
     }
 }
@@ -182,12 +208,10 @@ impl Check {
         let more_discrepancies = discrepancies.len().saturating_sub(MOST_DISCREPANCIES);
         discrepancies.truncate(MOST_DISCREPANCIES);
         Self {
-            requirement,
             status,
-            measure: None,
-            worst: WorstCase::default(),
             discrepancies,
             more_discrepancies,
+            ..Self::not_judged(requirement)
         }
     }
 
@@ -201,12 +225,10 @@ impl Check {
             _ => Status::NotProved,
         };
         Self {
-            requirement,
             status,
             measure: Some(measure),
             worst,
-            discrepancies: Vec::new(),
-            more_discrepancies: 0,
+            ..Self::not_judged(requirement)
         }
     }
 

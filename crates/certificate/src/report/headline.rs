@@ -102,13 +102,8 @@ fn achieved_text(certificate: &Certificate) -> String {
     let share = number(requirement).map(|share| format!(", each {verb} {share}"));
     let clearance = number(Requirement::Clearance).map(|least| format!(", clearance {least}"));
     let reduced = certificate.clearance.iter().filter_map(|line| {
-        let measure = Measure {
-            bound: line.at_least_m,
-            seen: line.seen_m,
-            limit: line.required_m?,
-            sense: Sense::AtLeast,
-            unit: Unit::Metre,
-        };
+        let bounds = [line.at_least_m, line.seen_m];
+        let measure = Measure::new(Sense::AtLeast, line.required_m?, Unit::Metre, bounds);
         Some(format!(", between {} {}", pair_text(&line.pair), at_least(&measure)?))
     });
     let is_motion_home = certificate.rests_on.kind() == PlanKind::MotionHome;
@@ -325,26 +320,34 @@ struct Row {
     more_is_stricter: bool,
 }
 
+/// Scale and unit that a number is told in.
+type Told = (f64, &'static str);
+
+const PERCENT: Told = (100.0, " %");
+const MILLIMETRE: Told = (1e3, " mm");
+const METRE_PER_SECOND: Told = (1.0, " m/s");
+const METRE_PER_SECOND_SQUARED: Told = (1.0, " m/s²");
+const NEWTON: Told = (1.0, " N");
+const DEGREE: Told = (1.0, "°");
+
 impl Row {
-    fn at_least(name: &'static str, required: f64, usual: f64, unit: &'static str) -> Self {
-        let more_is_stricter = true;
+    fn at_least(name: &'static str, required: f64, usual: f64, (scale, unit): Told) -> Self {
         Self {
             name,
-            required,
-            usual,
+            required: scale * required,
+            usual: scale * usual,
             unit,
-            more_is_stricter,
+            more_is_stricter: true,
         }
     }
 
-    fn at_most(name: &'static str, required: f64, usual: f64, unit: &'static str) -> Self {
+    fn at_most(name: &'static str, required: f64, usual: f64, told: Told) -> Self {
         Self {
             more_is_stricter: false,
-            ..Self::at_least(name, required, usual, unit)
+            ..Self::at_least(name, required, usual, told)
         }
     }
 
-    /// True if less is required than usual. Nine digits are compared, as degrees are stated and radians are stored.
     fn is_laxer(&self) -> bool {
         let slack = 1e-9 * self.usual.abs();
         if self.more_is_stricter {
@@ -371,88 +374,60 @@ pub(crate) fn laxer_requirements(kind: PlanKind, wanted: &Requirements, limits: 
         PlanKind::DryRun => dry_run::SPEED_M_S,
         PlanKind::Wash | PlanKind::MotionHome | PlanKind::Rest => TIP_SPEED_M_S,
     };
-    let mut rows = vec![Row::at_least(
-        "clearance",
-        1e3 * wanted.clearance_m,
-        1e3 * CLEARANCE_M,
-        " mm",
-    )];
+    let mut rows = vec![Row::at_least("clearance", wanted.clearance_m, CLEARANCE_M, MILLIMETRE)];
     match (kind, wanted.lifting_m_s) {
         (PlanKind::MotionHome, Some(lifting_m_s)) => {
-            rows.push(Row::at_most("lifting speed", lifting_m_s, RETREAT_M_S, " m/s"));
+            rows.push(Row::at_most(
+                "lifting speed",
+                lifting_m_s,
+                RETREAT_M_S,
+                METRE_PER_SECOND,
+            ));
         }
         (PlanKind::MotionHome, None) => {}
         (PlanKind::Wash | PlanKind::DryRun | PlanKind::Rest, _) => {
-            rows.insert(0, Row::at_least("swept", 100.0 * wanted.coverage, 100.0 * SWEPT, " %"));
+            rows.insert(0, Row::at_least("swept", wanted.coverage, SWEPT, PERCENT));
             rows.extend(of_washing(wanted));
         }
     }
+    let (speed, acceleration) = (limits.tip_speed_m_s, limits.tip_acceleration_m_s2);
+    let unit = METRE_PER_SECOND_SQUARED;
     rows.extend([
-        Row::at_most("tip speed", limits.tip_speed_m_s, tip_speed_m_s, " m/s"),
-        Row::at_most(
-            "tip acceleration",
-            limits.tip_acceleration_m_s2,
-            TIP_ACCELERATION_M_S2,
-            " m/s²",
-        ),
+        Row::at_most("tip speed", speed, tip_speed_m_s, METRE_PER_SECOND),
+        Row::at_most("tip acceleration", acceleration, TIP_ACCELERATION_M_S2, unit),
     ]);
     rows.iter().filter(|row| row.is_laxer()).map(Row::words).collect()
 }
 
 /// Rows of a plan that washes plates.
 fn of_washing(wanted: &Requirements) -> Vec<Row> {
+    let (speed_m_s, unit) = (wanted.wash_speed_m_s, METRE_PER_SECOND_SQUARED);
+    let acceleration = wanted.wash_acceleration_m_s2;
     let mut rows = vec![
-        Row::at_most("tilt", wanted.tilt_rad.to_degrees(), TILT_DEG, "°"),
-        Row::at_most("wash speed", wanted.wash_speed_m_s, WASH_SPEED_M_S, " m/s"),
-        Row::at_most(
-            "wash acceleration",
-            wanted.wash_acceleration_m_s2,
-            WASH_ACCELERATION_M_S2,
-            " m/s²",
-        ),
+        Row::at_most("tilt", wanted.tilt_rad.to_degrees(), TILT_DEG, DEGREE),
+        Row::at_most("wash speed", speed_m_s, WASH_SPEED_M_S, METRE_PER_SECOND),
+        Row::at_most("wash acceleration", acceleration, WASH_ACCELERATION_M_S2, unit),
     ];
     if let Some(contact) = &wanted.contact {
-        let speed = |stated: Option<f64>| stated.unwrap_or(wanted.wash_speed_m_s);
-        let [least_n, most_n] = contact.force_n;
+        // Where the job states no speed of landing or lifting, that of washing is the limit.
+        let speed = |stated: Option<f64>| stated.unwrap_or(speed_m_s);
+        let [landing, lifting] = [wanted.landing_m_s, wanted.lifting_m_s].map(speed);
+        let wrist_deg = wanted.wrist_rad.unwrap_or(0.0).to_degrees();
+        let ([least_n, most_n], error_m) = (contact.force_n, contact.height_error_m);
         rows.extend([
-            Row::at_least("pressed", 100.0 * contact.share, 100.0 * CONTACT.share, " %"),
-            Row::at_least(
-                "compression",
-                1e3 * contact.compression_m,
-                1e3 * CONTACT.compression_m,
-                " mm",
-            ),
-            Row::at_least(
-                "error of height",
-                1e3 * contact.height_error_m,
-                1e3 * CONTACT.height_error_m,
-                " mm",
-            ),
-            Row::at_least("contact time", contact.time_s, CONTACT.time_s, " s"),
-            Row::at_least(
-                "contact time on",
-                100.0 * contact.time_share,
-                100.0 * CONTACT.time_share,
-                " %",
-            ),
-            Row::at_least("contact dose", contact.dose_pa_m, CONTACT.dose_pa_m, " Pa·m"),
-            Row::at_least(
-                "contact dose on",
-                100.0 * contact.dose_share,
-                100.0 * CONTACT.dose_share,
-                " %",
-            ),
-            Row::at_most("strain", 100.0 * contact.strain, 100.0 * CONTACT.strain, " %"),
-            Row::at_least("contact force", least_n, CONTACT.force_n[0], " N"),
-            Row::at_most("contact force", most_n, CONTACT.force_n[1], " N"),
-            Row::at_most("landing speed", speed(wanted.landing_m_s), CONTACT_SPEED_M_S, " m/s"),
-            Row::at_most("lifting speed", speed(wanted.lifting_m_s), CONTACT_SPEED_M_S, " m/s"),
-            Row::at_least(
-                "joint 5 from 0",
-                wanted.wrist_rad.unwrap_or(0.0).to_degrees(),
-                WRIST_DEG,
-                "°",
-            ),
+            Row::at_least("pressed", contact.share, CONTACT.share, PERCENT),
+            Row::at_least("compression", contact.compression_m, CONTACT.compression_m, MILLIMETRE),
+            Row::at_least("error of height", error_m, CONTACT.height_error_m, MILLIMETRE),
+            Row::at_least("contact time", contact.time_s, CONTACT.time_s, (1.0, " s")),
+            Row::at_least("contact time on", contact.time_share, CONTACT.time_share, PERCENT),
+            Row::at_least("contact dose", contact.dose_pa_m, CONTACT.dose_pa_m, (1.0, " Pa·m")),
+            Row::at_least("contact dose on", contact.dose_share, CONTACT.dose_share, PERCENT),
+            Row::at_most("strain", contact.strain, CONTACT.strain, PERCENT),
+            Row::at_least("contact force", least_n, CONTACT.force_n[0], NEWTON),
+            Row::at_most("contact force", most_n, CONTACT.force_n[1], NEWTON),
+            Row::at_most("landing speed", landing, CONTACT_SPEED_M_S, METRE_PER_SECOND),
+            Row::at_most("lifting speed", lifting, CONTACT_SPEED_M_S, METRE_PER_SECOND),
+            Row::at_least("joint 5 from 0", wrist_deg, WRIST_DEG, DEGREE),
         ]);
     }
     rows

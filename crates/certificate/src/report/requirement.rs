@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Declares the requirements once. The enum, [`Requirement::ALL`] and the names in files and settings follow from the list, so none can be
-/// missing.
+/// Declares the requirements once, each with its name, the section of the documentation, the formulas and a sentence. The enum,
+/// [`Requirement::ALL`], the names in files and settings and the explanations follow from the list, so none can be missing.
 macro_rules! requirements {
-    ($($(#[$doc:meta])* $requirement:ident = $name:literal,)*) => {
+    ($($(#[$doc:meta])* $requirement:ident = $name:literal $section:literal [$($formula:literal),*] $sentence:literal,)*) => {
         /// A requirement of a plan, in the order of the certificate.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         #[non_exhaustive]
@@ -24,83 +24,105 @@ macro_rules! requirements {
                     $(Self::$requirement => $name,)*
                 }
             }
+
+            /// Sentence for readers, number of the section of the documentation, and numbers of the formulas that bound it.
+            pub(crate) const fn explained(self) -> (&'static str, u8, &'static [&'static str]) {
+                match self {
+                    $(Self::$requirement => ($sentence, $section, &[$($formula),*]),)*
+                }
+            }
         }
     };
 }
 
 requirements! {
     /// The arm is the one that the plan is for: same name, same hashes of the description and the SRDF.
-    Arm = "arm",
+    Arm = "arm" 1 [] "The arm is the one that the plan was made for.",
     /// The tip is the middle of the sponge's far face.
-    Tool = "tool",
+    Tool = "tool" 2 [] "The tip is the middle of the sponge's far face.",
     /// No plate reaches below the floor.
-    Plates = "plates",
+    Plates = "plates" 3 [] "No plate reaches below the floor.",
     /// A dry run's plates are raised, and the real ones stand below them as obstacles. For dry runs only.
-    DryRun = "dry_run",
+    DryRun = "dry_run" 4 [] "The plates of the dry run are raised, and the real ones stand below them as obstacles.",
     /// The excluded pairs follow from the arm and its SRDF; any other excluded pair keeps clear all the same, or is waived.
-    Exclusions = "exclusions",
+    Exclusions = "exclusions" 5 []
+        "No pair of bodies is left out of the proof of clearance but those that follow from the arm.",
     /// Every plate has a wash path that can be judged.
-    WashPaths = "wash_paths",
+    WashPaths = "wash_paths" 6 [] "Every plate has a wash path that can be judged.",
     /// The segments follow one another from home to home.
-    Segments = "segments",
+    Segments = "segments" 7 [] "The parts of the motion follow one another from home to home without a gap.",
     /// Every plate is in the order and is washed once; while another one is washed no more than its rim is swept.
-    EveryPlateOnce = "every_plate_once",
+    EveryPlateOnce = "every_plate_once" 8 ["8.1"]
+        "Each plate is washed once; meanwhile the sponge sweeps no more than the rim of another.",
     /// The motion starts and ends at rest in the job's home positions.
-    HomeToHome = "home_to_home",
+    HomeToHome = "home_to_home" 9 [] "The motion starts and ends at rest at home.",
     /// The arm rests where a wash begins and where it ends. A tilted sponge touches before and after: see
     /// [`Requirement::ContactSpeed`].
-    RestAtWashEnds = "rest_at_wash_ends",
+    RestAtWashEnds = "rest_at_wash_ends" 10 [] "The arm rests where each wash begins and where it ends.",
     /// No plate overlaps another or the base.
-    PlatesApart = "plates_apart",
+    PlatesApart = "plates_apart" 11 [] "No plate overlaps another, the base or an obstacle.",
     /// Joint positions, as the margin to the nearest limit.
-    JointPosition = "joint_position",
+    JointPosition = "joint_position" 12 ["12.1"]
+        "Distance of every joint from the nearer end of its range, at every moment.",
     /// Joint speeds.
-    JointSpeed = "joint_speed",
+    JointSpeed = "joint_speed" 13 ["12.1", "12.2"]
+        "Speed of every joint at every moment; shown is the one that takes most of its limit.",
     /// Joint accelerations.
-    JointAcceleration = "joint_acceleration",
+    JointAcceleration = "joint_acceleration" 14 ["12.1", "12.2"]
+        "Acceleration of every joint at every moment; shown is the one that takes most of its limit.",
     /// Speed of the tip while it does not wash.
-    TipSpeed = "tip_speed",
+    TipSpeed = "tip_speed" 15 ["15.1"] "Speed of the tip while it does not wash.",
     /// Acceleration of the tip while it does not wash.
-    TipAcceleration = "tip_acceleration",
+    TipAcceleration = "tip_acceleration" 16 ["16.1"] "Acceleration of the tip while it does not wash.",
     /// Speed of the tip while it washes.
-    WashSpeed = "wash_speed",
+    WashSpeed = "wash_speed" 17 ["15.1"] "Speed of the tip while it washes.",
     /// Acceleration of the tip while it washes.
-    WashAcceleration = "wash_acceleration",
+    WashAcceleration = "wash_acceleration" 18 ["16.1"] "Acceleration of the tip while it washes.",
     /// Angle of the tool from the plate's normal while it approaches, washes and retreats.
-    Tilt = "tilt",
+    Tilt = "tilt" 19 ["19.1"] "Angle between the tool and the plate's normal from the approach to the retreat.",
     /// Height of the tip over or under the plate while it washes.
-    ContactHeight = "contact_height",
+    ContactHeight = "contact_height" 20 ["20.1"] "Height of the tip over or under the plate's face while it washes.",
     /// Speed of every touching point of the sponge, at or below the plate's face, while it comes down and while it leaves.
-    ContactSpeed = "contact_speed",
+    ContactSpeed = "contact_speed" 21 ["21.1", "21.2"]
+        "Speed of every touching point of the sponge while it comes down and while it leaves.",
     /// Distance of the tip from the wash path, which it follows completely and in order.
-    PathDeviation = "path_deviation",
+    PathDeviation = "path_deviation" 22 ["22.1"]
+        "Distance of the tip from the wash path, which it follows whole and in order.",
     /// Distance of the tip from the plate's normal while it approaches and retreats.
-    LineDeviation = "line_deviation",
+    LineDeviation = "line_deviation" 23 ["22.1"]
+        "Distance of the tip from the plate's normal while it approaches and retreats.",
     /// Clearance of every pair.
-    Clearance = "clearance",
+    Clearance = "clearance" 24 ["24.1", "24.2", "24.3"] "Distance between any two bodies that must not touch.",
     /// Clearance of the pairs that keep less than the others, as the job states. For jobs with such pairs only.
-    ReducedClearance = "reduced_clearance",
+    ReducedClearance = "reduced_clearance" 24 ["24.1", "24.2", "24.3"]
+        "Distance of the pairs for which the job states less than for the others.",
     /// Reach of the sponge beyond the rim of the plate that it washes.
-    Reach = "reach",
+    Reach = "reach" 25 ["25.1"] "How far the sponge reaches beyond the rim of the plate that it washes.",
     /// Share of each plate that the sponge sweeps.
-    Swept = "swept",
+    Swept = "swept" 26 ["26.1"] "Share of each plate that the sponge goes over while it touches.",
     /// Share of each plate's face, by area, that compresses the sponge enough to count as contact, for every plate height within the error.
     /// Applies where the job has contact requirements, like all up to [`Requirement::Wrist`].
-    Pressed = "pressed",
+    Pressed = "pressed" 27 ["27.1", "27.2"]
+        "Share of each face that presses the sponge in far enough, however high the plate lies within the height error.",
     /// Share of each plate's face that is in contact long enough.
-    ContactTime = "contact_time",
+    ContactTime = "contact_time" 28 ["28.1"] "Share of each face that is pressed for long enough.",
     /// Share of each plate's face that gets enough dose, pressure integrated over sliding distance, in contact.
-    ContactDose = "contact_dose",
+    ContactDose = "contact_dose" 29 ["28.1"]
+        "Share of each face that gets enough dose: pressure times the way that the sponge slides.",
     /// Greatest strain of the sponge.
-    Strain = "strain",
+    Strain = "strain" 30 ["30.1"] "Greatest compression of the sponge, as a share of its height.",
     /// Force along the sponge's axis while it washes, between the least and the greatest allowed.
-    ContactForce = "contact_force",
+    ContactForce = "contact_force" 31 ["31.1"]
+        "Force along the sponge's axis while it washes, over the whole range of the foam's stiffness.",
     /// Distance of joint 5 from 0, on the same side from an approach to the retreat after it.
-    Wrist = "wrist",
+    Wrist = "wrist" 32 ["12.1"]
+        "Distance of joint 5 from 0, where the wrist loses a direction, while the sponge is at a plate.",
     /// Each plate stays where it is while the sponge presses it. For jobs that state what holds the plates.
-    PlateStays = "plate_stays",
+    PlateStays = "plate_stays" 33 ["33.1", "33.2", "33.3", "33.4", "33.5"]
+        "Each plate stays where it is while the sponge presses it.",
     /// Distance of the tip from its position in the plan at the same time. For programs only.
-    PlanDeviation = "plan_deviation",
+    PlanDeviation = "plan_deviation" 34 ["34.1"]
+        "Distance between the tip in the robot program and in the plan at the same time.",
 }
 
 impl Requirement {

@@ -20,34 +20,26 @@ const GREATEST_M: f64 = 10.0;
 /// Least angle of a blend between two rings \[rad\].
 const LEAST_BLEND_RAD: f64 = 1e-3;
 
-/// Number of a path with its allowed range.
-struct Number {
-    name: &'static str,
-    found: f64,
-    range: [f64; 2],
-}
+/// Number of a path: its name, its value, and the least and greatest that can be judged.
+type Number = (&'static str, f64, [f64; 2]);
 
-impl Number {
-    fn is_within(&self) -> bool {
-        let [least, most] = self.range;
-        (least..=most).contains(&self.found)
-    }
+fn is_within((_, found, [least, most]): &Number) -> bool {
+    (least..=most).contains(&found)
 }
 
 /// Returns the numbers of a path with their ranges. The swept area grows with them, and so does the time of judging it.
 fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
-    let number = |name, found, range| Number { name, found, range };
     let curve = &path.curve;
     // A spiral of mean radius R/2, and a ring.
     let length_m = PI * curve.radius_m * (curve.turns + 2.0);
     let mut numbers = Vec::from([
-        number("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, GREATEST_M]),
-        number("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS]),
-        number("curve.start_angle_rad", curve.start_angle_rad, [-TAU, TAU]),
-        number("curve.trim_rad", curve.trim_rad, [0.0, MOST_TRIM_RAD]),
-        number("length of the curve", length_m, [0.0, LONGEST_M]),
-        number("lift_m", path.lift_m, [f64::MIN_POSITIVE, GREATEST_M]),
-        number("cone_rad", path.cone_rad, [0.0, tilt_rad]),
+        ("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, GREATEST_M]),
+        ("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS]),
+        ("curve.start_angle_rad", curve.start_angle_rad, [-TAU, TAU]),
+        ("curve.trim_rad", curve.trim_rad, [0.0, MOST_TRIM_RAD]),
+        ("length of the curve", length_m, [0.0, LONGEST_M]),
+        ("lift_m", path.lift_m, [f64::MIN_POSITIVE, GREATEST_M]),
+        ("cone_rad", path.cone_rad, [0.0, tilt_rad]),
     ]);
     if let Some(rings) = &curve.rings {
         let count = rings.count as f64;
@@ -55,12 +47,12 @@ fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
         let laps = f64::from(rings.laps);
         let length_m = TAU * curve.radius_m * (laps * count + 1.0);
         numbers.extend([
-            number("curve.rings.laps", laps, [1.0, f64::from(MOST_PASSES)]),
-            number("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
-            number("curve.rings.inner_m", rings.inner_m, [0.0, curve.radius_m]),
-            number("curve.rings.lead_rad", rings.lead_rad, [0.0, TAU]),
-            number("curve.rings.blend_rad", rings.blend_rad, [LEAST_BLEND_RAD, TAU]),
-            number("length of the rings", length_m, [0.0, 2.0 * LONGEST_M]),
+            ("curve.rings.laps", laps, [1.0, f64::from(MOST_PASSES)]),
+            ("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
+            ("curve.rings.inner_m", rings.inner_m, [0.0, curve.radius_m]),
+            ("curve.rings.lead_rad", rings.lead_rad, [0.0, TAU]),
+            ("curve.rings.blend_rad", rings.blend_rad, [LEAST_BLEND_RAD, TAU]),
+            ("length of the rings", length_m, [0.0, 2.0 * LONGEST_M]),
         ]);
     }
     numbers
@@ -72,7 +64,7 @@ pub(crate) fn by_plate(plan: &Plan) -> Vec<Option<WashPath>> {
     if PlanKind::of(&plan.job).rule(Statement::WashPaths) == StatementRule::Refused {
         return vec![None; plan.job.plates.len()];
     }
-    let is_sound = |path: &&WashPath| numbers(path, tilt_rad).iter().all(Number::is_within);
+    let is_sound = |path: &&WashPath| numbers(path, tilt_rad).iter().all(is_within);
     let of = |plate| plan.wash_path_of(plate).filter(is_sound).copied();
     (0..plan.job.plates.len()).map(of).collect()
 }
@@ -92,10 +84,10 @@ pub(crate) fn check(plan: &Plan) -> Check {
     }
     let tilt_rad = plan.job.tilt_max_rad();
     for (i, path) in plan.wash_paths.iter().enumerate() {
-        for number in numbers(path, tilt_rad).into_iter().filter(|number| !number.is_within()) {
-            let [least, most] = number.range;
-            let what = format!("wash_paths[{i}]: {}", number.name);
-            wrong.push(Discrepancy::new(what, number.found, format!("from {least} to {most}")));
+        let numbers = numbers(path, tilt_rad).into_iter();
+        for (name, found, [least, most]) in numbers.filter(|number| !is_within(number)) {
+            let what = format!("wash_paths[{i}]: {name}");
+            wrong.push(Discrepancy::new(what, found, format!("from {least} to {most}")));
         }
         let passes = plan
             .job

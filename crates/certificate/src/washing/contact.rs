@@ -4,20 +4,19 @@
 
 use crate::error::ProveError;
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
 use crate::report::requirement::Requirement;
 use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
-use crate::washing::holding::{HolderInputs, HolderLoad};
+use crate::washing::coverage::Washing;
+use crate::washing::holding::HolderLoad;
 use crate::washing::instants::Instants;
 use crate::washing::pressing::{self, DiscWashBounds, Extreme, FRICTION, Pressing};
 use crate::washing::shares::{Fineness, Share, Shares, shares};
 use nalgebra::Vector3;
-use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::contact::Foundation;
 use platewash_workcell::coverage::reaches;
-use platewash_workcell::job::{ContactRequirements, HolderTerms};
-use platewash_workcell::plate::Plate;
+use platewash_workcell::job::ContactRequirements;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
@@ -109,26 +108,14 @@ impl PlateContact {
 
 /// Wash whose contact is judged, with the data it needs.
 pub(crate) struct ContactInputs<'a> {
-    pub plate: &'a Plate,
-    pub index: usize,
+    pub washing: &'a Washing<'a>,
     pub foundation: &'a Foundation,
     pub wanted: &'a ContactRequirements,
     pub instants: &'a Instants,
     /// Moments of the approaches to the plate and the retreats from it.
     pub around: &'a [Instants],
-    /// Bounds of the wash that a disc needs.
-    pub known: DiscWashBounds,
-    /// True where every line along the tool's axis meets the face once, from above, during the wash.
-    pub meets: bool,
-    /// Same as `meets`, from approach to retreat.
-    pub around_meets: bool,
-    /// Least cosine of the angle between the tool and the plate's axis from approach to retreat.
-    pub cosine: f64,
-    /// Holder of the plate, where the job states it.
-    pub holder: Option<&'a HolderTerms>,
-    /// Upwards, in the frame of the plate's pose.
-    pub up: &'a Vector3<f64>,
-    pub cancel: &'a CancelToken,
+    /// Upper bound on the distance of the tip from the plate's pole during the wash, seen along the plate's axis \[m\].
+    pub distance_m: f64,
 }
 
 impl ContactInputs<'_> {
@@ -137,22 +124,30 @@ impl ContactInputs<'_> {
     /// # Errors
     /// [`ProveError::Cancelled`].
     pub fn judge(&self) -> Result<PlateContact, ProveError> {
-        let (wanted, foundation) = (self.wanted, self.foundation);
-        let mut pressing = if self.plate.surface.is_flat() {
-            Pressing::on_disc(self.plate, foundation, self.instants, &self.known)
-        } else if !self.meets {
+        let (wanted, foundation, washing) = (self.wanted, self.foundation, self.washing);
+        let plate = washing.plate;
+        let meets = washing.meets_from_above();
+        let mut pressing = if plate.surface.is_flat() {
+            let known = DiscWashBounds {
+                height_m: washing.tips.greatest_height_of(washing.span),
+                cosine: washing.tips.least_upright_cosine_of(washing.span),
+                distance_m: self.distance_m,
+                error_m: wanted.height_error_m,
+            };
+            Pressing::on_disc(plate, foundation, self.instants, &known)
+        } else if !meets {
             Pressing::unknown()
         } else {
-            pressing::on_face(self.plate, foundation, self.instants, wanted.height_error_m)
+            pressing::on_face(plate, foundation, self.instants, wanted.height_error_m)
         };
-        self.cancel.check()?;
+        washing.cancel.check()?;
         // The losses between moments are bounded only while no column is compressed by more than its height.
-        let known = self.meets && pressing.deepest.bound <= foundation.free_height_m;
+        let known = meets && pressing.deepest.bound <= foundation.free_height_m;
         let found = known.then(|| self.shares());
         for instants in self.around {
             let around = self.around(instants, &pressing);
             pressing.cover_load(&around);
-            self.cancel.check()?;
+            washing.cancel.check()?;
         }
         let share = |of: fn(&Shares) -> Share, required: f64, threshold: f64| {
             let share = found.as_ref().map(of);
@@ -165,30 +160,15 @@ impl ContactInputs<'_> {
             }
         };
         let [softest, stiffest] = foundation.stiffness_pa.map(|pa| pa / foundation.free_height_m);
-        let extreme = |of: &Extreme, scale: f64| {
-            let finite = |v: f64| Some(v * scale).filter(|v| v.is_finite());
-            ProvedExtreme {
-                bound: finite(of.bound),
-                seen: finite(of.seen),
-                time_s: of.time_s,
-                place_m: self.world(of.place_m),
-            }
+        let extreme = |of: &Extreme, scale: f64| ProvedExtreme {
+            bound: finite(of.bound * scale),
+            seen: finite(of.seen * scale),
+            time_s: of.time_s,
+            place_m: self.world(of.place_m),
         };
         let torque = FRICTION.map(|friction| friction * stiffest * pressing.twist_m4);
-        let holder_load = HolderInputs {
-            plate: self.plate,
-            foundation,
-            pressing: &pressing,
-            tip_m: std::iter::once(self.instants)
-                .chain(self.around)
-                .map(Instants::tip_within_m)
-                .fold(0.0, f64::max),
-            cosine: self.cosine,
-            terms: self.holder,
-            up: self.up,
-        };
         Ok(PlateContact {
-            plate: self.index,
+            plate: washing.index,
             pressed: share(|s| s.contact, wanted.share, wanted.compression_m),
             time: share(|s| s.time, wanted.time_share, wanted.time_s),
             dose: share(|s| s.dose, wanted.dose_share, wanted.dose_pa_m),
@@ -196,16 +176,16 @@ impl ContactInputs<'_> {
             least_force_n: extreme(&pressing.volume[0], softest),
             greatest_force_n: extreme(&pressing.volume[1], stiffest),
             friction_torque_nm: Some(torque).filter(|t| t.iter().all(|t| t.is_finite())),
-            holder_load: holder_load.load(),
+            holder_load: self.holder_load(&pressing),
         })
     }
 
     /// Bounds the load before or after the wash.
     fn around(&self, instants: &Instants, wash: &Pressing) -> Pressing {
-        let (plate, foundation, error_m) = (self.plate, self.foundation, self.wanted.height_error_m);
+        let (plate, foundation, error_m) = (self.washing.plate, self.foundation, self.wanted.height_error_m);
         if plate.surface.is_flat() {
             Pressing::around_disc(plate, foundation, instants, error_m)
-        } else if self.around_meets {
+        } else if self.washing.meets_at(self.washing.around_cosine) {
             pressing::around_face(plate, foundation, instants, wash, error_m)
         } else {
             Pressing::unknown()
@@ -221,11 +201,11 @@ impl ContactInputs<'_> {
             enough: [wanted.share, wanted.time_share, wanted.dose_share],
         };
         let moments = (&self.instants.moments[..], &self.instants.sags[..]);
-        shares(&self.plate.surface, self.foundation, moments, &asked, &fineness)
+        shares(&self.washing.plate.surface, self.foundation, moments, &asked, &fineness)
     }
 
     fn world(&self, place: [f64; 3]) -> [f64; 3] {
-        self.plate.world(&Vector3::from(place)).into()
+        self.washing.plate.world(&Vector3::from(place)).into()
     }
 }
 
@@ -246,11 +226,7 @@ pub(crate) fn checks(
         Requirement::Strain,
         Requirement::ContactForce,
     ];
-    let all_washed = subject
-        .job
-        .plates_to_wash()
-        .all(|plate| all.iter().any(|c| c.plate == plate));
-    if !all_washed {
+    if !are_of_all_plates(subject, all) {
         return asked.map(Check::not_judged).into();
     }
     let share = |requirement, of: fn(&PlateContact) -> &ProvedShare| {
@@ -302,17 +278,15 @@ pub(crate) fn checks(
 }
 
 fn of_share(requirement: Requirement, plate: usize, share: &ProvedShare) -> Check {
-    let measure = Measure {
-        bound: Some(share.at_least),
-        seen: None,
-        limit: share.required,
-        sense: Sense::AtLeast,
-        unit: Unit::Share,
-    };
+    let measure = Measure::new(
+        Sense::AtLeast,
+        share.required,
+        Unit::Share,
+        [Some(share.at_least), None],
+    );
     let worst = WorstCase {
-        plate: Some(plate),
         place_m: share.worst_m,
-        ..WorstCase::default()
+        ..WorstCase::on_plate(plate)
     };
     Check::measured(requirement, measure, worst)
 }
@@ -335,22 +309,21 @@ fn of_extreme(
         .iter()
         .filter_map(|c| of(c).seen)
         .max_by(|a, b| (sign * a).total_cmp(&(sign * b)));
-    let measure = Measure {
-        bound: of(worst).bound,
-        seen,
-        limit,
-        sense,
-        unit,
-    };
+    let measure = Measure::new(sense, limit, unit, [of(worst).bound, seen]);
     let segment = schedule.and_then(|s| s.at_plate(pieces, worst.plate, of(worst).time_s));
     let place = WorstCase {
-        plate: Some(worst.plate),
         time_s: Some(of(worst).time_s),
         place_m: Some(of(worst).place_m),
         segment,
-        ..WorstCase::default()
+        ..WorstCase::on_plate(worst.plate)
     };
     Check::measured(requirement, measure, place)
+}
+
+/// True if the contact with every plate to wash is known.
+pub(crate) fn are_of_all_plates(subject: &Subject<'_>, all: &[PlateContact]) -> bool {
+    let mut plates = subject.job.plates_to_wash();
+    plates.all(|plate| all.iter().any(|c| c.plate == plate))
 }
 
 /// Returns the worse of two sides of a requirement: the one that is not kept, or the one with the smaller relative margin to its limit.

@@ -20,7 +20,6 @@ use crate::subject::Subject;
 use crate::washing::contact::{CELLS_M, ContactInputs, PlateContact};
 use crate::washing::face::{Face, norm};
 use crate::washing::instants::Instants;
-use crate::washing::pressing::DiscWashBounds;
 use crate::washing::reach::ReachedNeighbour;
 use crate::washing::shares::{Fineness, shares};
 use platewash_workcell::cancel::CancelToken;
@@ -106,20 +105,20 @@ pub(crate) fn washes(
 }
 
 /// The wash under judgement, with the data it needs.
-struct Washing<'a> {
+pub(crate) struct Washing<'a> {
     arm: &'a Arm<'a>,
-    subject: &'a Subject<'a>,
+    pub subject: &'a Subject<'a>,
     pieces: &'a [TipPiece<'a>],
     /// Pieces of the approaches to the plate and the retreats from it.
     around: Vec<&'a [TipPiece<'a>]>,
     /// Lower bound on the cosine of the angle between the tool and the plate's axis, from approach to retreat.
-    around_cosine: f64,
-    span: usize,
-    plate: &'a Plate,
+    pub around_cosine: f64,
+    pub span: usize,
+    pub plate: &'a Plate,
     /// Index of the plate.
-    index: usize,
-    tips: &'a Tips,
-    cancel: &'a CancelToken,
+    pub index: usize,
+    pub tips: &'a Tips,
+    pub cancel: &'a CancelToken,
 }
 
 impl Washing<'_> {
@@ -139,7 +138,7 @@ impl Washing<'_> {
             touches: Vec::new(),
         };
         let pressed = contact.map(|contact| contact.pressed.at_least);
-        match pressed.filter(|pressed| *pressed >= self.subject.limits.coverage) {
+        match pressed.filter(|pressed| *pressed >= self.subject.job.requirements.coverage) {
             Some(pressed) => swept.at_least = pressed,
             None if self.plate.surface.is_flat() => self.sweep(&line, &mut swept)?,
             None => swept.at_least = self.touched_share(pressed.unwrap_or(0.0))?,
@@ -162,10 +161,9 @@ impl Washing<'_> {
             let settings = CoverageSettings {
                 cell_m: cell_m.max(1e-4 * plate.rim_m()),
             };
-            let share = coverage(&line.points, [0.0; 2], plate.rim_m(), radius_m, &settings)?;
-            Ok::<_, ProveError>(share)
+            coverage(&line.points, [0.0; 2], plate.rim_m(), radius_m, &settings).map_err(ProveError::Coverage)
         };
-        let required = self.subject.limits.coverage;
+        let required = self.subject.job.requirements.coverage;
         let shrunk = sponge_m * swept.cos_tilt - line.off_m;
         if shrunk > 0.0 {
             swept.at_least = share(shrunk, CELLS_M[0])?.lower;
@@ -185,7 +183,7 @@ impl Washing<'_> {
         if !self.meets_from_above() {
             return Ok(pressed);
         }
-        let required = self.subject.limits.coverage;
+        let required = self.subject.job.requirements.coverage;
         let sponge = &self.subject.job.workcell.tool.sponge;
         // Whatever its stiffness: no dose is asked for.
         let foundation = Foundation::stiff(sponge, [0.0; 2]);
@@ -218,36 +216,24 @@ impl Washing<'_> {
         let instants = instants_of(self.pieces);
         let around: Vec<_> = self.around.iter().map(|pieces| instants_of(pieces)).collect();
         let pressed = ContactInputs {
-            plate: self.plate,
-            index: self.index,
+            washing: self,
             foundation: &foundation,
             wanted: &wanted,
             instants: &instants,
             around: &around,
-            known: DiscWashBounds {
-                height_m: self.tips.greatest_height_of(self.span),
-                cosine: self.tips.least_upright_cosine_of(self.span),
-                distance_m: line.within_m,
-                error_m,
-            },
-            meets: self.meets_from_above(),
-            around_meets: self.meets_at(self.around_cosine),
-            cosine: self.around_cosine.min(self.tips.least_upright_cosine_of(self.span)),
-            holder: job.requirements.holder.as_ref(),
-            up: &self.subject.up,
-            cancel: self.cancel,
+            distance_m: line.within_m,
         };
         Ok(Some(pressed.judge()?))
     }
 
     /// Checks that every line along the tool's axis meets the face once, and from above: the tilt of the tool from the plate's axis is less
     /// than a right angle minus the steepest slope.
-    fn meets_from_above(&self) -> bool {
+    pub fn meets_from_above(&self) -> bool {
         self.meets_at(self.tips.least_upright_cosine_of(self.span))
     }
 
     /// Same check, with a lower bound `cosine` on the cosine of the angle between the tool and the plate's axis.
-    fn meets_at(&self, cosine: f64) -> bool {
+    pub fn meets_at(&self, cosine: f64) -> bool {
         let surface = &self.plate.surface;
         let steepest = surface.patch([0.0, f64::INFINITY]);
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
@@ -266,18 +252,9 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
         .job
         .plates_to_wash()
         .all(|i| coverage.iter().any(|c| c.plate == i));
-    let measure = Measure {
-        bound: Some(if all_washed { worst.at_least } else { 0.0 }),
-        seen: worst.at_most,
-        limit: subject.limits.coverage,
-        sense: Sense::AtLeast,
-        unit: Unit::Share,
-    };
-    let place = WorstCase {
-        plate: Some(worst.plate),
-        ..WorstCase::default()
-    };
-    Check::measured(Requirement::Swept, measure, place)
+    let bounds = [Some(if all_washed { worst.at_least } else { 0.0 }), worst.at_most];
+    let measure = Measure::new(Sense::AtLeast, subject.job.requirements.coverage, Unit::Share, bounds);
+    Check::measured(Requirement::Swept, measure, WorstCase::on_plate(worst.plate))
 }
 
 /// Distance between tip and chord above which a stretch is halved \[m\].

@@ -29,12 +29,10 @@
 use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::subject::Subject;
-use crate::washing::contact::{PlateContact, tighter};
+use crate::washing::contact::{ContactInputs, PlateContact, are_of_all_plates, tighter};
+use crate::washing::instants::Instants;
 use crate::washing::pressing::{FRICTION, Pressing};
-use nalgebra::Vector3;
-use platewash_workcell::contact::Foundation;
-use platewash_workcell::job::{HolderTerms, RingTerms};
-use platewash_workcell::plate::Plate;
+use platewash_workcell::job::RingTerms;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
@@ -91,25 +89,11 @@ impl RingShares {
     }
 }
 
-/// Plate whose holder is judged, with the load on it.
-pub(crate) struct HolderInputs<'a> {
-    pub plate: &'a Plate,
-    pub foundation: &'a Foundation,
-    /// Bounds from approach to retreat.
-    pub pressing: &'a Pressing,
-    /// Upper bound on the distance of the tip from the plate's axis \[m\].
-    pub tip_m: f64,
-    /// Least cosine of the angle between the tool and the plate's axis.
-    pub cosine: f64,
-    pub terms: Option<&'a HolderTerms>,
-    /// Upwards, in the frame of the plate's pose.
-    pub up: &'a Vector3<f64>,
-}
-
-impl HolderInputs<'_> {
-    /// Bounds the load; `None` where nothing is proved.
-    pub fn load(&self) -> Option<HolderLoad> {
-        let (volumes, terms) = (&self.pressing.holder, self.terms);
+impl ContactInputs<'_> {
+    /// Bounds the load from approach to retreat; `None` where nothing is proved.
+    pub fn holder_load(&self, pressing: &Pressing) -> Option<HolderLoad> {
+        let (plate, subject) = (self.washing.plate, self.washing.subject);
+        let (volumes, terms) = (&pressing.holder, subject.job.requirements.holder.as_ref());
         let stiffest = self.foundation.stiffness_pa[1] / self.foundation.free_height_m;
         let [least, assumed] = FRICTION;
         let most = terms.map_or(assumed, |terms| terms.sponge_friction);
@@ -120,38 +104,52 @@ impl HolderInputs<'_> {
         let is_known = lateral_n.iter().chain(&torque_nm).all(|bound| bound.is_finite());
         let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
         let weight_n = mass_kg.map(|mass_kg| {
-            let (axis, whole_n) = (self.plate.axis(), mass_kg * GRAVITY_M_S2);
-            [whole_n * axis.dot(self.up), whole_n * axis.cross(self.up).norm()]
+            let (axis, whole_n) = (plate.axis(), mass_kg * GRAVITY_M_S2);
+            [
+                whole_n * axis.dot(&subject.up),
+                whole_n * axis.cross(&subject.up).norm(),
+            ]
         });
         let standing = terms.and_then(|terms| terms.ring.as_ref()).zip(weight_n);
+        let on_ring = |weight_n| self.ring_load(pressing, stiffest, most, lateral_n[1], weight_n);
         is_known.then(|| HolderLoad {
             sponge_friction,
             lateral_n,
             torque_nm,
             weight_n,
-            ring: standing.map(|(ring, weight_n)| self.ring_load(stiffest, most, lateral_n[1], weight_n).shares(ring)),
+            ring: standing.map(|(ring, weight_n)| on_ring(weight_n).shares(ring)),
         })
     }
 
-    fn ring_load(&self, stiffest: f64, friction: f64, lateral_n: f64, weight_n: [f64; 2]) -> RingLoad {
-        let (pressing, foundation, rim_m) = (self.pressing, self.foundation, self.plate.rim_m());
+    fn ring_load(
+        &self,
+        pressing: &Pressing,
+        stiffest: f64,
+        friction: f64,
+        lateral_n: f64,
+        weight_n: [f64; 2],
+    ) -> RingLoad {
+        let (washing, plate, foundation) = (self.washing, self.washing.plate, self.foundation);
         let volumes = &pressing.holder;
         // A column that is pressed ends no farther from the tip along the sponge's axis than it may be compressed.
         let c = foundation.compression_m;
         let along_m = c.max(pressing.deepest.bound - c);
-        let cosine = self.cosine.max(0.0);
+        let cosine = washing.tips.least_upright_cosine_of(washing.span);
+        let cosine = washing.around_cosine.min(cosine).max(0.0);
         let aside_m = along_m * (1.0 - cosine * cosine).max(0.0).sqrt();
         let reach_m = foundation.radius_m + aside_m;
-        let farthest_m = rim_m.min(self.tip_m + reach_m);
-        let [least, most] = self.plate.surface.patch([0.0, farthest_m]).sine;
+        let instants = std::iter::once(self.instants).chain(self.around);
+        let tip_m = instants.map(Instants::tip_within_m).fold(0.0, f64::max);
+        let farthest_m = plate.rim_m().min(tip_m + reach_m);
+        let [least, most] = plate.surface.patch([0.0, farthest_m]).sine;
         let aside_m4 = aside_m * volumes.normal_m3;
-        let [bottom_m, top_m] = self.plate.extent_m();
+        let [bottom_m, top_m] = plate.extent_m();
         RingLoad {
             pressed_n: stiffest * volumes.normal_m3,
             weight_n,
             sine: most.max(-least),
             friction,
-            tip_m: self.tip_m,
+            tip_m,
             reach_m,
             farthest_m,
             height_m: top_m - bottom_m,
@@ -358,26 +356,12 @@ pub(crate) fn check(subject: &Subject<'_>, all: &[PlateContact]) -> Option<Check
     let requirement = Requirement::PlateStays;
     let terms = subject.job.requirements.holder?;
     subject.job.requirements.contact?;
-    let all_washed = subject
-        .job
-        .plates_to_wash()
-        .all(|plate| all.iter().any(|c| c.plate == plate));
-    if !all_washed {
+    if !are_of_all_plates(subject, all) {
         return Some(Check::not_judged(requirement));
     }
     let side = |contact: &PlateContact, bound: Option<f64>, limit: f64, unit: Unit| {
-        let measure = Measure {
-            bound,
-            seen: None,
-            limit,
-            sense: Sense::AtMost,
-            unit,
-        };
-        let worst = WorstCase {
-            plate: Some(contact.plate),
-            ..WorstCase::default()
-        };
-        Check::measured(requirement, measure, worst)
+        let measure = Measure::new(Sense::AtMost, limit, unit, [bound, None]);
+        Check::measured(requirement, measure, WorstCase::on_plate(contact.plate))
     };
     let sides = all.iter().flat_map(|contact| {
         let load = contact.holder_load.as_ref();

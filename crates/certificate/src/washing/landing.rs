@@ -104,7 +104,7 @@ pub(crate) fn check(
     };
     let wanted = &subject.job.requirements;
     let judged = |limit: &TouchSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
-    let limit = subject.limits.wash_speed_m_s;
+    let limit = subject.job.wash_speed_m_s();
     if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
         return judged(&TouchSpeedLimit {
             kinds: &[SegmentKind::Approach, SegmentKind::Retreat],

@@ -88,10 +88,7 @@ impl Pressing {
     /// Returns the result where nothing is proved: every bound is as bad as possible.
     pub fn unknown() -> Self {
         let mut all = Self::new();
-        all.deepest.bound = f64::INFINITY;
-        (all.volume[0].bound, all.volume[1].bound) = (0.0, f64::INFINITY);
-        all.twist_m4 = f64::INFINITY;
-        all.holder = HolderVolumes::UNKNOWN;
+        all.take(&Press::UNKNOWN);
         all
     }
 
@@ -122,19 +119,9 @@ impl Pressing {
         let (height_m, bounded) = (known.height_m + known.error_m, known.cosine > 0.0);
         if bounded && height_m.is_finite() && known.distance_m.is_finite() {
             let level = press([-height_m, height_m], known.cosine, known.distance_m);
-            all.take(&Press {
-                volume_m3: level.volume_m3,
-                deepest_m: level.deepest_m[1],
-                twist_m4: level.twist_m4,
-                holder: level.holder,
-                sag_m: 0.0,
-            });
+            all.take(&level.into());
         } else {
-            let unknown = Self::unknown();
-            all.deepest.bound = unknown.deepest.bound;
-            (all.volume[0].bound, all.volume[1].bound) = (0.0, f64::INFINITY);
-            all.twist_m4 = unknown.twist_m4;
-            all.holder = unknown.holder;
+            all.take(&Press::UNKNOWN);
         }
         all
     }
@@ -175,14 +162,7 @@ impl Pressing {
                 return Self::unknown();
             }
             let distance_m = -lower(|moment| -moment.pose.tip.xy().norm()) + sag_m;
-            let most = press(low_m, cosine, distance_m);
-            all.take(&Press {
-                volume_m3: most.volume_m3,
-                deepest_m: most.deepest_m[1],
-                twist_m4: most.twist_m4,
-                holder: most.holder,
-                sag_m: 0.0,
-            });
+            all.take(&press(low_m, cosine, distance_m).into());
         }
         all
     }

@@ -48,7 +48,7 @@ impl ReachInputs<'_> {
 
 /// Fills in the reach of the sponge beyond the rim of each plate, and the plates it may touch there.
 pub(crate) fn fill_in_reach(subject: &Subject<'_>, washes: &mut [Wash], inputs: &ReachInputs<'_>) {
-    let most_tilted = cos(subject.limits.tilt_rad);
+    let most_tilted = cos(subject.tilt_rad);
     for wash in washes {
         let index = wash.swept.plate;
         let Some(plate) = subject.plates().get(index) else {
@@ -116,18 +116,9 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     let Some(worst) = coverage.iter().max_by(|a, b| excess(a).total_cmp(&excess(b))) else {
         return Check::not_judged(Requirement::Reach);
     };
-    let measure = Measure {
-        bound: worst.beyond_rim_m,
-        seen: Some(worst.beyond_rim_seen_m),
-        limit: worst.beyond_rim_allowed_m,
-        sense: Sense::AtMost,
-        unit: Unit::Metre,
-    };
-    let place = WorstCase {
-        plate: Some(worst.plate),
-        ..WorstCase::default()
-    };
-    Check::measured(Requirement::Reach, measure, place)
+    let bounds = [worst.beyond_rim_m, Some(worst.beyond_rim_seen_m)];
+    let measure = Measure::new(Sense::AtMost, worst.beyond_rim_allowed_m, Unit::Metre, bounds);
+    Check::measured(Requirement::Reach, measure, WorstCase::on_plate(worst.plate))
 }
 
 /// Neighbouring plate that the sponge reaches while it works on another plate.
@@ -208,7 +199,7 @@ pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: u
     // No point of the sponge is farther from the tip.
     let sponge = &subject.job.workcell.tool.sponge;
     let sponge_m = norm(sponge.radius_m, sponge.height_m);
-    let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.limits.clearance_m;
+    let reach_m = radius_m + LINE_TOLERANCE_M + sponge_m + subject.job.requirements.clearance_m;
     own.aside_m(other) - other.outer_m() <= reach_m
 }
 
@@ -225,7 +216,7 @@ pub(crate) struct SweptNeighbours {
 /// requirement. On a face that is no disc that tilt is about the normal; `upright_cosine` then gives the bound proved about the plate's
 /// axis.
 pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> SweptNeighbours {
-    let tilted_m = subject.sponge_m() / cos(subject.limits.tilt_rad);
+    let tilted_m = subject.sponge_m() / cos(subject.tilt_rad);
     let mut swept = SweptNeighbours::default();
     for (i, own) in subject.plates().iter().enumerate() {
         // Without a path it is not washed at all.

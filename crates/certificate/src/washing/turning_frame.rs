@@ -24,7 +24,7 @@
 
 use crate::motion::tip;
 use crate::washing::instants::Instants;
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector5};
 use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_workcell::contact::{Drift, Moment};
 use platewash_workcell::plate::Plate;
@@ -53,15 +53,9 @@ struct State {
     second: Vector3<f64>,
 }
 
-/// Upper bounds in the turning frame, at a moment or over a stretch. The head of this file defines the symbols.
-#[derive(Debug, Clone, Copy, Default)]
-struct UpperBounds {
-    speed: f64,
-    acceleration: f64,
-    a1: f64,
-    a2: f64,
-    m: f64,
-}
+/// Upper bounds in the turning frame, at a moment or over a stretch: the tip's speed and acceleration, a₁, a₂ and m. The head of this file
+/// defines the symbols.
+type UpperBounds = Vector5<f64>;
 
 impl<'a> TurningFrame<'a> {
     /// Returns the frame that follows the sponge.
@@ -116,32 +110,32 @@ impl<'a> TurningFrame<'a> {
             let angle = self.angles[from] + rate * (time(at) - time(from));
             self.states[at].in_turning_frame(rate, &direction(angle))
         };
-        let mut greatest = UpperBounds::default();
+        let mut greatest = UpperBounds::zeros();
         let mut before = seen(from);
         for k in from..to {
             let after = seen(k + 1);
             let between = self.between(k, rate.abs());
-            greatest = greatest.with(&before.with(&after).plus(&between));
+            greatest = greater(&greatest, &(greater(&before, &after) + between));
             before = after;
         }
-        greatest.drift(length_s)
+        drift(&greatest, length_s)
     }
 
     /// Returns the amounts by which the values between a moment and the next may exceed those at both.
     fn between(&self, at: usize, rate: f64) -> UpperBounds {
         let (Some(drift), Some(jerk)) = (self.instants.drifts.get(at), self.instants.jerks.get(at)) else {
-            return UpperBounds::UNKNOWN;
+            return UpperBounds::repeat(f64::INFINITY);
         };
         let half_s = 0.5 * drift.length_s;
         let square = rate * rate;
         let first_of_axis = drift.bending + rate * drift.axis;
-        UpperBounds {
-            speed: 0.5 * half_s * half_s * (jerk.tip_m_s3 + rate * drift.tip_m_s2),
-            acceleration: half_s * (jerk.tip_m_s3 + 2.0 * rate * drift.tip_m_s2 + square * drift.tip_m_s),
-            a1: half_s * first_of_axis,
-            a2: half_s * (jerk.axis + 2.0 * rate * drift.bending + square * drift.axis),
-            m: half_s * (drift.axis + rate),
-        }
+        UpperBounds::new(
+            0.5 * half_s * half_s * (jerk.tip_m_s3 + rate * drift.tip_m_s2),
+            half_s * (jerk.tip_m_s3 + 2.0 * rate * drift.tip_m_s2 + square * drift.tip_m_s),
+            half_s * first_of_axis,
+            half_s * (jerk.axis + 2.0 * rate * drift.bending + square * drift.axis),
+            half_s * (drift.axis + rate),
+        )
     }
 }
 
@@ -150,69 +144,35 @@ impl State {
     fn in_turning_frame(&self, rate: f64, d: &Vector3<f64>) -> UpperBounds {
         let omega = Vector3::z() * rate;
         let round = |v: &Vector3<f64>| omega.cross(v);
-        let Self {
-            tip,
-            speed,
-            acceleration,
-            axis,
-            first,
-            second,
-        } = self;
-        UpperBounds {
-            speed: (speed - round(tip)).norm(),
-            acceleration: (acceleration - round(speed) * 2.0 + round(&round(tip))).norm(),
-            a1: (first - round(axis)).norm(),
-            a2: (second - round(first) * 2.0 + round(&round(axis))).norm(),
-            m: d.dot(axis).abs(),
-        }
+        UpperBounds::new(
+            (self.speed - round(&self.tip)).norm(),
+            (self.acceleration - round(&self.speed) * 2.0 + round(&round(&self.tip))).norm(),
+            (self.first - round(&self.axis)).norm(),
+            (self.second - round(&self.first) * 2.0 + round(&round(&self.axis))).norm(),
+            d.dot(&self.axis).abs(),
+        )
     }
 }
 
-impl UpperBounds {
-    /// Bounds where nothing is known: infinite.
-    const UNKNOWN: Self = Self {
-        speed: f64::INFINITY,
-        acceleration: f64::INFINITY,
-        a1: f64::INFINITY,
-        a2: f64::INFINITY,
-        m: f64::INFINITY,
-    };
+/// Returns the greater of both, value by value. NaN is kept.
+fn greater(a: &UpperBounds, b: &UpperBounds) -> UpperBounds {
+    a.zip_map(b, |a, b| if a > b || a.is_nan() { a } else { b })
+}
 
-    /// Returns the greater of both, value by value. NaN is kept.
-    fn with(&self, other: &Self) -> Self {
-        self.each(other, |a, b| if a > b || a.is_nan() { a } else { b })
-    }
-
-    /// Returns the sum of both, value by value.
-    fn plus(&self, other: &Self) -> Self {
-        self.each(other, |a, b| a + b)
-    }
-
-    fn each(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            speed: of(self.speed, other.speed),
-            acceleration: of(self.acceleration, other.acceleration),
-            a1: of(self.a1, other.a1),
-            a2: of(self.a2, other.a2),
-            m: of(self.m, other.m),
-        }
-    }
-
-    /// Bounds the motion of columns along u.
-    fn drift(&self, length_s: f64) -> Drift {
-        let Self { a1, a2, m, .. } = *self;
-        let c = (1.0 - m * m).sqrt();
-        let (g1, g2) = (a1 * (1.0 + m * m).sqrt(), a2 * (1.0 + m) + 2.0 * a1 * a1);
-        let (u1, u2) = (g1 / c, g2 / c + 3.0 * g1 * g1 / (c * c));
-        let b2 = a2 + 2.0 * a1 * u1 + u2;
-        Drift {
-            length_s,
-            tip_m_s: self.speed,
-            tip_m_s2: self.acceleration,
-            turning: (a1 * a1 + u1 * u1).sqrt(),
-            axis: a1,
-            bending: (u2 * u2 + b2 * b2 + a2 * a2).sqrt(),
-        }
+/// Bounds the motion of columns along u.
+fn drift(bounds: &UpperBounds, length_s: f64) -> Drift {
+    let [speed, acceleration, a1, a2, m]: [f64; 5] = (*bounds).into();
+    let c = (1.0 - m * m).sqrt();
+    let (g1, g2) = (a1 * (1.0 + m * m).sqrt(), a2 * (1.0 + m) + 2.0 * a1 * a1);
+    let (u1, u2) = (g1 / c, g2 / c + 3.0 * g1 * g1 / (c * c));
+    let b2 = a2 + 2.0 * a1 * u1 + u2;
+    Drift {
+        length_s,
+        tip_m_s: speed,
+        tip_m_s2: acceleration,
+        turning: (a1 * a1 + u1 * u1).sqrt(),
+        axis: a1,
+        bending: (u2 * u2 + b2 * b2 + a2 * a2).sqrt(),
     }
 }
 

@@ -11,7 +11,7 @@
 //! ∫ W ρ² dA ≤ V d² + 2 d π s³ k / (4 cos τ) + V s² / (2 cos² τ). Columns beyond the rim press nothing: of ∫ max(w, 0) x dA they take no more
 //! than their area times m + k and s.
 
-use crate::contact::{Foundation, HolderVolumes};
+use crate::contact::{Foundation, HolderVolumes, Press};
 use crate::trig::acos;
 use std::f64::consts::PI;
 
@@ -37,6 +37,18 @@ pub struct LevelPress {
     pub twist_m4: f64,
     /// Upper bounds of what the plate's holder takes.
     pub holder: HolderVolumes,
+}
+
+impl From<LevelPress> for Press {
+    fn from(level: LevelPress) -> Self {
+        Self {
+            volume_m3: level.volume_m3,
+            deepest_m: level.deepest_m[1],
+            twist_m4: level.twist_m4,
+            holder: level.holder,
+            sag_m: 0.0,
+        }
+    }
 }
 
 impl Foundation {

@@ -224,7 +224,7 @@ impl Passes<'_> {
                 let [run, to] = [pair + usize::from(before), end - usize::from(after)].map(|k| near[k].index);
                 if run < to {
                     kept.time_s += self.edges.look(to).t_s - self.edges.look(run).t_s;
-                    kept.dose += self.sums.between(run, to);
+                    kept.dose = kept.dose + self.sums.between(run, to);
                 }
                 window = after.then(|| end - 1);
             }

@@ -20,9 +20,9 @@
 use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3, Vector4};
 use platewash_workcell::contact::{Foundation, Moment, SpongePose, at_least_0, both};
-use std::ops::{Add, AddAssign, Sub};
+use std::ops::{Add, Sub};
 
 /// Lower bounds of the factors of q at a moment: compression \[m\] and sliding speed \[m/s\].
 #[derive(Clone, Copy)]
@@ -259,12 +259,8 @@ pub(crate) struct Polynomial {
     square: Matrix3<f64>,
 }
 
-/// Affine function of the place: k + l·x.
-#[derive(Clone, Copy)]
-struct Affine {
-    constant: f64,
-    linear: Vector3<f64>,
-}
+/// Affine function of the place, k + l·x: l, then k.
+type Affine = Vector4<f64>;
 
 /// Cumulative doses from the first moment on.
 #[derive(Debug)]
@@ -283,7 +279,7 @@ impl Sums {
             let part = Polynomial::of_pair(foundation, [&pair[0], &pair[1]], sags);
             // A dose that is not finite belongs to a pair of moments that is in no run.
             if part.size(far_m).is_finite() {
-                sum += part;
+                sum = sum + part;
                 size += part.size(far_m);
             }
             sums.push(sum);
@@ -314,21 +310,30 @@ impl Polynomial {
         let direction = (slides[0] + slides[1])
             .try_normalize(0.0)
             .unwrap_or_else(Vector3::zeros);
-        let [w0, w1] = ends.map(|end| Affine {
-            constant: foundation.compression_m + end.pose.tip.dot(&end.pose.axis) - sags.compression_m,
-            linear: -end.pose.axis,
+        let [w0, w1] = ends.map(|end| {
+            let constant = foundation.compression_m + end.pose.tip.dot(&end.pose.axis) - sags.compression_m;
+            (-end.pose.axis).push(constant)
         });
         let [v0, v1] = ends.map(|end| {
             let direction = across(&direction, &end.pose.axis);
             // d·(ω × x) = (d × ω)·x.
             let linear = direction.cross(&end.turning);
             let constant = direction.dot(&end.speed) - linear.dot(&end.pose.tip) - sags.slide_m / whole_s;
-            Affine { constant, linear }
+            linear.push(constant)
         });
         let pressure = foundation.stiffness_pa[0] / foundation.free_height_m;
-        let [even, odd] = [w0 + w1, w1 + w0.times(-1.0)];
-        let [v_even, v_odd] = [v0 + v1, v1 + v0.times(-1.0)];
-        even.times(0.25 * pressure * whole_s).product(&v_even) + odd.times(pressure * whole_s / 12.0).product(&v_odd)
+        let [even, odd] = [w0 + w1, w1 - w0];
+        let [v_even, v_odd] = [v0 + v1, v1 - v0];
+        let scales = [0.25 * pressure * whole_s, pressure * whole_s / 12.0];
+        Self::product(&(even * scales[0]), &v_even) + Self::product(&(odd * scales[1]), &v_odd)
+    }
+
+    fn product(a: &Affine, b: &Affine) -> Self {
+        Self {
+            constant: a.w * b.w,
+            linear: a.xyz() * b.w + b.xyz() * a.w,
+            square: a.xyz() * b.xyz().transpose(),
+        }
     }
 
     /// Returns the value and the gradient at a place.
@@ -355,34 +360,6 @@ fn across(v: &Vector3<f64>, axis: &Vector3<f64>) -> Vector3<f64> {
     v - axis * v.dot(axis)
 }
 
-impl Affine {
-    fn times(self, scale: f64) -> Self {
-        Self {
-            constant: self.constant * scale,
-            linear: self.linear * scale,
-        }
-    }
-
-    fn product(&self, other: &Self) -> Polynomial {
-        Polynomial {
-            constant: self.constant * other.constant,
-            linear: self.linear * other.constant + other.linear * self.constant,
-            square: self.linear * other.linear.transpose(),
-        }
-    }
-}
-
-impl Add for Affine {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            constant: self.constant + other.constant,
-            linear: self.linear + other.linear,
-        }
-    }
-}
-
 impl Add for Polynomial {
     type Output = Self;
 
@@ -404,11 +381,5 @@ impl Sub for Polynomial {
             linear: self.linear - other.linear,
             square: self.square - other.square,
         }
-    }
-}
-
-impl AddAssign for Polynomial {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
     }
 }
