@@ -4,7 +4,7 @@ use crate::batch::chain::Chain;
 use crate::batch::forward::{Tips, frames_and_lines, no_lines, vectors};
 use crate::batch::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
 use crate::batch::{BatchError, CHUNK, same_length};
-use crate::ik::{Damping, IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
+use crate::ik::{IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
 use crate::lanes::{Backend, Kernel, LANES, Vector, run};
 use crate::{AXES, JointVector, Pose};
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ struct Problem {
 /// Solves `targets[k]` from `seeds[k]` \[rad\] for every k, in order: [`IkSolver::solve`] for many neighbouring poses.
 ///
 /// Problems whose seed is near the target (up to 8 steps, each lowering the error, error angle at most 0.5 rad) are
-/// solved several at a time. Every other one, and all with [`Damping::NearSingularities`], is given to
+/// solved several at a time. Every other one is given to
 /// [`IkSolver::solve`], so that its answer and its error are exactly those. The lanes take the scalar solver's steps,
 /// with other rounding: answers are on the same branch, within the limits and within both tolerances, but not equal in
 /// the last bits; with [`Backend::Portable`] the bits are the same on every machine. No answer depends on the other
@@ -107,14 +107,7 @@ impl Kernel for Chunk<'_> {
     fn run<V: Vector>(mut self) {
         let limits = self.solver.robot().limits();
         let settings = self.solver.settings();
-        let (gain, least) = match settings.damping {
-            Damping::ErrorProportional { gain } => (gain, dls::LEAST_DAMPING),
-            Damping::Constant { lambda } => (0.0, lambda.max(dls::LEAST_DAMPING)),
-            Damping::NearSingularities { .. } => return,
-        };
         let bounds = Bounds {
-            gain,
-            least_damping: least,
             step_rad: settings.step_bound_rad,
             lower: limits.lower.into(),
             upper: limits.upper.into(),
@@ -225,7 +218,7 @@ impl Chunk<'_> {
                 }
                 return;
             }
-            let dq = damped_step(bounds, &tips.p, &lines, &now);
+            let dq = damped_step(&tips.p, &lines, &now);
             (q, clamped) = moved(bounds, q, &dq, clamped);
         }
     }

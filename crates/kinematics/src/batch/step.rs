@@ -3,6 +3,7 @@
 
 use crate::AXES;
 use crate::batch::forward::{Line, Tips, cross, dot, moment};
+use crate::ik::dls::{DAMPING_GAIN, LEAST_DAMPING};
 use crate::lanes::Vector;
 
 /// Cosine of the error angle (0.5 rad) below which a lane is left to the scalar solver.
@@ -63,10 +64,6 @@ fn arctan_over<V: Vector>(square: V) -> V {
 
 /// Bounds on the steps of all lanes.
 pub(crate) struct Bounds {
-    /// Gain of the damping, λ = gain ‖e‖².
-    pub gain: f64,
-    /// Least damping λ.
-    pub least_damping: f64,
     /// Largest joint step \[rad\].
     pub step_rad: f64,
     /// Lower joint limits \[rad\].
@@ -77,9 +74,9 @@ pub(crate) struct Bounds {
 
 /// Computes the damped step `Δq = (JᵀJ + λI)⁻¹ Jᵀ e` \[rad\].
 #[inline(always)]
-pub(crate) fn damped_step<V: Vector>(bounds: &Bounds, p: &[V; 3], lines: &[Line<V>; AXES], e: &Errors<V>) -> [V; AXES] {
+pub(crate) fn damped_step<V: Vector>(p: &[V; 3], lines: &[Line<V>; AXES], e: &Errors<V>) -> [V; AXES] {
     let cost = e.position + e.angle;
-    let lambda = larger(V::splat(bounds.gain) * cost, V::splat(bounds.least_damping));
+    let lambda = larger(V::splat(DAMPING_GAIN) * cost, V::splat(LEAST_DAMPING));
     let zero = V::splat(0.0);
     let (mut normal, mut gradient, mut moments) = ([[zero; AXES]; AXES], [zero; AXES], [[zero; 3]; AXES]);
     for i in 0..AXES {

@@ -10,11 +10,15 @@
 
 use crate::ik::settings::IkSettings;
 use crate::lanes::{Kernel, LANES, Vector, run_exact};
-use crate::model::{Axes, Frame, Jacobian, manipulability, moved_bodies};
+use crate::model::{Axes, Frame, Jacobian, moved_bodies};
 use crate::rotation::{Columns, RigidTransform, rotation_vector};
 use crate::{AXES, JointVector, RobotModel};
 use nalgebra::{Matrix3, Vector6};
 
+/// Damping of a step as a share of the squared error ‖e‖² (in m and rad): the λ of `(JᵀJ + λI) Δq = Jᵀe` is strong far from the target and
+/// vanishes at it, so that convergence is quadratic (Sugihara, *IEEE Trans. Robotics* 2011). A step that does not reduce the error raises it
+/// tenfold, and accepted steps let it fall again (Levenberg–Marquardt).
+pub(crate) const DAMPING_GAIN: f64 = 0.3;
 /// Smallest damping: keeps the normal matrix definite at an exact singularity without slowing convergence.
 pub(crate) const LEAST_DAMPING: f64 = 1e-11;
 /// Ratio of squared errors above which the descent stagnates: the error norm fell by less than 10 % (its square by less than 19 %) within
@@ -93,12 +97,9 @@ impl Kernel for Descending<'_> {
                 }
                 milestone = here.cost;
             }
-            let jacobian = lines.jacobian();
-            let lambda = settings.damping.lambda(here.cost, || jacobian.matrix());
-            let Some(step) = jacobian
-                .only(self.free)
-                .step(&here.error, lambda.max(LEAST_DAMPING) * boost)
-            else {
+            let lambda = (DAMPING_GAIN * here.cost).max(LEAST_DAMPING);
+            let jacobian = lines.jacobian().only(self.free);
+            let Some(step) = jacobian.step(&here.error, lambda * boost) else {
                 break Stop::Stagnation;
             };
             let aim = here.q + bounded(step, settings.step_bound_rad);
@@ -128,69 +129,6 @@ fn bounded(step: JointVector, bound: f64) -> JointVector {
         step * (bound / largest)
     } else {
         step
-    }
-}
-
-/// Damping of a step: the λ of `(JᵀJ + λI) Δq = Jᵀe`. For every choice, a step that does not reduce the error raises it tenfold, and
-/// accepted steps let it fall again (Levenberg–Marquardt).
-///
-/// A motion of the joints that moves the tip by σ (m, rad) per radian is damped where σ² is not far above λ: with a constant
-/// 1e-5, along directions within about 3e-3 of singular.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Damping {
-    /// `λ = gain ‖e‖²` (e in m and rad): strong far from the target, vanishing at it, so that convergence is quadratic
-    /// (Sugihara, *IEEE Trans. Robotics* 2011). The default, with gain 0.3.
-    ErrorProportional {
-        /// From 0 to 1e6.
-        gain: f64,
-    },
-    /// `λ` itself: the classical scheme (Wampler 1986); convergence is linear.
-    Constant {
-        /// From 0 to 1e6.
-        lambda: f64,
-    },
-    /// `λ = largest (1 − w/threshold)²` where the manipulability `w = |det J|` is below the threshold, none elsewhere
-    /// (Nakamura & Hanafusa 1986): damped near singularities only.
-    NearSingularities {
-        /// From 0 to 1e6.
-        largest: f64,
-        /// Manipulability below which damping begins \[m³\]; above 0.
-        threshold: f64,
-    },
-}
-
-impl Default for Damping {
-    fn default() -> Self {
-        Self::ErrorProportional { gain: 0.3 }
-    }
-}
-
-impl Damping {
-    /// Returns λ at a squared error and a Jacobian, which only some schemes ask for.
-    #[inline(always)]
-    pub(crate) fn lambda(&self, squared_error: f64, jacobian: impl FnOnce() -> Jacobian) -> f64 {
-        match *self {
-            Self::ErrorProportional { gain } => gain * squared_error,
-            Self::Constant { lambda } => lambda,
-            Self::NearSingularities { largest, threshold } => {
-                let short = (1.0 - manipulability(&jacobian()) / threshold).max(0.0);
-                largest * short * short
-            }
-        }
-    }
-
-    /// Returns the first number out of its range, if any.
-    pub(crate) fn first_out_of_range(&self) -> Option<f64> {
-        let fits = |v: f64| (0.0..=1e6).contains(&v);
-        match *self {
-            Self::ErrorProportional { gain: v } | Self::Constant { lambda: v } => (!fits(v)).then_some(v),
-            Self::NearSingularities { largest, threshold } => {
-                let above_zero = threshold > 0.0 && fits(threshold);
-                (!fits(largest))
-                    .then_some(largest)
-                    .or((!above_zero).then_some(threshold))
-            }
-        }
     }
 }
 
@@ -393,10 +331,6 @@ impl<V: Vector> Rows<V> {
         [a, b, c, d, e, f, g, h]
     }
 
-    fn matrix(&self) -> Jacobian {
-        Jacobian::from_fn(|row, joint| self.row(row)[joint])
-    }
-
     /// Returns the Jacobian with zeros in the columns of joints that are not free.
     #[inline(always)]
     fn only(mut self, free: &FreeJoints) -> Self {
@@ -478,27 +412,6 @@ mod tests {
         solve_spd(&columns, (*b).into()).map(Vector6::from)
     }
 
-    #[test]
-    fn damping_schemes_agree_with_hand_calculation() {
-        let regular = Jacobian::identity();
-        let singular = Jacobian::zeros();
-        let sugihara = Damping::default();
-        assert_eq!(
-            [sugihara.lambda(0.04, || regular), sugihara.lambda(0.0, || singular)],
-            [0.3 * 0.04, 0.0]
-        );
-        assert_eq!(Damping::Constant { lambda: 1e-3 }.lambda(9.0, || regular), 1e-3);
-        let nakamura = Damping::NearSingularities {
-            largest: 0.1,
-            threshold: 2.0,
-        };
-        assert_eq!(
-            [nakamura.lambda(1.0, || regular), nakamura.lambda(1.0, || singular)],
-            [0.1 * 0.25, 0.1]
-        );
-        assert_eq!(nakamura.lambda(1.0, || regular * 2.0), 0.0);
-    }
-
     proptest! {
         #[test]
         fn descents_have_the_same_bits_on_all_instructions(
@@ -517,22 +430,6 @@ mod tests {
             prop_assert_eq!(portable.best.error, exact.best.error);
             prop_assert_eq!((portable.iterations, portable.stop), (exact.iterations, exact.stop));
         }
-    }
-
-    #[test]
-    fn finds_numbers_out_of_range() {
-        assert_eq!(Damping::default().first_out_of_range(), None);
-        assert_eq!(Damping::Constant { lambda: -1.0 }.first_out_of_range(), Some(-1.0));
-        assert!(
-            Damping::ErrorProportional { gain: f64::NAN }
-                .first_out_of_range()
-                .is_some()
-        );
-        let flat = Damping::NearSingularities {
-            largest: 0.1,
-            threshold: 0.0,
-        };
-        assert_eq!(flat.first_out_of_range(), Some(0.0));
     }
 
     proptest! {

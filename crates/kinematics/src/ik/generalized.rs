@@ -18,7 +18,7 @@
 //! First the seed; then the configurations that [`IkSolver::solve`] finds for the target tilted to 0, ½ and all of the cone in 12
 //! directions (and, with free yaw, as many yaws), those that meet the bounds first.
 
-use crate::ik::dls::{self, ALL_FREE, Iterate, Stop, Task};
+use crate::ik::dls::{self, ALL_FREE, DAMPING_GAIN, Iterate, Stop, Task};
 use crate::ik::freedom::{Deviation, TaskFreedom, TaskFreedomError, Yaw};
 use crate::ik::{IkError, IkFailure, IkSolver};
 use crate::rotation::RigidTransform;
@@ -307,13 +307,7 @@ impl Search<'_> {
         let frame = bodies.rigid(self.solver.frame());
         let jacobian = bodies.jacobian(self.solver.frame(), Axes::Base);
         let slope = Deviation::jacobian(&frame, &self.target, &jacobian);
-        let lambda = self
-            .solver
-            .settings
-            .damping
-            .lambda(cost, || jacobian)
-            .max(LEAST_DAMPING)
-            * boost;
+        let lambda = (DAMPING_GAIN * cost).max(LEAST_DAMPING) * boost;
         let mut here = Deviation::of(&frame, &self.target).0;
         let mut m = DMatrix::zeros(6, N);
         m.view_mut((0, 0), (6, AXES)).copy_from(&slope);

@@ -26,8 +26,8 @@
 //!    branch nearest to the seed is where DLS starts, and mostly ends. When the seed is warm this step comes after step 3.
 //!    On these arms the steps from 4 on never run: where no branch is within the limits there is no solution, and
 //!    the failure says which filter left none.
-//! 2. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` as [`Damping`] says (by default in
-//!    proportion to `‖e‖²`; Sugihara, *IEEE Trans. Robotics* 2011), raised tenfold after a step that does not reduce the
+//! 2. **DLS** from the caller's seed ([`dls`]): `Δq = (JᵀJ + λI)⁻¹ Jᵀ e`, with `λ` in
+//!    proportion to `‖e‖²` (Sugihara, *IEEE Trans. Robotics* 2011), raised tenfold after a step that does not reduce the
 //!    error and let fall again by those that do (Levenberg–Marquardt); steps are bounded and clamped to the limits.
 //! 3. **QP** ([`qp`]), from where DLS stopped, when it stopped for one of two reasons: *stagnation* (the
 //!    error fell by less than 10 % in 8 iterations) or an *active limit* (three accepted steps in a row were
@@ -59,7 +59,6 @@ pub mod spread;
 pub mod starts;
 
 pub use crate::ik::cascade::{AllBranchesError, IkSolver};
-pub use crate::ik::dls::Damping;
 pub use crate::ik::freedom::{TaskFreedom, TaskFreedomError, Yaw};
 pub use crate::ik::generalized::{ClearanceRow, ClearanceRows, GeneralizedError, GeneralizedSolution, GeneralizedTask};
 pub use crate::ik::path::{IkPath, IkPathError, PathBreak};

@@ -5,7 +5,7 @@
 //! redistributes it over the others and still descends. Its answer is accurate to about 1e-4 rad, so the
 //! last digits come from DLS on the joints that the QP left free.
 
-use crate::ik::dls::{self, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
+use crate::ik::dls::{self, DAMPING_GAIN, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
 use crate::ik::settings::IkSettings;
 use crate::{AXES, JointVector};
 use clarabel::algebra::CscMatrix;
@@ -36,7 +36,7 @@ pub(crate) fn descend(task: &Task<'_>, start: Iterate, settings: &IkSettings) ->
             }
         }
         let jacobian = task.jacobian(&here);
-        let lambda = settings.damping.lambda(here.cost, || jacobian).max(LEAST_DAMPING) * boost;
+        let lambda = (DAMPING_GAIN * here.cost).max(LEAST_DAMPING) * boost;
         let bounds = [
             (limits.lower - here.q).sup(&JointVector::repeat(-settings.step_bound_rad)),
             (limits.upper - here.q).inf(&JointVector::repeat(settings.step_bound_rad)),

@@ -1,6 +1,5 @@
 //! Settings of the inverse kinematics.
 
-use crate::ik::dls::Damping;
 use std::f64::consts::PI;
 
 /// Restarts from random configurations within the limits.
@@ -32,8 +31,6 @@ pub struct IkSettings {
     pub max_iterations: usize,
     /// Greatest number of quadratic programs from one start; default 30.
     pub max_qp_iterations: usize,
-    /// Damping of the steps; default `λ = 0.3 ‖e‖²`.
-    pub damping: Damping,
     /// Largest joint step of one iteration \[rad\]; default 0.7.
     pub step_bound_rad: f64,
     /// Analytic branches as starts; default [`AnalyticStarts::Used`].
@@ -51,7 +48,6 @@ impl Default for IkSettings {
             orientation_tolerance_rad: 1e-6,
             max_iterations: 60,
             max_qp_iterations: 30,
-            damping: Damping::default(),
             step_bound_rad: 0.7,
             analytic_starts: AnalyticStarts::Used,
             listed_starts: 64,
@@ -97,12 +93,6 @@ impl IkSettings {
                 self.max_iterations as f64,
                 "at least 1",
                 self.max_iterations >= 1,
-            ),
-            (
-                "damping",
-                self.damping.first_out_of_range().unwrap_or(0.0),
-                "in [0, 1e6], a threshold above 0",
-                self.damping.first_out_of_range().is_none(),
             ),
             (
                 "step_bound_rad",
