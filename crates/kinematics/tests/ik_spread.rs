@@ -117,6 +117,7 @@ fn the_closed_form_has_every_branch_that_a_search_finds() {
             .branches(&body, &q)
             .unwrap()
             .iter()
+            .flatten()
             .map(|branch| branch.q)
             .collect();
         for answer in &closed {

@@ -138,18 +138,19 @@ impl MeshSource {
 
     /// Returns the scaled vertices of a mesh file, each once \[m\].
     pub(crate) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
-        let file = self.read(link, name, scale)?;
-        let points = match file.format()? {
-            Format::Stl => stl::corners(file.bytes()),
+        let of = |error: MeshError| error.of(link);
+        let file = self.open(name, scale, MAX_BYTES).map_err(of)?;
+        let points = match file.format().map_err(of)? {
             // Used by a face or not.
-            Format::Obj => obj::vertices(file.bytes()),
-            Format::Collada => collada::corners(file.bytes(), MAX_HULL),
+            Format::Obj => obj::vertices(&file.bytes).map_err(|detail| file.wrong(detail)),
+            Format::Stl | Format::Collada => file.all_corners(MAX_HULL),
         };
-        let points = distinct(points.map_err(|detail| file.wrong(detail))?);
-        let points = file.scaled(points)?;
+        let points = file.scaled_of(link, distinct(points.map_err(of)?))?;
         if points.len() < 4 {
             let count = points.len();
-            return Err(file.wrong(format!("it has {count} vertices; a hull needs at least 4")));
+            return Err(of(
+                file.wrong(format!("it has {count} vertices; a hull needs at least 4"))
+            ));
         }
         Ok(points)
     }
@@ -162,19 +163,15 @@ impl MeshSource {
         scale: [f64; 3],
         most: usize,
     ) -> Result<Vec<Triangle>, UrdfError> {
-        let file = self.read(link, name, scale)?;
-        let corners = match file.format()? {
-            Format::Stl => stl::corners(file.bytes()),
-            Format::Obj => obj::corners(file.bytes(), most),
-            Format::Collada => collada::corners(file.bytes(), most),
-        };
-        let corners = corners.map_err(|detail| file.wrong(detail))?;
+        let of = |error: MeshError| error.of(link);
+        let file = self.open(name, scale, MAX_BYTES).map_err(of)?;
+        let corners = file.all_corners(most).map_err(of)?;
         let count = corners.len() / 3;
         if count == 0 || count > most {
             let detail = format!("it has {count} triangles; from 1 to {most} are shown");
-            return Err(file.wrong(detail));
+            return Err(of(file.wrong(detail)));
         }
-        let corners = file.scaled(corners)?;
+        let corners = file.scaled_of(link, corners)?;
         // A mirrored part keeps its outside.
         let mirrored = scale.iter().filter(|s| **s < 0.0).count() % 2 == 1;
         let triangle = |t: &[Point3<f64>]| {
@@ -211,14 +208,6 @@ impl MeshSource {
             triangles: corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
             unit_m: file.unit_m()?,
         })
-    }
-
-    /// Reads a mesh file of a link, with its scale.
-    fn read(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<LinkMesh, UrdfError> {
-        let of = |error: MeshError| error.of(link);
-        let file = self.open(name, scale, MAX_BYTES).map_err(of)?;
-        let link = link.to_owned();
-        Ok(LinkMesh { link, file })
     }
 
     /// Reads a mesh file of at most so many bytes, with its scale.
@@ -389,35 +378,6 @@ struct MeshFile {
     bytes: Vec<u8>,
 }
 
-/// Mesh file of a link.
-struct LinkMesh {
-    link: String,
-    file: MeshFile,
-}
-
-impl LinkMesh {
-    fn wrong(&self, detail: String) -> UrdfError {
-        self.file.wrong(detail).of(&self.link)
-    }
-
-    fn format(&self) -> Result<Format, UrdfError> {
-        self.file.format().map_err(|error| error.of(&self.link))
-    }
-
-    fn bytes(&self) -> &[u8] {
-        &self.file.bytes
-    }
-
-    fn scaled(&self, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, UrdfError> {
-        let at = format!("link '{}'", self.link);
-        self.file.scale(&mut points);
-        for point in &points {
-            length(&at, "mesh vertex", point.coords.as_slice())?;
-        }
-        Ok(points)
-    }
-}
-
 impl MeshFile {
     fn wrong(&self, detail: String) -> MeshError {
         MeshError::Wrong {
@@ -438,14 +398,19 @@ impl MeshFile {
         }
     }
 
-    /// Returns the corners of the triangles, as many as can be `used`: from 1 to `most` triangles.
-    fn corners(&self, most: usize, used: &str) -> Result<Vec<Point3<f64>>, MeshError> {
+    /// Returns the corners of the triangles; of some formats only a few beyond `most` triangles.
+    fn all_corners(&self, most: usize) -> Result<Vec<Point3<f64>>, MeshError> {
         let corners = match self.format()? {
             Format::Stl => stl::corners(&self.bytes),
             Format::Obj => obj::corners(&self.bytes, most),
             Format::Collada => collada::corners(&self.bytes, most),
         };
-        let corners = corners.map_err(|detail| self.wrong(detail))?;
+        corners.map_err(|detail| self.wrong(detail))
+    }
+
+    /// Returns the corners of the triangles, as many as can be `used`: from 1 to `most` triangles.
+    fn corners(&self, most: usize, used: &str) -> Result<Vec<Point3<f64>>, MeshError> {
+        let corners = self.all_corners(most)?;
         let count = corners.len() / 3;
         if count == 0 || count > most {
             let found = if count == 0 { "no" } else { "too many" };
@@ -472,6 +437,16 @@ impl MeshFile {
         for point in points {
             *point = Point3::new(point.x * x, point.y * y, point.z * z);
         }
+    }
+
+    /// Returns the scaled points of a link's mesh; refuses those that are no lengths.
+    fn scaled_of(&self, link: &str, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, UrdfError> {
+        let at = format!("link '{link}'");
+        self.scale(&mut points);
+        for point in &points {
+            length(&at, "mesh vertex", point.coords.as_slice())?;
+        }
+        Ok(points)
     }
 
     fn scaled(&self, mut points: Vec<Point3<f64>>) -> Result<Vec<Point3<f64>>, MeshError> {

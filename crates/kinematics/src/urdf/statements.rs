@@ -55,8 +55,8 @@ pub(crate) struct Statements {
     pub used_text: String,
 }
 
-/// Elements that are used, by their path below `<robot>`, with the attributes that are used.
-const USED: [(&str, &[&str]); 35] = [
+/// Elements that are used, by their path below `<robot>`, with the attributes that are used. Those of a collision shape are those of a visual.
+const USED: [(&str, &[&str]); 27] = [
     ("", &["name", "version"]),
     ("link", &["name"]),
     ("link/inertial", &[]),
@@ -71,14 +71,6 @@ const USED: [(&str, &[&str]); 35] = [
     ("link/visual/geometry/capsule", &["radius", "length"]),
     ("link/visual/geometry/sphere", &["radius"]),
     ("link/visual/geometry/mesh", &["filename", "scale"]),
-    ("link/collision", &[]),
-    ("link/collision/origin", &["xyz", "rpy"]),
-    ("link/collision/geometry", &[]),
-    ("link/collision/geometry/box", &["size"]),
-    ("link/collision/geometry/cylinder", &["radius", "length"]),
-    ("link/collision/geometry/capsule", &["radius", "length"]),
-    ("link/collision/geometry/sphere", &["radius"]),
-    ("link/collision/geometry/mesh", &["filename", "scale"]),
     ("joint", &["name", "type"]),
     ("joint/origin", &["xyz", "rpy"]),
     ("joint/parent", &["link"]),
@@ -252,7 +244,8 @@ impl Walk<'_> {
         {
             self.version = (major, minor);
         }
-        let used = USED.iter().find(|(known, _)| *known == path).map(|(_, used)| used);
+        let alike = path.replacen("link/collision", "link/visual", 1);
+        let used = USED.iter().find(|(known, _)| *known == alike).map(|(_, used)| used);
         let can_matter = !self.cannot_matter(&path);
         let Some(used) = used.filter(|_| can_matter) else {
             self.skipped = 1;

@@ -22,38 +22,19 @@ pub struct Branch {
     pub degenerate: Degeneracies,
 }
 
-/// The eight branches of one target, each present or out of reach.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Branches {
-    slots: [Result<Branch, OutOfReach>; 8],
-}
-
-impl Branches {
-    /// Returns the branches within reach, in the order of [`Label::ALL`].
-    pub fn iter(&self) -> impl Iterator<Item = &Branch> {
-        self.slots.iter().filter_map(|slot| slot.as_ref().ok())
-    }
-
-    /// Returns one branch by its label.
-    ///
-    /// # Errors
-    /// [`OutOfReach`] if the label's shoulder side cannot reach the wrist centre.
-    pub fn get(&self, label: Label) -> Result<Branch, OutOfReach> {
-        self.slots[label.index()]
-    }
-}
-
 impl AnalyticArm {
     /// Returns all branches for `target`, `T_base_body6` of the folded chain (the pose of [`Frame`](crate::Frame) on body 6 without offset;
-    /// its rotation orthonormal to rounding). Free joints keep the value they have in `previous` \[rad\]. Limits are not checked.
+    /// its rotation orthonormal to rounding), in the order of [`Label::ALL`], each within reach or not. Free joints keep the value they have in `previous` \[rad\]. Limits are not checked.
     ///
     /// # Errors
     /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite.
-    pub fn branches(&self, target: &RigidTransform, previous: &JointVector) -> Result<Branches, AnalyticError> {
+    pub fn branches(
+        &self,
+        target: &RigidTransform,
+        previous: &JointVector,
+    ) -> Result<[Result<Branch, OutOfReach>; 8], AnalyticError> {
         check_finite(target, previous)?;
-        Ok(Branches {
-            slots: self.form.all_branches(target, previous),
-        })
+        Ok(self.form.all_branches(target, previous))
     }
 }
 

@@ -81,9 +81,7 @@ mod spherical;
 mod wrist;
 
 pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
-pub use crate::ik::analytic::branch::{
-    Branch, Branches, Degeneracies, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist,
-};
+pub use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist};
 pub use crate::ik::analytic::nearest::NearestConfiguration;
 pub use crate::ik::analytic::recognise::StructureMismatch;
 
