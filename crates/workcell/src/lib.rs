@@ -15,7 +15,7 @@
 //! | the share of a plate that is swept | [`coverage`] |
 //! | the pressure of a sponge on a plate | [`contact`] |
 //! | mass, centre and inertia of shapes | [`uniform`] |
-//! | random streams; cancelling; verdicts; words of messages | [`random`]; [`cancel`]; [`verdict`]; [`words`] |
+//! | random streams; values in heaps; cancelling; verdicts; words of messages | [`random`]; [`ranked`]; [`cancel`]; [`verdict`]; [`words`] |
 //! | files: JSON, tables of numbers, files that appear whole | [`json`], [`number_table`], [`atomic_file`] |
 
 pub mod align;
@@ -39,6 +39,7 @@ pub mod plan;
 pub mod plate;
 pub mod pose;
 pub mod random;
+pub mod ranked;
 pub mod simulation;
 pub mod surface;
 pub mod tool;

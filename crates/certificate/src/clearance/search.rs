@@ -11,6 +11,8 @@ use crate::motion::timeline::{Interval, Timeline};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::clearance::ITERATIVE_ERROR_M;
 use platewash_workcell::clearance::motion::{Mover, PartDistance, PartPair, PartPairs};
+use platewash_workcell::ranked::Ranked;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
@@ -89,35 +91,13 @@ impl Goal {
     }
 }
 
-/// Interval with its bound, ordered so that a heap yields the least bound first, and the earliest of equal ones.
+/// Interval that may hold a lesser distance than its bound allows.
 struct Candidate {
-    bound: f64,
-    order: usize,
     part: usize,
     interval: Interval,
     /// Direction from one part to the other, in the frame of the earlier one, at some moment in the interval or near it.
     normal: Option<[f64; 3]>,
 }
-
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        other.bound.total_cmp(&self.bound).then(other.order.cmp(&self.order))
-    }
-}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Candidate {}
 
 /// Search over one pair of bodies.
 pub(crate) struct Search<'a> {
@@ -126,37 +106,11 @@ pub(crate) struct Search<'a> {
     parts: &'a PartPairs<'a>,
     goal: Goal,
     cancel: &'a CancelToken,
-    open: BinaryHeap<Candidate>,
+    /// Intervals by their bounds: the least first, and the earliest of equal ones.
+    open: BinaryHeap<Reverse<Ranked<Candidate>>>,
     looked_at: usize,
     found: PairDistance,
 }
-
-/// Pair of parts with a lower bound on their distance in the middle of an interval \[m\], ordered so that a heap yields the nearest first.
-struct QueuedPair {
-    gap_m: f64,
-    inner: usize,
-}
-
-impl Ord for QueuedPair {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let nearer = other.gap_m.total_cmp(&self.gap_m);
-        nearer.then(other.inner.cmp(&self.inner))
-    }
-}
-
-impl PartialOrd for QueuedPair {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for QueuedPair {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for QueuedPair {}
 
 /// Interval for two bodies, of which the fixed one has many parts that stand still.
 struct Stay<'a> {
@@ -171,8 +125,8 @@ struct Stay<'a> {
 
 /// Pairs of parts that are still to be examined.
 struct Queue {
-    /// Pairs that may be too near, the nearest first.
-    open: BinaryHeap<QueuedPair>,
+    /// Pairs that may be too near, by lower bounds on their distances in the middle of an interval \[m\]: the nearest first.
+    open: BinaryHeap<Reverse<Ranked<()>>>,
     /// Least bound of those that are far enough, which need no order.
     far: f64,
 }
@@ -193,7 +147,11 @@ impl Queue {
             if gap_m - stay.fall >= needed {
                 self.far = self.far.min(gap_m - stay.fall);
             } else {
-                self.open.push(QueuedPair { gap_m, inner });
+                self.open.push(Reverse(Ranked {
+                    rank: gap_m,
+                    order: inner,
+                    value: (),
+                }));
             }
         }
     }
@@ -230,13 +188,13 @@ impl<'a> Search<'a> {
     }
 
     fn refine(&mut self) {
-        while let Some(worst) = self.open.pop() {
+        while let Some(Reverse(Ranked { rank, value: worst, .. })) = self.open.pop() {
             if self.cancel.is_cancelled() {
                 self.found.at_least_m = f64::NEG_INFINITY;
                 return;
             }
-            self.found.at_least_m = worst.bound.min(self.found.seen_m);
-            if self.accepts(worst.part, worst.bound) || self.looked_at >= self.goal.budget {
+            self.found.at_least_m = rank.min(self.found.seen_m);
+            if self.accepts(worst.part, rank) || self.looked_at >= self.goal.budget {
                 return;
             }
             let [from, to] = self.timeline.times(&worst.interval);
@@ -249,7 +207,7 @@ impl<'a> Search<'a> {
                 return;
             };
             for half in halves {
-                self.bound_interval(worst.part, half, worst.bound, worst.normal);
+                self.bound_interval(worst.part, half, rank, worst.normal);
             }
         }
     }
@@ -280,13 +238,11 @@ impl<'a> Search<'a> {
         self.looked_at += 1;
         let Some(pair) = self.parts.get(part) else { return };
         let (bound, normal) = self.bound(part, pair, &interval, normal);
-        self.open.push(Candidate {
-            bound: inherited.max(bound),
+        self.open.push(Reverse(Ranked {
+            rank: inherited.max(bound),
             order: self.looked_at,
-            part,
-            interval,
-            normal,
-        });
+            value: Candidate { part, interval, normal },
+        }));
     }
 
     /// Returns a lower bound over an interval, and the direction that led to it. Tries spheres around the parts, then the known direction,
@@ -358,7 +314,12 @@ impl<'a> Search<'a> {
         queue.add(parts, parts.within(part), stay, self.needed(part));
         let mut bound = f64::INFINITY;
         let mut direction = None;
-        while let Some(QueuedPair { gap_m, inner }) = queue.open.pop() {
+        while let Some(Reverse(Ranked {
+            rank: gap_m,
+            order: inner,
+            ..
+        })) = queue.open.pop()
+        {
             if self.accepts(part, gap_m - stay.fall) {
                 return bound.min(gap_m - stay.fall).min(queue.far);
             }
@@ -390,7 +351,7 @@ impl<'a> Search<'a> {
             bound = bound.min(found);
             if !self.accepts(part, found) {
                 // The others are no nearer than this one's sphere, and halves will tell.
-                let next = queue.open.peek().map_or(f64::INFINITY, |next| next.gap_m - stay.fall);
+                let next = queue.open.peek().map_or(f64::INFINITY, |next| next.0.rank - stay.fall);
                 return bound.min(next).min(queue.far);
             }
         }

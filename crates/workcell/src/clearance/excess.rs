@@ -1,11 +1,11 @@
 //! Distance by which the convex parts of a mesh reach beyond it.
 
 use crate::clearance::convex::{ConvexHull, bounds};
+use crate::ranked::Ranked;
 use nalgebra::Point3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
-use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 /// Greatest gap between the bound and a distance that was found, unless [`MOST_CUTS`] come first \[m\].
@@ -51,13 +51,13 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
     }
     for _ in 0..MOST_CUTS {
         match open.peek() {
-            Some(cell) if cell.bound_m > found_m + WITHIN_M => {}
+            Some(cell) if cell.rank > found_m + WITHIN_M => {}
             _ => break,
         }
-        let quarters = open.pop().map(|cell| cell.quarters()).into_iter().flatten();
+        let quarters = open.pop().map(|cell| quarters(cell.value)).into_iter().flatten();
         open.extend(quarters.map(|corners| mesh.cell(corners, &mut found_m)));
     }
-    let bound_m = open.peek().map_or(0.0, |cell| cell.bound_m);
+    let bound_m = open.peek().map_or(0.0, |cell| cell.rank);
     let [found, hollow_bound_m] = hollow_m;
     if found > bound_m { hollow_bound_m } else { bound_m }
 }
@@ -142,8 +142,8 @@ impl Mesh {
         }
     }
 
-    /// Returns a triangle with its bound, and raises the distance that was found.
-    fn cell(&self, corners: [Vector; 3], found_m: &mut f64) -> Cell {
+    /// Returns a triangle of a face with the bound on its distance from the mesh \[m\], and raises the distance that was found.
+    fn cell(&self, corners: [Vector; 3], found_m: &mut f64) -> Ranked<[Vector; 3]> {
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         let (beyond_m, triangle) = self.beyond_m(middle);
         *found_m = found_m.max(beyond_m);
@@ -154,9 +154,10 @@ impl Mesh {
             .iter()
             .map(|corner| (*corner - middle).length())
             .fold(0.0, f64::max);
-        Cell {
-            corners,
-            bound_m: (beyond_m + radius_m).min(of_corners_m),
+        Ranked {
+            rank: (beyond_m + radius_m).min(of_corners_m),
+            order: 0,
+            value: corners,
         }
     }
 }
@@ -168,38 +169,10 @@ fn is_closed(faces: &[[u32; 3]]) -> bool {
     edges.clone().all(|edge| seen.insert(edge)) && edges.into_iter().all(|(a, b)| seen.contains(&(b, a)))
 }
 
-/// Triangle of a face, with the bound on its distance from the mesh.
-struct Cell {
-    corners: [Vector; 3],
-    bound_m: f64,
-}
-
-impl Cell {
-    fn quarters(&self) -> [[Vector; 3]; 4] {
-        let [a, b, c] = self.corners;
-        let [ab, bc, ca] = [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5];
-        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-    }
-}
-
-impl PartialEq for Cell {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Cell {}
-
-impl PartialOrd for Cell {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Cell {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound_m.total_cmp(&other.bound_m)
-    }
+/// Returns the four triangles into which the middles of its edges cut a triangle.
+fn quarters([a, b, c]: [Vector; 3]) -> [[Vector; 3]; 4] {
+    let [ab, bc, ca] = [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5];
+    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
 }
 
 #[cfg(test)]
