@@ -3,7 +3,7 @@
 use crate::settings::PaperSettings;
 use platewash_kinematics::RobotModel;
 use platewash_workcell::layout::{
-    Layout, LayoutError, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, base_footprint, sample,
+    Layout, LayoutError, PlateGeometry, Region, SampleRequest, Spacing, base_footprint, sample,
 };
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random;
@@ -88,10 +88,6 @@ impl PaperPart {
             geometry: self.geometry(),
             base: Some(base_footprint(arm)),
         };
-        sample(
-            &request,
-            &SampleSettings::default(),
-            &mut random::stream(seed, "layout"),
-        )
+        sample(&request, &mut random::stream(seed, "layout"))
     }
 }

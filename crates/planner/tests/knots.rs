@@ -5,7 +5,7 @@ use platewash_planner::{Watch, draw_washable_layout, plan, plan_with};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::fixtures::{kitchen, kitchen_plates, kitchen_terms, workcell};
 use platewash_workcell::job::{JobTerms, Planner, WashJob};
-use platewash_workcell::layout::{self, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing};
+use platewash_workcell::layout::{self, PlateGeometry, Region, SampleRequest, Spacing};
 use platewash_workcell::plan::Knots;
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random;
@@ -80,9 +80,7 @@ fn motion(robot: &Arc<RobotModel>, scenario: &str, seed: u64) -> String {
         base: Some(layout::base_footprint(robot)),
     };
     let mut rng = random::stream(seed, "layout");
-    terms.plates = layout::sample(&request, &SampleSettings::default(), &mut rng)
-        .unwrap()
-        .plates;
+    terms.plates = layout::sample(&request, &mut rng).unwrap().plates;
     let job = WashJob::new(robot.clone(), terms).unwrap();
     hash(&plan(&job).unwrap().plan.knots)
 }

@@ -4,7 +4,7 @@ use crate::argument::{self, ANY_COUNT};
 use crate::arrays::{self, line};
 use crate::errors;
 use crate::work::patiently;
-use platewash::workcell::coverage::{CoverageError, CoverageSettings, RasterCell, coverage, raster};
+use platewash::workcell::coverage::{CoverageError, RasterCell, coverage, raster};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
@@ -60,9 +60,8 @@ pub fn measure<'py>(
         arrays::rows::<2>("polyline", polyline)?,
         arrays::fixed::<2>("centre", centre)?,
     );
-    let settings = CoverageSettings { cell_m };
     let found = patiently(py, move |_| {
-        coverage(&polyline, centre, radius_m, sponge_radius_m, &settings)
+        coverage(&polyline, centre, radius_m, sponge_radius_m, cell_m)
     })?;
     let found = found.map_err(|e| wrong(py, &e))?;
     let class = COVERAGE.import(py, "pyplatewash._values", "Coverage")?;

@@ -9,19 +9,8 @@ use platewash_workcell::coverage::*;
 
 const PLATE: f64 = 0.145;
 
-fn with_cell(cell_m: f64) -> CoverageSettings {
-    CoverageSettings { cell_m }
-}
-
 fn swept(polyline: &[[f64; 2]], radius_m: f64, sponge_radius_m: f64) -> Coverage {
-    coverage(
-        polyline,
-        [0.0, 0.0],
-        radius_m,
-        sponge_radius_m,
-        &CoverageSettings::default(),
-    )
-    .unwrap()
+    coverage(polyline, [0.0, 0.0], radius_m, sponge_radius_m, 1e-3).unwrap()
 }
 
 fn assert_brackets(coverage: Coverage, truth: f64, within: f64) {
@@ -153,7 +142,7 @@ fn a_closing_ring_covers_nearly_all() {
         .map(|i| at(0.12 * f64::from(i) / 400.0, f64::from(i) / 100.0))
         .collect();
     path.extend((1..=100).map(|i| at(0.12, f64::from(i) / 100.0)));
-    let coverage = coverage(&path, [0.0, 0.0], PLATE, 0.025, &with_cell(1e-4)).unwrap();
+    let coverage = coverage(&path, [0.0, 0.0], PLATE, 0.025, 1e-4).unwrap();
     assert!(
         (coverage.fraction - 0.999).abs() < 1e-3 && coverage.error() < 2e-3,
         "{coverage:?}"
@@ -168,14 +157,14 @@ fn the_swept_share_does_not_depend_on_the_frame() {
         .map(|p| [p[0] + centre[0], p[1] + centre[1]])
         .collect();
     let here = swept(&paper_spiral(), PLATE, 0.025);
-    let there = coverage(&moved, centre, PLATE, 0.025, &CoverageSettings::default()).unwrap();
+    let there = coverage(&moved, centre, PLATE, 0.025, 1e-3).unwrap();
     assert!((here.fraction - there.fraction).abs() < 1e-4);
 }
 
 #[test]
 fn smaller_cells_shrink_the_error_in_proportion() {
     let error = |cell_m| {
-        coverage(&paper_spiral(), [0.0, 0.0], PLATE, 0.025, &with_cell(cell_m))
+        coverage(&paper_spiral(), [0.0, 0.0], PLATE, 0.025, cell_m)
             .unwrap()
             .error()
     };
@@ -186,7 +175,7 @@ fn smaller_cells_shrink_the_error_in_proportion() {
 #[test]
 fn senseless_numbers_are_refused_by_name() {
     let call = |path: &[[f64; 2]], radius_m, sponge_m, cell_m| {
-        coverage(path, [0.0, 0.0], radius_m, sponge_m, &with_cell(cell_m)).unwrap_err()
+        coverage(path, [0.0, 0.0], radius_m, sponge_m, cell_m).unwrap_err()
     };
     let nan = f64::NAN;
     assert_eq!(
@@ -212,7 +201,7 @@ fn senseless_numbers_are_refused_by_name() {
         CoverageError::NotPositive { quantity: "cell_m", .. }
     ));
     assert!(matches!(call(&[], 1.0, 1.0, 1e-9), CoverageError::CellTooSmall { .. }));
-    let off = coverage(&[], [f64::INFINITY, 0.0], 1.0, 1.0, &with_cell(0.1));
+    let off = coverage(&[], [f64::INFINITY, 0.0], 1.0, 1.0, 0.1);
     assert_eq!(off.unwrap_err(), CoverageError::CentreNotFinite);
 }
 
@@ -253,7 +242,7 @@ proptest! {
         cell_m in 0.01..0.2_f64,
         seed in any::<u64>(),
     ) {
-        let coverage = coverage(&path, [0.0, 0.0], 1.0, s, &with_cell(cell_m)).unwrap();
+        let coverage = coverage(&path, [0.0, 0.0], 1.0, s, cell_m).unwrap();
         prop_assert!(0.0 <= coverage.lower && coverage.lower <= coverage.fraction);
         prop_assert!(coverage.fraction <= coverage.upper && coverage.upper <= 1.0);
         let n = 20_000;
@@ -267,7 +256,7 @@ proptest! {
         path in prop::collection::vec([-1.3..1.3_f64, -1.3..1.3_f64], 1..12),
         s in 0.01..0.8_f64,
     ) {
-        let at = |path: &[[f64; 2]], cell_m| coverage(path, [0.0, 0.0], 1.0, s, &with_cell(cell_m)).unwrap();
+        let at = |path: &[[f64; 2]], cell_m| coverage(path, [0.0, 0.0], 1.0, s, cell_m).unwrap();
         let (coarse, fine, part) = (at(&path, 0.08), at(&path, 0.01), at(&path[..path.len() - 1], 0.01));
         prop_assert!(coarse.lower <= fine.lower + 1e-9 && fine.upper <= coarse.upper + 1e-9);
         prop_assert!(part.fraction <= fine.fraction + 1e-12 && part.lower <= fine.lower + 1e-12);

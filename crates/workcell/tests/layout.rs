@@ -46,7 +46,7 @@ fn square(side: f64) -> Region {
 }
 
 fn draw(request: &SampleRequest, seed: u64) -> Result<Layout, LayoutError> {
-    sample(request, &SampleSettings::default(), &mut Pcg64::seed_from_u64(seed))
+    sample(request, &mut Pcg64::seed_from_u64(seed))
 }
 
 fn centres(layout: &Layout) -> Vec<[f64; 2]> {
@@ -175,38 +175,6 @@ fn impossible_requests_end_soon() {
         (700..1000).contains(&most_placed) && layouts_tried < 1001,
         "{most_placed} {layouts_tried}"
     );
-}
-
-#[test]
-fn settings_limit_the_restarts() {
-    let settings = SampleSettings {
-        max_restarts: 0,
-        ..SampleSettings::default()
-    };
-    let outcomes: Vec<_> = (0..100)
-        .map(|seed| {
-            sample(
-                &request(Region::PAPER_TEXT, 4),
-                &settings,
-                &mut Pcg64::seed_from_u64(seed),
-            )
-        })
-        .collect();
-    assert!(outcomes.iter().any(|o| matches!(
-        o,
-        Ok(Layout {
-            source: LayoutSource::Sampled { restarts: 0, .. },
-            ..
-        })
-    )));
-    assert!(outcomes.iter().any(|o| matches!(
-        o,
-        Err(LayoutError::NoRoom {
-            layouts_tried: 1,
-            most_placed: 2..4,
-            ..
-        })
-    )));
 }
 
 #[test]

@@ -24,7 +24,7 @@ use crate::washing::reach::ReachedNeighbour;
 use crate::washing::shares::{Fineness, shares};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::contact::{ContactThresholds, Foundation};
-use platewash_workcell::coverage::{CoverageSettings, coverage};
+use platewash_workcell::coverage::coverage;
 use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::trajectory::SegmentKind;
@@ -158,10 +158,8 @@ impl Washing<'_> {
         let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
         let share = |radius_m: f64, cell_m: f64| {
             self.cancel.check()?;
-            let settings = CoverageSettings {
-                cell_m: cell_m.max(1e-4 * plate.rim_m()),
-            };
-            coverage(&line.points, [0.0; 2], plate.rim_m(), radius_m, &settings).map_err(ProveError::Coverage)
+            let (rim_m, cell_m) = (plate.rim_m(), cell_m.max(1e-4 * plate.rim_m()));
+            coverage(&line.points, [0.0; 2], rim_m, radius_m, cell_m).map_err(ProveError::Coverage)
         };
         let required = self.subject.job.requirements.coverage;
         let shrunk = sponge_m * swept.cos_tilt - line.off_m;

@@ -5,13 +5,13 @@ use crate::run::PaperRun;
 use crate::tracking::{IkOutcome, Step, tracking_errors};
 use nalgebra::Vector3;
 use platewash_kinematics::ik::IkCause;
-use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
+use platewash_workcell::coverage::{Coverage, CoverageError, coverage};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
-/// Fine enough that the proven error of a plate's coverage is about a tenth of a percent.
-const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
+/// Cell size \[m\], fine enough that the proven error of a plate's coverage is about a tenth of a percent.
+const CELL_M: f64 = 2e-4;
 
 /// The tip counts as touching the plate up to this height above it \[m\].
 const CONTACT_HEIGHT_M: f64 = 1e-3;
@@ -154,7 +154,7 @@ fn plate(run: &PaperRun, steps: &[StepNearness<'_>], index: usize) -> Result<Pla
             .iter()
             .map(|(step, _)| plate.local(of(step)).xy().into())
             .collect();
-        coverage(&path, [0.0; 2], plate.rim_m(), tool.sponge.radius_m, &RASTER)
+        coverage(&path, [0.0; 2], plate.rim_m(), tool.sponge.radius_m, CELL_M)
     };
     let worst = |of: fn(&Step) -> f64| steps.iter().map(|(step, _)| of(step)).fold(0.0, f64::max);
     let executed_coverage = swept(|s| &s.executed_tip)?;

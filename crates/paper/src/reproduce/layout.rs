@@ -9,7 +9,7 @@ use crate::tracking::Step;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkSolver;
 use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage};
+use platewash_workcell::coverage::{Coverage, CoverageError, coverage};
 use platewash_workcell::layout::Finding;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::random;
@@ -21,8 +21,8 @@ use std::collections::BTreeMap;
 /// Sponge radii for which coverage is measured \[mm\].
 pub(super) const SPONGES_MM: [u32; 8] = [10, 15, 20, 25, 30, 35, 40, 45];
 
-/// Coverage raster of the many executed spirals; its proven error is added to the sampling error.
-const EXECUTED_CELL: CoverageSettings = CoverageSettings { cell_m: 5e-4 };
+/// Cell size of the many executed spirals \[m\]; its proven error is added to the sampling error.
+const EXECUTED_CELL_M: f64 = 5e-4;
 
 /// Configuration from which the exact check of a segment starts: in front of the base, elbow up, flange down (degrees).
 const READY_DEG: [f64; 6] = [0.0, 10.0, 10.0, 0.0, 70.0, 0.0];
@@ -120,7 +120,7 @@ fn execute(run: &PaperRun, sample: &mut Sample) -> Result<(), CoverageError> {
             let radius_m = path.iter().map(|tip| from_centre(&plate, tip)).fold(0.0, f64::max);
             sample.lengths_m.entry("radius").or_default().push(radius_m);
         }
-        sample.coverage.push(by_sponge(&path, &plate, &EXECUTED_CELL)?);
+        sample.coverage.push(by_sponge(&path, &plate, EXECUTED_CELL_M)?);
     }
     let dt = run.job.simulation.control.dt_s;
     let too_fast = |pair: &&[JointVector]| {
@@ -140,19 +140,7 @@ fn from_centre(plate: &Plate, point: &[f64; 2]) -> f64 {
 }
 
 /// Coverage of a plate by a path of the tip, by sponge radius.
-pub(super) fn by_sponge(
-    path: &[[f64; 2]],
-    plate: &Plate,
-    settings: &CoverageSettings,
-) -> Result<Vec<Coverage>, CoverageError> {
-    let by = |sponge| {
-        coverage(
-            path,
-            plate.centre_xy(),
-            plate.rim_m(),
-            1e-3 * f64::from(sponge),
-            settings,
-        )
-    };
+pub(super) fn by_sponge(path: &[[f64; 2]], plate: &Plate, cell_m: f64) -> Result<Vec<Coverage>, CoverageError> {
+    let by = |sponge| coverage(path, plate.centre_xy(), plate.rim_m(), 1e-3 * f64::from(sponge), cell_m);
     SPONGES_MM.into_iter().map(by).collect()
 }

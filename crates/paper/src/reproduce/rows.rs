@@ -5,7 +5,7 @@ use super::layout::{SPONGES_MM, Sample, by_sponge};
 use super::statistics::{Estimate, batch_means, percentile, root_mean_square};
 use crate::part::PaperPart;
 use crate::tool_path::ToolPath;
-use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings};
+use platewash_workcell::coverage::{Coverage, CoverageError};
 use platewash_workcell::plate::Plate;
 
 /// Shares in each region: key, words, the value that the paper takes for granted \[%\].
@@ -140,5 +140,5 @@ fn ideal_coverage() -> Result<Vec<Coverage>, CoverageError> {
     let path = ToolPath::new(&part.settings(), &[plate]);
     let spiral = path.segments.iter().flat_map(|segment| &segment.waypoints);
     let spiral: Vec<_> = spiral.map(|p| [p.x, p.y]).collect();
-    by_sponge(&spiral, &plate, &CoverageSettings { cell_m: 1e-4 })
+    by_sponge(&spiral, &plate, 1e-4)
 }

@@ -13,7 +13,7 @@ use crate::simulate::pressing::{Judge, Pressing};
 use nalgebra::Vector3;
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_workcell::coverage::{Coverage, CoverageError, CoverageSettings, coverage_of_strokes, reaches};
+use platewash_workcell::coverage::{Coverage, CoverageError, coverage_of_strokes, reaches};
 use platewash_workcell::job::Treatment;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
@@ -23,8 +23,8 @@ use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Cell size, as in the planner's own report: the proven error is about a tenth of a percent.
-const RASTER: CoverageSettings = CoverageSettings { cell_m: 2e-4 };
+/// Cell size \[m\], as in the planner's own report: the proven error is about a tenth of a percent.
+const CELL_M: f64 = 2e-4;
 
 /// Points of a path nearer to the last one than this are left out \[m\]: on a circle of 10 mm the chord is off by 3 µm.
 const SPACING_M: f64 = 5e-4;
@@ -217,7 +217,7 @@ impl Wash<'_> {
         // With nothing to sweep, any radius sweeps nothing.
         let rim_m = self.plate.rim_m();
         let radius = if radius > 0.0 { radius } else { rim_m };
-        coverage_of_strokes(&strokes, [0.0; 2], rim_m, radius, &RASTER)
+        coverage_of_strokes(&strokes, [0.0; 2], rim_m, radius, CELL_M)
     }
 
     fn causes(&self, touches: &[Touch], executed: &Coverage) -> Vec<Cause> {

@@ -25,20 +25,6 @@ pub fn reaches(share: f64, required: f64) -> bool {
     share >= required - SLACK * required.abs().max(1e-3)
 }
 
-/// Resolution of the coverage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct CoverageSettings {
-    /// Edge of the smallest cells \[m\], at least 1e-5 of the disc's radius. The error falls in proportion.
-    pub cell_m: f64,
-}
-
-impl Default for CoverageSettings {
-    fn default() -> Self {
-        Self { cell_m: 0.001 }
-    }
-}
-
 /// Swept part of a disc, as fractions of the disc's area, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coverage {
@@ -98,7 +84,8 @@ pub enum CoverageError {
 
 /// Computes the part of a disc that a round sponge sweeps while its centre follows a polyline.
 ///
-/// `polyline` and `centre` are in one plane frame \[m\]; `radius_m` is the disc's radius, `sponge_radius_m` the sponge's. An empty polyline
+/// `polyline` and `centre` are in one plane frame \[m\]; `radius_m` is the disc's radius, `sponge_radius_m` the sponge's. `cell_m` is the edge
+/// of the smallest cells, at least 1e-5 of the disc's radius; the error falls in proportion. An empty polyline
 /// sweeps nothing, one of a single point the sponge's own disc; repeated points are allowed.
 ///
 /// The swept area is the union of capsules, one per segment. Square cells are halved while they are neither wholly within one capsule nor
@@ -113,9 +100,9 @@ pub fn coverage(
     centre: [f64; 2],
     radius_m: f64,
     sponge_radius_m: f64,
-    settings: &CoverageSettings,
+    cell_m: f64,
 ) -> Result<Coverage, CoverageError> {
-    coverage_of_strokes(&[polyline], centre, radius_m, sponge_radius_m, settings)
+    coverage_of_strokes(&[polyline], centre, radius_m, sponge_radius_m, cell_m)
 }
 
 /// Same as [`coverage`] for several polylines, between which the sponge does not touch: the union of the parts swept by each.
@@ -128,15 +115,15 @@ pub fn coverage_of_strokes<P: AsRef<[[f64; 2]]>>(
     centre: [f64; 2],
     radius_m: f64,
     sponge_radius_m: f64,
-    settings: &CoverageSettings,
+    cell_m: f64,
 ) -> Result<Coverage, CoverageError> {
     let points = polylines.iter().flat_map(|line| line.as_ref());
-    validate(points, centre, radius_m, sponge_radius_m, settings)?;
+    validate(points, centre, radius_m, sponge_radius_m, cell_m)?;
     let capsules: Vec<Capsule> = polylines
         .iter()
         .flat_map(|line| capsules(line.as_ref(), centre))
         .collect();
-    let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, settings.cell_m).uncovered();
+    let uncovered = Raster::new(&capsules, radius_m, sponge_radius_m, cell_m).uncovered();
     Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
 }
 
@@ -168,9 +155,8 @@ fn validate<'a>(
     centre: [f64; 2],
     radius_m: f64,
     sponge_radius_m: f64,
-    settings: &CoverageSettings,
+    cell_m: f64,
 ) -> Result<(), CoverageError> {
-    let cell_m = settings.cell_m;
     let lengths = [
         ("radius_m", radius_m),
         ("sponge_radius_m", sponge_radius_m),

@@ -127,35 +127,12 @@ pub struct SampleRequest {
     pub base: Option<BaseFootprint>,
 }
 
-/// Limits on the work for a random layout.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct SampleSettings {
-    /// Greatest number of restarts after the first layout came to a dead end. Any number is valid.
-    pub max_restarts: u32,
-    /// Number of steps (positions drawn plus quadtree cells examined) after which no layout is begun. Any number is valid. It is a count
-    /// and not a time, so that the outcome does not depend on the machine.
-    pub max_steps: u64,
-}
+/// Greatest number of restarts after the first layout came to a dead end, and number of steps (positions drawn plus quadtree cells examined)
+/// after which no layout is begun. It is a count and not a time, so that the outcome does not depend on the machine.
+const MOST_WORK: (u32, u64) = (1000, 20_000_000);
 
-impl Default for SampleSettings {
-    fn default() -> Self {
-        Self {
-            max_restarts: 1000,
-            max_steps: 20_000_000,
-        }
-    }
-}
-
-impl SampleSettings {
-    /// Returns settings that are enough to measure how many plates random layouts hold, for a count that is impossible.
-    fn for_a_measure(self) -> Self {
-        Self {
-            max_restarts: self.max_restarts.min(99),
-            max_steps: self.max_steps.min(1_000_000),
-        }
-    }
-}
+/// The same for a count that is impossible: enough to measure how many plates random layouts hold.
+const WORK_OF_A_MEASURE: (u32, u64) = (99, 1_000_000);
 
 /// Draws a layout by the paper's law (see [`Sampler`]), and begins anew at every dead end. It ends in bounded time for every request. The
 /// same generator state gives the same layout on every machine. Findings are overlaps, which the law allows: with the paper's numbers
@@ -166,11 +143,7 @@ impl SampleSettings {
 /// [`LayoutError::InvalidInput`] names the invalid number; [`LayoutError::EmptyRegion`] if not even a first plate has room;
 /// [`LayoutError::NoRoom`] if every layout came to a dead end. If [`packing_bound`] rules the request out, at most a hundred layouts are
 /// begun, only to measure how many plates they held.
-pub fn sample<R: Rng + ?Sized>(
-    request: &SampleRequest,
-    settings: &SampleSettings,
-    rng: &mut R,
-) -> Result<Layout, LayoutError> {
+pub fn sample<R: Rng + ?Sized>(request: &SampleRequest, rng: &mut R) -> Result<Layout, LayoutError> {
     let SampleRequest {
         region,
         spacing,
@@ -184,9 +157,9 @@ pub fn sample<R: Rng + ?Sized>(
     check_count(count)?;
     let sampler = Sampler::new(region, spacing)?;
     let upper_bound = packing_bound(region, spacing.min_distance_m);
-    let settings = match upper_bound {
-        Some(bound) if count > bound => settings.for_a_measure(),
-        _ => *settings,
+    let (max_restarts, max_steps) = match upper_bound {
+        Some(bound) if count > bound => WORK_OF_A_MEASURE,
+        _ => MOST_WORK,
     };
     let mut work = Work::default();
     let (mut most_placed, mut restarts) = (0, 0);
@@ -207,7 +180,7 @@ pub fn sample<R: Rng + ?Sized>(
             }
             Attempt::DeadEnd { placed } => most_placed = most_placed.max(placed),
         }
-        if restarts == settings.max_restarts || work.draws + work.cells >= settings.max_steps {
+        if restarts == max_restarts || work.draws + work.cells >= max_steps {
             return Err(LayoutError::NoRoom {
                 count,
                 most_placed,

@@ -28,9 +28,7 @@ mod tests;
 use crate::layout::error::{EmptyReason, LayoutError};
 use crate::layout::free_cells::{Cells, Discs, Refinement};
 use crate::layout::region::{Area, QuadCell, Region};
-use crate::layout::{
-    BaseFootprint, Layout, PlateGeometry, SampleRequest, SampleSettings, Spacing, check_explicit, sample,
-};
+use crate::layout::{BaseFootprint, Layout, PlateGeometry, SampleRequest, Spacing, check_explicit, sample};
 use rand::Rng;
 
 /// Number of draws from the box before cells are used.
@@ -303,7 +301,7 @@ impl Placement {
                     geometry: *geometry,
                     base: base.copied(),
                 };
-                sample(&request, &SampleSettings::default(), rng)
+                sample(&request, rng)
             }
         }
     }

@@ -1,9 +1,7 @@
 //! Measurements, not run by default: `cargo test --release -p platewash-planner --lib redundancy -- --ignored --nocapture`.
 
 use crate::redundancy::tests::*;
-use platewash_workcell::layout::{
-    BaseFootprint, PlateGeometry, Region, SampleRequest, SampleSettings, Spacing, sample,
-};
+use platewash_workcell::layout::{BaseFootprint, PlateGeometry, Region, SampleRequest, Spacing, sample};
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random::stream;
 use platewash_workcell::surface::Surface;
@@ -147,9 +145,7 @@ fn searches_layouts_of_the_paper() {
                 }),
             };
             for _ in 0..200 {
-                let plates = sample(&request, &SampleSettings::default(), &mut random)
-                    .unwrap()
-                    .plates;
+                let plates = sample(&request, &mut random).unwrap().plates;
                 within(&kitchen_tool(), &plates, |world| {
                     for plate in 0..plates.len() {
                         let path = path(curve(RADIUS_M), 15.0);
