@@ -126,8 +126,7 @@ impl VerdictBasis {
             assumptions: assumptions(job, arm)
                 .into_iter()
                 .map(str::to_owned)
-                .chain(unchecked(arm))
-                .chain(hulls(arm))
+                .chain(links(arm))
                 .chain(
                     arm.unused_words()
                         .map(|words| format!("the arm's description states {words}")),
@@ -200,32 +199,30 @@ fn assumptions(job: &JobTerms, arm: &RobotModel) -> Vec<&'static str> {
     all
 }
 
-/// Returns notes about links of the arm whose shapes are convex hulls, that are split into convex parts, and whose visuals stand for collision
-/// shapes.
-fn hulls(arm: &RobotModel) -> Vec<String> {
-    let hulls: Vec<_> = arm.links_with_hulls().map(quoted).collect();
-    let [split, of_visuals] = [arm.split_links(), arm.links_with_visual_shapes()]
-        .map(|links| links.iter().map(|link| quoted(link)).collect::<Vec<_>>());
-    let note = |links: Vec<String>, what: &str| (!links.is_empty()).then(|| format!("{what}: {}", links.join(", ")));
-    note(hulls, "links are within the convex hulls of their meshes")
-        .into_iter()
-        .chain(note(split, "links are within convex parts that enclose their meshes"))
-        .chain(note(
-            of_visuals,
+/// Returns notes about links of the arm: those without collision shapes, those whose shapes are convex hulls, those that are split into convex
+/// parts, and those whose visuals stand for collision shapes.
+fn links(arm: &RobotModel) -> impl Iterator<Item = String> {
+    let (split, of_visuals) = (arm.split_links(), arm.links_with_visual_shapes());
+    let notes = [
+        (
+            arm.links_without_shapes().map(quoted).collect::<Vec<_>>(),
+            "links without collision shapes keep clear of everything; they were not checked",
+        ),
+        (
+            arm.links_with_hulls().map(quoted).collect(),
+            "links are within the convex hulls of their meshes",
+        ),
+        (
+            split.iter().map(|link| quoted(link)).collect(),
+            "links are within convex parts that enclose their meshes",
+        ),
+        (
+            of_visuals.iter().map(|link| quoted(link)).collect(),
             "links are within their visuals, as they have no collision shapes",
-        ))
-        .collect()
-}
-
-/// Returns a note about links of the arm without collision shapes, if there are any.
-fn unchecked(arm: &RobotModel) -> Option<String> {
-    let links: Vec<_> = arm.links_without_shapes().map(quoted).collect();
-    (!links.is_empty()).then(|| {
-        format!(
-            "links without collision shapes keep clear of everything; they were not checked: {}",
-            links.join(", ")
-        )
-    })
+        ),
+    ];
+    let told = notes.into_iter().filter(|(links, _)| !links.is_empty());
+    told.map(|(links, what)| format!("{what}: {}", links.join(", ")))
 }
 
 /// Returns the numbers of the joints whose acceleration limit in a job is that of the arm's description, from 1.
