@@ -4,14 +4,15 @@ use super::options::Options;
 use super::output::{Reader, full_report, json};
 use anyhow::{Context, Result, bail};
 use platewash::CancelToken;
-use platewash::workcell::atomic_file::{FolderLock, StagedFile, folder_of};
+use platewash::workcell::atomic_file::{FolderLock, folder_of, staged_in};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
-use std::io::{BufWriter, ErrorKind, IntoInnerError, Write};
+use std::io::{self, BufWriter, ErrorKind, IntoInnerError, Write};
 use std::path::{Component, Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// Names in the output folder that belong to `run`, the first six, and to `plan`, and those that `simulate` writes of a plan there: so
 /// no proof of an earlier call stays beside a new result.
@@ -155,7 +156,8 @@ impl<'a> Files<'a> {
                 .with_context(|| format!("{}: is of an earlier call and cannot be removed", path.display()))?;
         }
         for (staged, path) in complete {
-            staged.persist(path).with_context(|| write_failure(path))?;
+            let placed = staged.persist(path).map_err(io::Error::from);
+            placed.with_context(|| write_failure(path))?;
         }
         locks.iter().for_each(FolderLock::sync);
         Ok(true)
@@ -184,17 +186,18 @@ impl<'a> Files<'a> {
 pub fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     let lock = FolderLock::new(folder_of(path)).with_context(|| write_failure(path))?;
     lock.remove_leftovers();
-    stage(path, write)?.persist(path).with_context(|| write_failure(path))
+    let placed = stage(path, write)?.persist(path).map_err(io::Error::from);
+    placed.map(drop).with_context(|| write_failure(path))
 }
 
 /// A file that is complete, and not in its place yet.
-fn stage(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<StagedFile> {
+fn stage(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<NamedTempFile> {
     refuse_taken(path)?;
-    let staged = StagedFile::in_folder(folder_of(path)).with_context(|| write_failure(path))?;
+    let staged = staged_in(folder_of(path)).with_context(|| write_failure(path))?;
     let mut buffered = BufWriter::with_capacity(1 << 16, staged);
     write(&mut buffered)?;
     let staged = buffered.into_inner().map_err(IntoInnerError::into_error);
-    let synced = staged.and_then(|staged| staged.sync().map(|()| staged));
+    let synced = staged.and_then(|staged| staged.as_file().sync_all().map(|()| staged));
     synced.with_context(|| write_failure(path))
 }
 
@@ -227,7 +230,7 @@ fn refuse_place(path: &Path) -> Result<()> {
         bail!("{cannot}: {folder} is not a folder");
     }
     // Rights are many things; a file that is made and goes again asks for all of them.
-    match StagedFile::in_folder(nearest) {
+    match staged_in(nearest) {
         Ok(_) => Ok(()),
         Err(error) => bail!("{cannot}: no file can be made in {folder}: {}", error.kind()),
     }

@@ -44,11 +44,7 @@ fn frame() -> (RobotModel, Plan) {
         order: vec![0],
         wash_paths: Vec::new(),
         segments: Vec::new(),
-        knots: Knots {
-            t_s: Vec::new(),
-            q_rad: Vec::new(),
-            qd_rad_s: Vec::new(),
-        },
+        knots: Knots::default(),
     };
     (robot, Plan::sealed(terms, parts).unwrap())
 }

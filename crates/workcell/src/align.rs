@@ -234,8 +234,8 @@ fn check_units(ratio: f64, drawn_m: f64) -> Result<(), AlignError> {
         return Ok(());
     }
     let (which, found, expected) = match drawn_m > TABLE_M {
-        true => ("drawn", Unit::Millimetre, Unit::Metre),
-        false => ("touched", Unit::Metre, Unit::Millimetre),
+        true => ("drawn", "millimetres", "metres"),
+        false => ("touched", "metres", "millimetres"),
     };
     Err(AlignError::Units {
         ratio,
@@ -367,24 +367,6 @@ fn points<const N: usize, T>(
     table.rows().map(row).collect()
 }
 
-/// Unit of length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// Metres.
-    Metre,
-    /// Millimetres.
-    Millimetre,
-}
-
-impl std::fmt::Display for Unit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Metre => "metres",
-            Self::Millimetre => "millimetres",
-        })
-    }
-}
-
 /// Reason that touched points give no mount. Points count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -444,9 +426,9 @@ pub enum AlignError {
         /// "drawn" or "touched".
         which: &'static str,
         /// Unit that the coordinates seem to have.
-        found: Unit,
+        found: &'static str,
         /// Unit that they should have.
-        expected: Unit,
+        expected: &'static str,
     },
     /// A mirror image fits, and no rotation does.
     #[error(

@@ -52,64 +52,21 @@ impl FolderLock {
     }
 }
 
-/// File under a temporary name; removed when this is dropped.
-#[derive(Debug)]
-pub struct StagedFile {
-    file: NamedTempFile,
-}
-
-impl StagedFile {
-    /// Creates a file in a folder. The caller holds the folder's lock, or knows that the folder has no leftovers.
-    ///
-    /// # Errors
-    /// No file can be made there.
-    pub fn in_folder(folder: &Path) -> io::Result<Self> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(PREFIX);
-        // Temporary files are private; results are for whom the system's mask allows.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder)?;
-        // If files cannot be locked, leftovers stay.
-        let _ = file.as_file().try_lock();
-        Ok(Self { file })
-    }
-
-    /// Creates a file beside `place`. Creates the folder if it is missing, and removes leftovers in it.
-    ///
-    /// # Errors
-    /// No file can be made there.
-    pub fn beside(place: &Path) -> io::Result<Self> {
-        let lock = FolderLock::new(folder_of(place))?;
-        lock.remove_leftovers();
-        Self::in_folder(folder_of(place))
-    }
-
-    /// Flushes the file to the disk.
-    ///
-    /// # Errors
-    /// The disk is full, or fails.
-    pub fn sync(&self) -> io::Result<()> {
-        self.file.as_file().sync_all()
-    }
-
-    /// Renames the file to its final name, replacing an existing file.
-    ///
-    /// # Errors
-    /// The name cannot be taken.
-    pub fn persist(self, place: &Path) -> io::Result<()> {
-        self.file.persist(place).map(drop).map_err(|error| error.error)
-    }
-}
-
-impl Write for StagedFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
-    }
+/// Creates a file under a temporary name in a folder; it is removed when it is dropped. The caller holds the folder's lock, or knows that
+/// the folder has no leftovers.
+///
+/// # Errors
+/// No file can be made there.
+pub fn staged_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    // Temporary files are private; results are for whom the system's mask allows.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let file = builder.tempfile_in(folder)?;
+    // If files cannot be locked, leftovers stay.
+    let _ = file.as_file().try_lock();
+    Ok(file)
 }
 
 /// Writes a file. Leftovers in its folder stay, as there may be many files to examine.
@@ -118,9 +75,9 @@ impl Write for StagedFile {
 /// The file cannot be written; an existing file is unchanged.
 pub fn write(place: &Path, bytes: &[u8]) -> io::Result<()> {
     let lock = FolderLock::new(folder_of(place))?;
-    let mut file = StagedFile::in_folder(folder_of(place))?;
+    let mut file = staged_in(folder_of(place))?;
     file.write_all(bytes)?;
-    file.sync()?;
+    file.as_file().sync_all()?;
     file.persist(place)?;
     lock.sync();
     Ok(())

@@ -46,6 +46,11 @@ pub fn write(value: &impl Serialize) -> Result<String, JsonError> {
     Ok(text)
 }
 
+/// True for a number that files leave out as it is 0.
+pub(crate) fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
 /// Describes an error with its position.
 fn error_text(text: &str, error: &serde_json::Error) -> String {
     let at = format!("line {}, column {}", error.line(), error.column());

@@ -24,7 +24,7 @@ pub struct Obstacle {
     pub pose: Pose,
     /// Margin added around the shape, beyond the clearance that the job requires \[m\]. Distances to the obstacle are measured from the
     /// grown shape. Left out of files if it is 0.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::json::is_zero")]
     pub margin_m: f64,
     /// Indices of the plates that it holds, in ascending order. It may touch these and reach into them. Left out of files if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -144,8 +144,4 @@ pub enum ObstacleFault {
     /// The obstacle holds a plate twice, or the list is not ascending.
     #[error("the plates that it holds must be named once each, the least first")]
     HeldTwice,
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }

@@ -94,15 +94,11 @@ pub struct WashCurve {
     /// True if a circle at the outer radius follows.
     pub closing_ring: bool,
     /// Angle by which that circle ends before a full turn \[rad\].
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::json::is_zero")]
     pub trim_rad: f64,
     /// Rings joined by blends, which take `turns` turns; `None` for a spiral.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rings: Option<Rings>,
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// A point of a wash curve, relative to the plate's centre, with derivatives by θ.

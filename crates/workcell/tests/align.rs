@@ -181,8 +181,8 @@ fn names_a_mistake_of_units() {
             error,
             AlignError::Units {
                 which: "drawn",
-                found: Unit::Millimetre,
-                expected: Unit::Metre,
+                found: "millimetres",
+                expected: "metres",
                 ..
             }
         ),
@@ -198,7 +198,7 @@ fn names_a_mistake_of_units() {
             error,
             AlignError::Units {
                 which: "touched",
-                found: Unit::Metre,
+                found: "metres",
                 ..
             }
         ),

@@ -19,7 +19,8 @@ fn removes_leftovers_and_keeps_files_being_written() {
     let place = folder.path().join("a.txt");
     std::fs::write(folder.path().join(".platewash-left"), "x").unwrap();
     std::fs::write(folder.path().join("mine"), "x").unwrap();
-    let mut writing = StagedFile::beside(&place).unwrap();
+    FolderLock::new(folder.path()).unwrap().remove_leftovers();
+    let mut writing = staged_in(folder.path()).unwrap();
     writing.write_all(b"first").unwrap();
     write(&place, b"second").unwrap();
     FolderLock::new(folder.path()).unwrap().remove_leftovers();

@@ -64,7 +64,7 @@ proptest! {
         let [a, b] = [-h, h].map(|d| meridian.at_arc(arc_m + d));
         let [along, up] = [(b.radius_m - a.radius_m) / (2.0 * h), (b.height_m - a.height_m) / (2.0 * h)];
         prop_assert!((along - here.cosine).abs() < 1e-3 && (up - here.sine).abs() < 1e-3);
-        let [least, most] = meridian.curvature_bounds();
+        let [least, most] = meridian.patch([0.0, meridian.rim_m()]).curvature;
         prop_assert!((least..=most).contains(&here.curvature));
         let across = here.sine / here.radius_m;
         prop_assert!(across >= least - 1e-6 && across <= most + 1e-6, "{across} {least} {most}");

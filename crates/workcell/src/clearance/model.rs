@@ -34,13 +34,8 @@ pub struct PairClearance {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,
     /// Part of the required clearance that the pair need not keep \[m\].
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "crate::json::is_zero")]
     pub reduced_by_m: f64,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks for it
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 impl PairClearance {

@@ -105,11 +105,4 @@ impl SpongePose {
             axis: plate.pose.inverse_transform_vector(&axis),
         }
     }
-
-    /// Distance of a point from the axis \[m\].
-    #[must_use]
-    pub fn off_axis_m(&self, point: &Vector3<f64>) -> f64 {
-        let away = point - self.tip;
-        (away - self.axis * away.dot(&self.axis)).norm()
-    }
 }

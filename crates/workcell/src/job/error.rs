@@ -184,10 +184,8 @@ pub enum End {
 }
 
 impl std::fmt::Display for End {
+    /// Writes the name that files have.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Start => "start",
-            Self::End => "end",
-        })
+        self.serialize(f)
     }
 }

@@ -81,24 +81,7 @@ impl PlanKind {
     /// Returns what the kind does with a statement.
     #[must_use]
     pub fn rule(self, statement: Statement) -> StatementRule {
-        use Statement as S;
-        use StatementRule::{Judged, Needed, Planned, Refused};
-        let [wash, dry_run, motion_home, rest] = match statement {
-            S::Order | S::WashPaths => [Needed, Needed, Refused, Needed],
-            S::DryRun => [Refused, Needed, Refused, Refused],
-            S::NearAtStop => [Refused, Refused, Judged, Refused],
-            // Nothing is pressed in the air.
-            S::Contact | S::Holder => [Judged, Planned, Refused, Judged],
-            S::LandingSpeed | S::Wrist => [Judged, Judged, Refused, Judged],
-            // At a stop the sponge may be at a plate, and leaves it.
-            S::LiftingSpeed => [Judged, Judged, Needed, Judged],
-        };
-        match self {
-            Self::Wash => wash,
-            Self::DryRun => dry_run,
-            Self::MotionHome => motion_home,
-            Self::Rest => rest,
-        }
+        statement.stated().1[self as usize]
     }
 }
 
@@ -130,16 +113,26 @@ impl Statement {
     /// Path of the statement in a plan file.
     #[must_use]
     pub fn path(self) -> &'static str {
+        self.stated().0
+    }
+
+    /// Returns the path of the statement in a plan file, and the rules of the kinds for it, in the order of [`PlanKind::ALL`].
+    fn stated(self) -> (&'static str, [StatementRule; 4]) {
+        use StatementRule::{Judged, Needed, Planned, Refused};
+        // Nothing is pressed in the air. At a stop the sponge may be at a plate, and leaves it.
         match self {
-            Self::Order => "order",
-            Self::WashPaths => "wash_paths",
-            Self::DryRun => "job.dry_run",
-            Self::NearAtStop => "job.workcell.reduced_clearances.at_stop",
-            Self::Contact => "job.requirements.contact",
-            Self::Holder => "job.requirements.holder",
-            Self::LandingSpeed => "job.requirements.landing_m_s",
-            Self::LiftingSpeed => "job.requirements.lifting_m_s",
-            Self::Wrist => "job.requirements.wrist_rad",
+            Self::Order => ("order", [Needed, Needed, Refused, Needed]),
+            Self::WashPaths => ("wash_paths", [Needed, Needed, Refused, Needed]),
+            Self::DryRun => ("job.dry_run", [Refused, Needed, Refused, Refused]),
+            Self::NearAtStop => (
+                "job.workcell.reduced_clearances.at_stop",
+                [Refused, Refused, Judged, Refused],
+            ),
+            Self::Contact => ("job.requirements.contact", [Judged, Planned, Refused, Judged]),
+            Self::Holder => ("job.requirements.holder", [Judged, Planned, Refused, Judged]),
+            Self::LandingSpeed => ("job.requirements.landing_m_s", [Judged, Judged, Refused, Judged]),
+            Self::LiftingSpeed => ("job.requirements.lifting_m_s", [Judged, Judged, Needed, Judged]),
+            Self::Wrist => ("job.requirements.wrist_rad", [Judged, Judged, Refused, Judged]),
         }
     }
 

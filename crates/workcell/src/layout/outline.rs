@@ -10,7 +10,7 @@ use ts_rs::TS;
 /// Greatest angle between two points of an arc \[rad\].
 const ARC_STEP_RAD: f64 = 0.05;
 
-type Point = [f64; 2];
+pub(crate) type Point = [f64; 2];
 
 impl Region {
     /// The border as a closed polygon, base frame \[m\]; arcs are chords. A ring is one polygon that runs along its inner border, too, with
@@ -56,7 +56,7 @@ fn sector([least, most]: [f64; 2], azimuth_deg: [f64; 2]) -> Vec<Point> {
 
 /// Returns the part of a polygon on one side of a line (Sutherland and Hodgman, Comm. ACM 17, 1974). `inside` is the signed distance from
 /// the line, positive on that side.
-fn clip(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
+pub(crate) fn clip(polygon: &[Point], inside: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::new();
     for (k, here) in polygon.iter().enumerate() {
         let before = &polygon[(k + polygon.len() - 1) % polygon.len()];

@@ -1,9 +1,8 @@
 //! Upper bound on the number of plates in any arrangement.
 
+use crate::layout::outline::{Point, clip};
 use crate::layout::region::{Area, Region};
 use crate::trig::sin_cos;
-
-type Point = [f64; 2];
 
 /// Number of sides of the polygon that replaces the outer circle of `rho_m`. It is drawn around the circle.
 const CIRCLE_SIDES: usize = 64;
@@ -37,34 +36,19 @@ pub fn packing_bound(region: &Region, min_distance_m: f64) -> Option<usize> {
 fn convex_cover(region: &Region) -> Vec<Point> {
     let ([x0, x1], [y0, y1]) = (region.x_m, region.y_m);
     let mut polygon = vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    let within = |polygon: &[Point], normal: Point, offset: f64| {
+        clip(polygon, |p| -(normal[0] * p[0] + normal[1] * p[1] - offset))
+    };
     for normal in Area::new(region).wedge().outward_normals() {
-        polygon = clip(&polygon, normal, 0.0);
+        polygon = within(&polygon, normal, 0.0);
     }
     if let Some([_, rho_max]) = region.rho_m {
         for side in 0..CIRCLE_SIDES {
             let (sin, cos) = sin_cos(std::f64::consts::TAU * side as f64 / CIRCLE_SIDES as f64);
-            polygon = clip(&polygon, [cos, sin], rho_max);
+            polygon = within(&polygon, [cos, sin], rho_max);
         }
     }
     polygon
-}
-
-/// Returns the part of a convex polygon with normal · p ≤ offset (Sutherland and Hodgman).
-fn clip(polygon: &[Point], normal: Point, offset: f64) -> Vec<Point> {
-    let excess = |p: Point| normal[0] * p[0] + normal[1] * p[1] - offset;
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (i, &b) in polygon.iter().enumerate() {
-        let a = polygon[(i + polygon.len() - 1) % polygon.len()];
-        let (ea, eb) = (excess(a), excess(b));
-        if (ea > 0.0) != (eb > 0.0) {
-            let t = ea / (ea - eb);
-            kept.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
-        }
-        if eb <= 0.0 {
-            kept.push(b);
-        }
-    }
-    kept
 }
 
 fn area_and_perimeter(polygon: &[Point]) -> (f64, f64) {

@@ -77,6 +77,6 @@ mod tests {
 
     #[test]
     fn no_knots_are_empty_lists() {
-        assert_eq!(canonical(&Knots::none()), crate::plan::NO_KNOTS);
+        assert_eq!(canonical(&Knots::default()), crate::plan::NO_KNOTS);
     }
 }

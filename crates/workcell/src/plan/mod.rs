@@ -68,7 +68,7 @@ impl Provenance {
 }
 
 /// Knots of a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Knots {
     /// Times \[s\].
@@ -80,15 +80,6 @@ pub struct Knots {
 }
 
 impl Knots {
-    /// Returns an empty list of knots.
-    fn none() -> Self {
-        Self {
-            t_s: Vec::new(),
-            q_rad: Vec::new(),
-            qd_rad_s: Vec::new(),
-        }
-    }
-
     /// Returns the motion through the knots.
     ///
     /// # Errors
@@ -210,7 +201,7 @@ impl Plan {
             order: self.order.clone(),
             wash_paths: self.wash_paths.clone(),
             segments: self.segments.clone(),
-            knots: Knots::none(),
+            knots: Knots::default(),
         }
     }
 
@@ -352,11 +343,9 @@ pub enum Process {
 }
 
 impl fmt::Display for Process {
+    /// Writes the name that files have.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Wash => "wash",
-            Self::Paper => "paper",
-        })
+        self.serialize(f)
     }
 }
 

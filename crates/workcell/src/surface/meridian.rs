@@ -363,12 +363,6 @@ impl Meridian {
         patch
     }
 
-    /// Least and greatest curvature, along and across the meridian \[1/m\].
-    #[must_use]
-    pub fn curvature_bounds(&self) -> [f64; 2] {
-        self.patch([0.0, self.rim_m()]).curvature
-    }
-
     /// Area of the surface from the pole to a distance from the axis \[m²\].
     #[must_use]
     pub fn area_within_m2(&self, radius_m: f64) -> f64 {

@@ -162,10 +162,7 @@ impl Surface {
     /// Least and greatest principal curvature \[1/m\], above 0 if the face is hollow.
     #[must_use]
     pub fn curvature_bounds(&self) -> [f64; 2] {
-        match self {
-            Self::Disc { .. } => [0.0; 2],
-            Self::Profile(meridian) => meridian.curvature_bounds(),
-        }
+        self.patch([0.0, self.rim_m()]).curvature
     }
 
     /// Returns the ranges of slope and curvature between two ρ \[m\].
