@@ -92,7 +92,6 @@ impl From<Fields> for IkSettings {
             },
             listed_starts: fields.listed_starts,
             random_restarts: (restarts.count > 0).then_some(restarts),
-            ..Self::default()
         }
     }
 }
