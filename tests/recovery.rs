@@ -2,7 +2,8 @@
 
 use crate::shipped;
 use platewash::certificate::{Requirement, Status, certify, prove};
-use platewash::export::dialect::{ProgramFile, by_name};
+use platewash::export::dialect::by_name;
+use platewash::export::program::ProgramFile;
 use platewash::export::{ExportSettings, compare, export};
 use platewash::kinematics::RobotModel;
 use platewash::planner::{Recovered, RecoveryError, Stop, Watch, recover};

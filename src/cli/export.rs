@@ -12,8 +12,8 @@ use clap::Args;
 use nalgebra::{Quaternion, UnitQuaternion};
 use platewash::certificate::{CertifyError, Check, Requirement, certify_with};
 use platewash::export::dialect::Dialect;
-use platewash::export::dialect::ProgramFile;
 use platewash::export::judgement::{Case, ProgramJudgement};
+use platewash::export::program::ProgramFile;
 use platewash::export::{
     Change, CompareError, ExportError, ExportSettings, ExportedProgram, Joint3, Refusal, compare, contact_not_judged,
     dialect, export, ros2,

@@ -1,7 +1,7 @@
 //! Programs to be written: a job of the UR5, and points that need not be a plan's.
 
 use platewash_export::Joint3;
-use platewash_export::dialect::{Point, Program, ProgramFile};
+use platewash_export::program::{Point, Program, ProgramFile};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};

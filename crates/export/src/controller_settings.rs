@@ -4,8 +4,8 @@
 //! The proof of a program's motion does not see them: a script with another look-ahead, a path tolerance that aborts earlier, stops at every
 //! target. So they must be as they were exported, or safer where that is known.
 
-use crate::compare::Change;
-use crate::dialect::Place;
+use crate::changes::Change;
+use crate::program::Place;
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use platewash_workcell::words::count_with_noun;
 use similar::{Algorithm, DiffTag, capture_diff_slices};

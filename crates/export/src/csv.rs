@@ -3,8 +3,9 @@
 //! The table is strict: a header with a unit in each name, rows of numbers, nothing else. `plan_t_s` is the time in the plan of
 //! each row, so that the table itself shows the share of the plan's speed at which it runs.
 
-use crate::dialect::{Dialect, Place, Point, Points, Program, ProgramFile, ReadError};
-use crate::header::wrapped;
+use crate::comment::wrapped;
+use crate::dialect::{Dialect, Points, ReadError};
+use crate::program::{Place, Point, Program, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};

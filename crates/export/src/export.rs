@@ -1,9 +1,10 @@
 //! A certified plan becomes a program, which is read back and judged before it is handed over.
 
-use crate::dialect::{Dialect, Program, ProgramFile, ReadError, start_within_deg};
+use crate::dialect::{Dialect, ReadError, start_within_deg};
 use crate::judgement::{self, ProgramJudgement};
 use crate::maker_joints::Joint3;
 use crate::points::Source;
+use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;

@@ -10,7 +10,8 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | a language of programs, the programs that it writes and their files; the list of all | `dialect` |
+//! | a language of programs; the list of all | `dialect` |
+//! | a program in no language, its files and places in them | `program` |
 //! | a program read back; words, numbers and signs of a text | `reading` |
 //! | RAPID, of ABB: written and read | `rapid` |
 //! | URScript, of Universal Robots: written and read | `urscript` |
@@ -21,12 +22,14 @@
 //! | the count of axis 3 by a controller, and the arms of which it is known | `maker_joints` |
 //! | the choice of points of a plan that a program names | `points` |
 //! | the assumed motion of an arm along a program, and the proof of that motion | `judgement` |
-//! | the head of a program, as comments | `header` |
+//! | the head of a program, as comments | `header`, `comment` |
 //! | all of it, one after the other; the reasons that a plan is not handed over | `export`, `refusal` |
-//! | a program that may have been changed since | `compare` |
+//! | a program that may have been changed since: its changes, and its share of the plan's speed | `compare`, `changes`, `speed_share` |
 //! | ROS 2 | `ros2` |
 //! | trajectories of any planner, to be judged alone | `trajectory` |
 
+mod changes;
+mod comment;
 pub mod compare;
 pub mod controller_settings;
 pub mod csv;
@@ -36,11 +39,13 @@ mod header;
 pub mod judgement;
 mod maker_joints;
 mod points;
+pub mod program;
 pub mod rapid;
 pub mod reading;
 mod refusal;
 pub mod ros2;
 mod settings;
+mod speed_share;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;
@@ -48,7 +53,8 @@ mod tool_frame;
 pub mod trajectory;
 pub mod urscript;
 
-pub use crate::compare::{Change, CompareError, ProgramComparison, compare};
+pub use crate::changes::Change;
+pub use crate::compare::{CompareError, ProgramComparison, compare};
 pub use crate::export::{ExportError, ExportedProgram, export};
 pub use crate::header::contact_not_judged;
 pub use crate::maker_joints::Joint3;

@@ -9,7 +9,8 @@
 //! in its own joints moves evenly in the description's. Points, corners and speeds are therefore chosen and judged in the description's joints,
 //! and a program alone has the maker's. Sizes do not carry over: if axes 2 and 3 of the maker are off by d each, joint 3 is off by up to 2 d.
 
-use crate::dialect::{Dialect, Point};
+use crate::dialect::Dialect;
+use crate::program::Point;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_kinematics::words::{decimals_up, fixed};

@@ -3,7 +3,8 @@
 //! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
 use crate::controller_settings::ReadSetting;
-use crate::dialect::{Place, ProgramFile, ReadError};
+use crate::dialect::ReadError;
+use crate::program::{Place, ProgramFile};
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::words::shortened;

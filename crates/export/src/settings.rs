@@ -1,7 +1,8 @@
 //! How a plan is handed over, and these settings as lines of a program's head, so that it can be made again and compared.
 
-use crate::dialect::{Dialect, ProgramFile};
+use crate::dialect::Dialect;
 use crate::maker_joints::{self, Joint3};
+use crate::program::ProgramFile;
 use crate::refusal::Refusal;
 use platewash_certificate::Requirement;
 use platewash_kinematics::{JointVector, Pose, RobotModel};

@@ -168,14 +168,14 @@ fn rejects_faults_with_their_line() {
 #[test]
 fn exports_a_table_with_its_explanation() {
     let plan = plan(&ARM);
-    let still = platewash_export::dialect::Point {
+    let still = platewash_export::program::Point {
         t_s: 0.0,
         q_rad: JointVector::zeros(),
         qd_rad_s: JointVector::zeros(),
         rests: true,
         segment: 0,
     };
-    let then = platewash_export::dialect::Point { t_s: 0.004, ..still };
+    let then = platewash_export::program::Point { t_s: 0.004, ..still };
     let [table, about] = <[_; 2]>::try_from(Csv.write(&program(&plan, &ARM, vec![still, then], 0.5))).unwrap();
     assert_eq!((table.name.as_str(), about.name.as_str()), ("small.csv", "small.txt"));
     assert!(Csv.is_in(&table) && !Csv.is_in(&about));

@@ -1,6 +1,7 @@
 //! The list of all dialects.
 
-use platewash_export::dialect::{DIALECTS, Dialect, ProgramFile, by_name};
+use platewash_export::dialect::{DIALECTS, Dialect, by_name};
+use platewash_export::program::ProgramFile;
 
 #[test]
 fn a_name_or_a_file_is_of_one_dialect() {

@@ -1,7 +1,7 @@
 //! The motion that an arm is assumed to make along a program: through its points, with rounded corners.
 
-use platewash_export::dialect::Place;
 use platewash_export::judgement::{CORNER_SCALES, ProgramMotion, motions};
+use platewash_export::program::Place;
 use platewash_export::reading::{ReadPoint, Reading, SegmentShape};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::fixtures::kitchen_tool;

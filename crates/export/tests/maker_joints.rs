@@ -2,7 +2,8 @@
 
 use crate::linkage::urdf;
 use platewash_certificate::{Certified, certify};
-use platewash_export::dialect::{ProgramFile, by_name};
+use platewash_export::dialect::by_name;
+use platewash_export::program::ProgramFile;
 use platewash_export::{CompareError, ExportError, ExportSettings, ExportedProgram, Joint3, Refusal, compare, export};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};

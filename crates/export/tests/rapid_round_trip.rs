@@ -2,7 +2,7 @@
 
 use crate::rapid::{every, kitchen, program, rapid};
 use platewash_export::Joint3;
-use platewash_export::dialect::Point;
+use platewash_export::program::Point;
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::fixtures::kitchen_tool;

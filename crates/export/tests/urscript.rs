@@ -3,7 +3,8 @@
 use crate::programs::{damaged, edited, file, plan, points, program, ur5};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_export::Refusal;
-use platewash_export::dialect::{Dialect, Point, ReadError};
+use platewash_export::dialect::{Dialect, ReadError};
+use platewash_export::program::Point;
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::urscript::UrScript;
 use platewash_kinematics::{JointVector, RobotModel};

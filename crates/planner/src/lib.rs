@@ -15,7 +15,7 @@
 //! | the arm, its tool and what is around them | `scene` |
 //! | transits between plates | `transit`, `joint_path` |
 //! | timing as fast as the limits allow | `timing` |
-//! | the result | `planned_job` |
+//! | the result; the time of a wash against the least | `planned_job`, `pace` |
 //! | going on after a stop | `recovery` |
 //! | a job that cannot be done, and where its plates could lie | `infeasible`, `outlook`, `washable_map`, `suggest` |
 //! | errors; the caller that waits | `error`, `watch` |
@@ -25,6 +25,7 @@ mod infeasible;
 pub mod joint_path;
 mod order;
 mod outlook;
+mod pace;
 mod pattern;
 mod pipeline;
 mod planned_job;
@@ -41,12 +42,13 @@ pub use crate::error::{OutOfRange, PlanError};
 pub use crate::infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport, PlaceSearch, UnwashablePlate};
 pub use crate::order::{EXACT_UP_TO, Optimality};
 pub use crate::outlook::PlateOutlook;
+pub use crate::pace::Pace;
 pub use crate::pattern::{ContactPromise, Shortfall};
 pub use crate::pipeline::{
     check, draw_washable_layout, nearest_place, other_unwashable_plates, plan, plan_here, plan_in_order,
     plan_unexplained, plan_with, plate_outlooks, unwashable_plates, washable_map,
 };
-pub use crate::planned_job::{Pace, PlannedJob, TourSummary, TransitSummary, VisitSummary};
+pub use crate::planned_job::{PlannedJob, TourSummary, TransitSummary, VisitSummary};
 pub use crate::recovery::{Recovered, RecoveryError, Stop, recover};
 pub use crate::redundancy::Chance;
 pub use crate::redundancy::places::SEARCHED_M;

@@ -1,6 +1,4 @@
-//! Watch: the caller that waits for planning.
-//!
-//! Also here: activities of planning, for a caller that waits.
+//! Watch: the caller that waits for planning, and the activities that it is told of.
 
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::words::plate_name;

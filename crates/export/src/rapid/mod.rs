@@ -12,8 +12,9 @@ mod parse;
 mod read;
 mod write;
 
-use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
+use crate::dialect::{Dialect, Points, ReadError};
 use crate::maker_joints::{self, Joint3};
+use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;

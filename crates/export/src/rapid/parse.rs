@@ -2,7 +2,8 @@
 //!
 //! Values of a motion: joint targets, zones and tools.
 
-use crate::dialect::{Place, ProgramFile, ReadError};
+use crate::dialect::ReadError;
+use crate::program::{Place, ProgramFile};
 use crate::rapid::is_taken;
 use crate::reading::{self, Line, ReadTool, Token};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};

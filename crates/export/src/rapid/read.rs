@@ -8,8 +8,9 @@
 //! Numbers are IEEE singles, as on the controller. Joints are the maker's in the text, and the description's in the reading.
 
 use crate::controller_settings::{Accepted, SettingList};
-use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
+use crate::dialect::{ReadError, START_WITHIN_DEG};
 use crate::maker_joints::Joint3;
+use crate::program::{Place, ProgramFile};
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
 use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
 use crate::rapid::{self};

@@ -10,14 +10,16 @@
 //! | numbers in messages | `number` |
 //! | YAML as a tree with lines; that as a reading | `node`; `read` |
 
+pub(crate) mod language;
 pub(crate) mod node;
 pub(crate) mod number;
 pub(crate) mod read;
 pub mod write;
 
-use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError, start_within_deg};
+use crate::dialect::{Dialect, Points, ReadError, start_within_deg};
+use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
-use crate::ros2::read::Language;
+use crate::ros2::language::Language;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.

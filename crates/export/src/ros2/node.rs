@@ -1,6 +1,6 @@
 //! YAML as a tree with lines, strictly and within bounds: the part of the language that a message needs, and nothing else.
 
-use crate::ros2::read::Language;
+use crate::ros2::language::Language;
 use platewash_workcell::words::{quoted, shortened};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::borrow::Cow;

@@ -1,14 +1,14 @@
 //! Messages as a reading: each key known, each value of its type, each rule of the controller and of the proof kept.
 //!
-//! Also here: the languages of messages.
-//!
 //! The controller's own rules are those of its check of messages in ros2_controllers 2.54 (Humble) and 6.9, with the parameters that
 //! it has by default; they are the same in both, but that 6.9 takes effort where it commands effort. Those of 4.42 (Jazzy), between them, were
 //! not read.
 
 use crate::controller_settings::{Accepted, SettingList};
-use crate::dialect::{Place, ProgramFile, ReadError};
+use crate::dialect::ReadError;
+use crate::program::{Place, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
+use crate::ros2::language::Language;
 use crate::ros2::node::{self, Entry, Fault, Kind, Node};
 use crate::ros2::number::{self, ParsedNumber};
 use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
@@ -428,25 +428,5 @@ impl<'n, 'a> Fields<'n, 'a> {
                 .refused(format!("expected {} with {key}; it is missing", self.what))
         };
         self.get(key).map_or_else(missing, Ok)
-    }
-}
-
-/// Notation of keys and lists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Language {
-    /// YAML 1.1 and 1.2, with a head of comments.
-    Yaml,
-    /// JSON, which has no comments.
-    Json,
-}
-
-impl Language {
-    /// Language of a file, by its name.
-    pub(crate) fn of(name: &str) -> Option<Self> {
-        match name.rsplit_once('.')?.1.to_ascii_lowercase().as_str() {
-            "yaml" | "yml" => Some(Self::Yaml),
-            "json" => Some(Self::Json),
-            _ => None,
-        }
     }
 }

@@ -4,10 +4,11 @@
 //!
 //! Times in messages: whole nanoseconds after the lead-in, strictly increasing.
 
-use crate::dialect::{Program, ProgramFile, START_WITHIN_DEG};
+use crate::dialect::START_WITHIN_DEG;
+use crate::program::{Program, ProgramFile};
+use crate::ros2::language::Language;
 use crate::ros2::node::Fault;
 use crate::ros2::number::{float, quoted};
-use crate::ros2::read::Language;
 use crate::ros2::{GOAL_RAD, GOAL_TIME_NS, Message, MessagePoint};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::words::printable;

@@ -2,8 +2,8 @@
 
 mod toy;
 
-use crate::dialect::ProgramFile;
 use crate::export::{self, ExportError};
+use crate::program::ProgramFile;
 use crate::tests::toy::Toy;
 use crate::{
     CompareError, ExportSettings, ExportedProgram, ProgramComparison, Refusal, compare, contact_not_judged, judgement,

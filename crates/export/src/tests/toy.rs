@@ -1,7 +1,8 @@
 //! The plainest of dialects: a line a point, with its time, its joints in radians and whether the arm stops.
 
-use crate::dialect::{Dialect, Place, Points, Program, ProgramFile, ReadError};
-use crate::header::wrapped;
+use crate::comment::wrapped;
+use crate::dialect::{Dialect, Points, ReadError};
+use crate::program::{Place, Program, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::refusal::Refusal;
 use platewash_kinematics::{JointVector, RobotModel};

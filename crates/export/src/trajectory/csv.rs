@@ -3,7 +3,8 @@
 //! Positions are `q1_rad` to `q6_rad` in the arm's order, or columns with the names of its joints; `t_s`, speeds and accelerations may be left
 //! out. Other columns of this program's own tables are not read.
 
-use crate::dialect::{ProgramFile, ReadError};
+use crate::dialect::ReadError;
+use crate::program::ProgramFile;
 use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};

@@ -14,7 +14,8 @@ mod wrapper;
 
 pub use crate::trajectory::time::ExactTime;
 
-use crate::dialect::{ProgramFile, ReadError};
+use crate::dialect::ReadError;
+use crate::program::ProgramFile;
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{AXES, JointVector, RobotModel};

@@ -4,7 +4,8 @@
 //! Joints are matched by name. A stamp that is not zero becomes a note. Frame and number of a header, tolerances and efforts change nothing of
 //! the positions that are asked of the joints, and are not read.
 
-use crate::dialect::{ProgramFile, ReadError};
+use crate::dialect::ReadError;
+use crate::program::ProgramFile;
 use crate::ros2::node::{Fault, Kind, Node, with_indented_brackets};
 use crate::ros2::number::ParsedNumber;
 use crate::ros2::read::{Fields, again, documents, list, parse_number, refused, text};

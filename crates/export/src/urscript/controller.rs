@@ -4,7 +4,7 @@
 //! own: it may bring the arm to the start, before the program's time begins, and to where it stands already.
 
 use crate::controller_settings::SettingList;
-use crate::dialect::Place;
+use crate::program::Place;
 use crate::reading::{ReadPoint, ReadTool, Reading, SegmentShape};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::trig::sin_cos;

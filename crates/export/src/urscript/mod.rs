@@ -14,7 +14,8 @@ mod controller;
 mod read;
 mod write;
 
-use crate::dialect::{Dialect, Points, Program, ProgramFile, ReadError};
+use crate::dialect::{Dialect, Points, ReadError};
+use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::tool_frame;

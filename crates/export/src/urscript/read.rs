@@ -4,7 +4,8 @@
 //! comments. The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions,
 //! threads, functions with parameters, and computed values.
 
-use crate::dialect::{Place, ProgramFile, ReadError, START_WITHIN_DEG};
+use crate::dialect::{ReadError, START_WITHIN_DEG};
+use crate::program::{Place, ProgramFile};
 use crate::reading::{self, Line, MOST_LINES, Reading, Token};
 use crate::urscript::controller::{Controller, Value};
 use platewash_kinematics::{AXES, JointVector};

@@ -3,8 +3,9 @@
 //! The first line is the program's `def`, and the header stands inside: a controller takes text from a socket from the first
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
-use crate::dialect::{Program, start_within_deg};
-use crate::header::wrapped;
+use crate::comment::wrapped;
+use crate::dialect::start_within_deg;
+use crate::program::Program;
 use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector};

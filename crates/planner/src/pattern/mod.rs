@@ -8,12 +8,14 @@
 
 mod candidates;
 mod promise;
+mod shortfall;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use crate::pattern::candidates::length_m;
 pub(crate) use crate::pattern::promise::foundation;
-pub use crate::pattern::promise::{ContactPromise, Margin, Promise, SampledWash, Shortfall};
+pub use crate::pattern::promise::{Margin, Promise, SampledWash};
+pub use crate::pattern::shortfall::{ContactPromise, Shortfall};
 
 use crate::pattern::candidates::{ByTime, Candidate, Density, Estimate, TRIMS_RAD, candidates};
 use crate::pattern::promise::Kept;

@@ -1,7 +1,5 @@
-//! Motions one after the other as one trajectory, and the plan's segments in time.
-//!
-//! Also here: transits between the plates, and from and to home; check that the tool keeps its largest tilt between the points
-//! that were solved, too.
+//! The whole motion: visits and the transits between them as one trajectory, and the plan's segments in time. The tool's largest tilt is
+//! checked between the points that were solved, too.
 
 use crate::error::PlanError;
 use crate::pipeline::shared::Pipeline;

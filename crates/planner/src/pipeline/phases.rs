@@ -1,11 +1,12 @@
 //! All phases, one after the other.
 
 use crate::error::PlanError;
+use crate::pace::{LimitShares, Pace};
 use crate::pipeline::motion::assemble;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::tour::least_time;
 use crate::pipeline::visit::Visit;
-use crate::planned_job::{LimitShares, Pace, PlannedJob, TransitSummary, VisitSummary};
+use crate::planned_job::{PlannedJob, TransitSummary, VisitSummary};
 use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_kinematics::{JointVector, RobotModel};

@@ -1,30 +1,20 @@
 //! Search for another place of a plate at which the job can wash it.
-//!
-//! Also here: map of the places at which a plate could be washed, with the others in place; outlook on each plate, before
-//! anything is planned.
-//!
-//! Layouts of which every plate can be washed whole.
 
 use crate::error::PlanError;
-use crate::outlook::PlateOutlook;
-use crate::pipeline::phases::check_apart;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{self, Turn};
+use crate::redundancy::RedundancyError;
 use crate::redundancy::places::{MovedPlate, RING_M, RINGS, Trial, nearest_washable};
-use crate::redundancy::{Chance, RedundancyError, Task, chance};
 use crate::scene::Scene;
 use crate::transit::LiftLine;
-use crate::washable_map::{IN_A_PATCH, Levels, MapArea, MapPatch, Square};
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector2;
-use platewash_kinematics::{JointVector, RobotModel};
+use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::clearance::standing_overlaps;
-use platewash_workcell::job::{JobError, JobTerms, WashJob};
-use platewash_workcell::layout::{Layout, LayoutError};
+use platewash_workcell::job::WashJob;
 use platewash_workcell::wash_path::WashPath;
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// The nearest centre found at which the job would wash a plate \[m\], on a grid of a millimetre; `None` within
 /// [`SEARCHED_M`](crate::SEARCHED_M) of where it lies. The search that [`plan_with`](crate::plan_with) makes where the job asks for
@@ -139,67 +129,6 @@ impl Pipeline<'_> {
     }
 }
 
-/// Maps the places at which a plate could be washed, with the others in place: squares of an area, coarse ones first, sent in
-/// patches.
-///
-/// A square counts as washable where the plate, with its centre in the middle, overlaps neither another plate nor the base, a policy
-/// of tilts washes it whole from home, and the arm is clear at home. This is an estimate, as [`plate_outlooks`](crate::plate_outlooks) is:
-/// transits are not checked, and a search may wash more. Every reported square was checked. The finer ones are those along the
-/// border in the answers of the coarser ones, so that a detail within one coarse square may be missed.
-///
-/// Squares, answers and their order in patches are the same for any number of threads: of each size, the nearest to where the plate
-/// lies come first.
-///
-/// # Errors
-/// [`PlanError`] of the input, [`PlanError::Plate`], [`PlanError::Setting`] for an area that is none or has too many squares, and
-/// [`PlanError::Cancelled`].
-pub fn washable_map(
-    job: &WashJob,
-    plate: usize,
-    map: &MapArea,
-    tell: &mut dyn FnMut(MapPatch),
-    watch: &Watch<'_>,
-) -> Result<(), PlanError> {
-    fill(&mut Levels::new(map), job, plate, tell, watch)
-}
-
-/// Fills the levels of a map as [`washable_map`] does; where it ends early, those begun have the answers so far.
-pub(crate) fn fill(
-    levels: &mut Levels<'_>,
-    job: &WashJob,
-    plate: usize,
-    tell: &mut dyn FnMut(MapPatch),
-    watch: &Watch<'_>,
-) -> Result<(), PlanError> {
-    with_moved_plate(job, plate, watch, |pipeline, asked| {
-        levels.area.check()?;
-        let here = Vector2::from(asked.scene.centre_in_world(&pipeline.plates[plate]));
-        while let Some((step_m, mut squares)) = levels.next() {
-            let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
-            squares.sort_by(|a, b| away(a).total_cmp(&away(b)));
-            let mut done = 0;
-            for some in squares.chunks(IN_A_PATCH) {
-                let centres: Vec<[f64; 2]> = some.iter().map(|square| levels.centre(step_m, *square)).collect();
-                let washable = pipeline.suitable_centres(asked, &centres)?;
-                levels.add(some.iter().copied().zip(washable.iter().copied()));
-                done += some.len();
-                let of_answer = |wanted: bool| {
-                    let told = centres.iter().zip(&washable).filter(|(_, answer)| **answer == wanted);
-                    told.map(|(centre, _)| *centre).collect()
-                };
-                tell(MapPatch {
-                    step_m,
-                    washable_m: of_answer(true),
-                    unwashable_m: of_answer(false),
-                    done,
-                    of: squares.len(),
-                });
-            }
-        }
-        Ok(())
-    })
-}
-
 /// Calls a function with a plate as the subject of a search for another place: near home, on the wash path that planning would take.
 ///
 /// # Errors
@@ -233,116 +162,14 @@ impl Pipeline<'_> {
     }
 }
 
-/// The chance of each plate to be washed, by its index: each by itself, from home, along the wash path that planning would take.
-/// A guess for the eye, in milliseconds.
-///
-/// A plate that is reported as unwashable makes [`plan`](crate::plan) fail, for this reason or for another one. A plate that is
-/// reported as washable may still fail: transits are not checked, and the arm may come from elsewhere. Plates that overlap are
-/// washed all the same; the overlap is a finding of the layout, and [`plan`](crate::plan) refuses it where the job does not allow
-/// it.
-///
-/// # Errors
-/// [`PlanError`] of the input, an end configuration that is not clear, and [`PlanError::Cancelled`].
-pub fn plate_outlooks(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<PlateOutlook>, PlanError> {
-    let pipeline = Pipeline::here(job, watch)?;
-    pipeline.check_homes()?;
-    let scene = pipeline.scene()?;
-    let (order, _) = pipeline.order(&scene)?;
-    let turns = (0..order.len()).into_par_iter();
-    let outlooks: Result<Vec<PlateOutlook>, Cancelled> =
-        turns.map(|k| pipeline.outlook_on(&scene, &order, k)).collect();
-    let mut outlooks = outlooks?;
-    outlooks.sort_unstable_by_key(|outlook| outlook.plate);
-    Ok(outlooks)
-}
-
-impl Pipeline<'_> {
-    /// The chance of the `k`-th plate of an order.
-    fn outlook_on(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<PlateOutlook, Cancelled> {
-        let (path, [near, _]) = (self.path_of(scene, order, k), &self.terms.home_rad);
-        let chance = match Task::new(scene, &path, self.clearance_m(), near) {
-            Ok(task) => chance(&task)?,
-            // Numbers that planning refuses: it says which.
-            Err(_) => Chance::Unclear,
-        };
-        let plate = order[k];
-        Ok(PlateOutlook { plate, chance })
-    }
-}
-
-/// Layouts drawn before it is given up.
-const MOST_LAYOUTS: usize = 200;
-
-/// Draws layouts until every plate of one can be washed whole under `terms`, whose own plates are ignored.
-///
-/// # Errors
-/// [`PlanError::Layout`] of the draws, [`PlanError::NoneWashable`] when no drawn layout can be washed, and the errors of
-/// [`check`](crate::check).
-pub fn draw_washable_layout(
-    arm: &Arc<RobotModel>,
-    terms: &JobTerms,
-    draw: &mut dyn FnMut() -> Result<Layout, LayoutError>,
-    watch: &Watch<'_>,
-) -> Result<Layout, PlanError> {
-    Pipeline::new(arm, (&terms.seen_from_base(), &terms.workcell.mount), &[], watch)?.check_homes()?;
-    let (mut drawn, most) = (0, MOST_LAYOUTS);
-    loop {
-        watch.cancel.check()?;
-        drawn += 1;
-        (watch.tell)(&Activity::Layout { drawn, most });
-        let layout = draw()?;
-        let terms = JobTerms {
-            plates: layout.plates.clone(),
-            ..terms.clone()
-        };
-        let last = match first_refused(arm, terms, watch)? {
-            None => return Ok(layout),
-            Some(last) => last,
-        };
-        if drawn == most {
-            return Err(PlanError::NoneWashable { layouts: drawn, last });
-        }
-    }
-}
-
-/// Returns the obstruction that keeps the plates of a layout from being washed, in words: a plate shares its place with another
-/// or with an obstacle, or cannot be washed whole.
-fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> Result<Option<String>, PlanError> {
-    if let Err(overlap) = check_apart(arm, &terms) {
-        return Ok(Some(overlap.to_string()));
-    }
-    match WashJob::new(arm.clone(), terms) {
-        Err(standing @ (JobError::Standing(_) | JobError::StillNear { .. })) => Ok(Some(standing.to_string())),
-        job => {
-            let unwashable = Pipeline::of(&job?, watch)?.first_unwashable()?;
-            Ok(unwashable)
-        }
-    }
-}
-
-impl Pipeline<'_> {
-    /// Returns the obstruction on the first plate that cannot be washed whole, in words.
-    fn first_unwashable(&self) -> Result<Option<String>, PlanError> {
-        let (scene, [start, _]) = (self.scene()?, &self.terms.home_rad);
-        let home = self.home_tip(&scene, start);
-        for plate in 0..self.plates.len() {
-            match self.washing_by_patterns(&scene, &self.widest_path(plate, &home), start) {
-                Ok(turn) => {
-                    if let Err(error) = self.check_promise(&turn) {
-                        return Ok(Some(error.to_string()));
-                    }
-                }
-                Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
-                Err(error) => return Ok(Some(error.to_string())),
-            }
-        }
-        Ok(None)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pipeline::outlook::plate_outlooks;
+    use crate::pipeline::place_map::washable_map;
+    use crate::redundancy::places::Chance;
+    use crate::washable_map::MapArea;
+    use crate::washable_map::MapPatch;
     use platewash_workcell::cancel::CancelToken;
     use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 

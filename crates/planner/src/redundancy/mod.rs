@@ -30,6 +30,7 @@
 //! [`beyond_reach`] bounds the share of a face that no path sweeps.
 
 pub mod beyond_reach;
+pub mod error;
 mod lines;
 pub mod places;
 mod samples;
@@ -42,7 +43,8 @@ mod tests;
 pub mod washability;
 mod washing;
 
+pub use crate::redundancy::error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
 pub use crate::redundancy::places::{Chance, chance};
 pub use crate::redundancy::stuck::is_blocked;
-pub use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Task};
+pub use crate::redundancy::task::Task;
 pub use crate::redundancy::washing::{TiltChoice, Washing, washing};

@@ -4,8 +4,9 @@
 //!
 //! Outlook for a plate, in milliseconds: an estimate to show while a user edits.
 
+use crate::redundancy::error::RedundancyError;
 use crate::redundancy::stuck::is_blocked;
-use crate::redundancy::task::{RedundancyError, Task};
+use crate::redundancy::task::Task;
 use crate::redundancy::washing::by_policy;
 use crate::scene::{Scene, Width};
 use crate::trig::sin_cos;

@@ -14,7 +14,7 @@
 //! The graph has no cycles, so one pass forward finds the least cost of every vertex (Bellman 1957).
 
 use crate::redundancy::task::{Task, check_step};
-use crate::scene::stance::GENTLE_TILT_RAD;
+use crate::scene::tilt_policy::GENTLE_TILT_RAD;
 use crate::scene::{Contact, Start, TiltPolicy};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::cancel::Cancelled;

@@ -6,8 +6,9 @@
 //!
 //! Dead ends: the obstructions where a search finds nothing.
 
+use crate::redundancy::error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
 use crate::redundancy::search::Graph;
-use crate::redundancy::task::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError, Stop, Task, check_step};
+use crate::redundancy::task::{Stop, Task, check_step};
 use crate::redundancy::washing;
 use crate::scene::{Filter, Hindrance, Start, Width};
 use crate::trig::atan2;

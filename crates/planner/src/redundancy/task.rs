@@ -1,19 +1,16 @@
 //! Task of washing one plate: checks a contact point at a tilt, and a whole wash path at a profile of tilts.
-//!
-//! Also here: bounds of planning on a plate; errors of a search for configurations along a wash path.
 
 use crate::error::OutOfRange;
+use crate::redundancy::error::RedundancyError;
 use crate::redundancy::samples::{Samples, TiltSpline};
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TRIM_RAD, MOST_TURNS, WashPath};
-use platewash_workcell::words::plate_name;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -385,92 +382,4 @@ pub(crate) fn check_input(
         within("near", joint, [-1e3, 1e3])?;
     }
     Ok(())
-}
-
-/// A contact point at which no tilt is left.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DeadEnd {
-    /// Parameter of the wash path \[rad\].
-    pub theta: f64,
-    /// The contact point \[m\], world frame.
-    pub position_m: Vector3<f64>,
-    /// Hindrances there, one entry per filter: the most frequent first.
-    pub reasons: Vec<Reason>,
-}
-
-/// A filter, and the hindrance that it found at one contact point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reason {
-    /// Tilts that it rejected.
-    pub tilts: usize,
-    /// The least of the hindrances.
-    pub least: Hindrance,
-}
-
-/// Reason that no configurations were found along a wash path.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RedundancyError {
-    /// A number that makes no sense.
-    #[error(transparent)]
-    Input(#[from] OutOfRange),
-    /// There is no such plate.
-    #[error("there is no {}; there are {count}", plate_name(*.plate))]
-    Plate {
-        /// Index of the plate.
-        plate: usize,
-        /// Number of plates.
-        count: usize,
-    },
-    /// At some contact points no tilt within the limit was found reachable, within the joint limits and clear.
-    #[error("{}: no tilt was found at {dead} of {tried} points of the wash path; {}", plate_name(*.plate), at(.ends))]
-    NoTilt {
-        /// Index of the plate.
-        plate: usize,
-        /// Points without a tilt.
-        dead: usize,
-        /// Points tried.
-        tried: usize,
-        /// Contact points without a tilt, at most [`MOST_DEAD_ENDS`] of them, evenly chosen.
-        ends: Vec<DeadEnd>,
-    },
-    /// Every contact point has a tilt, but no continuous sequence of them was found within the joint steps and tilt rate allowed.
-    #[error("{}: no way was found to connect the usable tilts along the path; {}", plate_name(*.plate), at(std::slice::from_ref(.end)))]
-    Disconnected {
-        /// Index of the plate.
-        plate: usize,
-        /// End of the last of the sequences.
-        end: DeadEnd,
-    },
-    /// The search was given up.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    /// The sequence of tilts found fails between the points searched.
-    #[error("{}: {}", plate_name(*.plate), at(std::slice::from_ref(.end)))]
-    Between {
-        /// Index of the plate.
-        plate: usize,
-        /// Contact point at which the motion breaks.
-        end: DeadEnd,
-    },
-}
-
-/// The most dead ends that an error lists.
-pub const MOST_DEAD_ENDS: usize = 24;
-
-impl fmt::Display for DeadEnd {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z]: [f64; 3] = self.position_m.into();
-        write!(f, "at θ = {:.3} rad, ({x:.3}, {y:.3}, {z:.3}) m:", self.theta)?;
-        for (k, reason) in self.reasons.iter().enumerate() {
-            let separator = if k == 0 { "" } else { ";" };
-            write!(f, "{separator} {} ({} of the tilts)", reason.least, reason.tilts)?;
-        }
-        Ok(())
-    }
-}
-
-/// The first of some dead ends, in words.
-fn at(ends: &[DeadEnd]) -> String {
-    ends.first().map_or_else(String::new, ToString::to_string)
 }

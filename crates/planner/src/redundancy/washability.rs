@@ -1,8 +1,9 @@
 //! Extent to which configurations are found along a wash path, and the causes where none is. It says nothing of other paths.
 
+use crate::redundancy::error::Reason;
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::reasons;
-use crate::redundancy::task::{Reason, Task};
+use crate::redundancy::task::Task;
 use crate::redundancy::washing::search_starts;
 use crate::scene::{Filter, Hindrance, Start};
 use platewash_workcell::cancel::Cancelled;

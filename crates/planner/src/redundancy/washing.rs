@@ -1,16 +1,15 @@
-//! Washing of a plate: the policies in turn, then the search.
-//!
-//! Also here: leaning across the arm's plane, away from obstacles beside the arm.
+//! Washing of a plate: the policies in turn, then the search, both across the arm's plane too where obstacles beside the arm ask for it.
 //!
 //! A tilt in the arm's plane moves forearm and wrist towards axis 1 or away from it, along obstacles beside them. Where these are
 //! in the way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay
 //! within the path's cone.
 
+use crate::redundancy::error::{DeadEnd, RedundancyError};
 use crate::redundancy::samples::{TiltSpline, smoothed};
 use crate::redundancy::search::{Graph, GraphPath};
 use crate::redundancy::stuck::{self, blocked};
-use crate::redundancy::task::{DeadEnd, Profile, RedundancyError, Stop, Task};
-use crate::scene::stance::GENTLE_TILT_RAD;
+use crate::redundancy::task::{Profile, Stop, Task};
+use crate::scene::tilt_policy::GENTLE_TILT_RAD;
 use crate::scene::{Contact, Hindrance, Start, TiltPolicy, Width, merge_starts};
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;

@@ -1,17 +1,15 @@
-//! The arm, its tool and the bodies around it; and the pose of the tool at a contact point.
-//!
-//! Also here: bodies that the arm must keep clear of.
+//! The scene: the arm, its tool and the bodies that the arm must keep clear of; and the pose of the tool at a contact point.
 
 mod hindrance;
 mod inverse;
 pub(crate) mod stance;
+pub(crate) mod tilt_policy;
 
 pub use crate::scene::hindrance::{Filter, Hindrance};
 pub(crate) use crate::scene::inverse::{Inverse, Start, Width, merge_starts};
 pub(crate) use crate::scene::stance::angle_between;
-pub use crate::scene::stance::{
-    AXIS_SHARE, AxisRule, Contact, Stance, TILT_RESERVE_RAD, TiltPolicy, WRIST_RESERVE_RAD,
-};
+pub use crate::scene::stance::{AXIS_SHARE, AxisRule, Contact, Stance, TILT_RESERVE_RAD, WRIST_RESERVE_RAD};
+pub use crate::scene::tilt_policy::TiltPolicy;
 
 use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Point3, Vector3};

@@ -4,8 +4,9 @@
 //! straight line between its values by at most `τ²/8 · sup |second derivative|`, τ the step, so that the larger norm at
 //! the two and this term bound it. Steps are halved until the term is small, or the bound keeps the limit.
 
-use crate::timing::grid::{Grid, Magnitudes, TipModel, TipRates};
+use crate::timing::grid::Grid;
 use crate::timing::hermite::Piece;
+use crate::timing::tip_model::{Magnitudes, TipModel, TipRates};
 use crate::timing::{MotionLimits, TipLimits};
 use platewash_kinematics::JointVector;
 

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | [`time_optimal`]; limits; errors | here |
 //! | knots on the path, and where more are needed | `grid.rs`, `rounds.rs` |
-//! | how the tip moves | `grid.rs` |
+//! | how the tip moves | `tip_model.rs` |
 //! | constraints of an interval; linear program of an interval | `interval.rs` |
 //! | backward and forward pass; the rounds of all this | `rounds.rs` |
 //! | a piece of the motion | `hermite.rs` |
@@ -19,12 +19,14 @@ mod grid;
 mod hermite;
 mod interval;
 mod rounds;
+mod tip_model;
 
 pub use crate::timing::rounds::{LONGEST_PIECE_S, PATH_ERROR_RAD, SHORTEST_PIECE_S};
 
 use crate::joint_path::JointPath;
-use crate::timing::grid::{Grid, TipModel};
+use crate::timing::grid::Grid;
 use crate::timing::rounds::Rounds;
+use crate::timing::tip_model::TipModel;
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
 use platewash_workcell::trajectory::{KnotError, Trajectory};
 

@@ -1,13 +1,11 @@
-//! Ends of a transit.
-//!
-//! Also here: the arc round the base, as a path of the joints.
+//! Ends of a transit, the lines over plates, and the arc round the base between them, as paths of the joints.
 //!
 //! A quintic from one state of the joints to another: C² where it joins the pieces before and after.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
 use crate::scene::{Contact, Scene};
 use crate::timing::SlowStretch;
-use crate::transit::search::{BaseArc, FreePath};
+use crate::transit::rules::{BaseArc, FreePath};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::arc;
 use platewash_workcell::words::plate_name;

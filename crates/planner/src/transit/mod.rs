@@ -15,8 +15,12 @@
 
 mod error;
 mod lift_line;
+mod rules;
 mod sampled;
 mod search;
-pub use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};
+mod shortfall;
+pub use crate::transit::error::{TransitError, TransitObstruction};
 pub use crate::transit::lift_line::{LiftLine, LiftLineError};
-pub use crate::transit::search::{BaseArc, STEP_RAD, Transit, TransitKind, TransitRules, plan};
+pub use crate::transit::rules::{BaseArc, STEP_RAD, TransitKind, TransitRules};
+pub use crate::transit::search::{Transit, plan};
+pub use crate::transit::shortfall::ClearanceShortfall;

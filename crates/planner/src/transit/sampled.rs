@@ -2,7 +2,7 @@
 //! smoothed.
 
 use crate::scene::Stretch;
-use crate::transit::search::{FreePath, STEP_RAD, TransitRules};
+use crate::transit::rules::{FreePath, STEP_RAD, TransitRules};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use rand::RngExt;

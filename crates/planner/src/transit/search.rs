@@ -1,18 +1,17 @@
 //! Candidates of a transit, and the choice among them.
-//!
-//! Also here: requirements of a transit, and the candidates that it may try; kinds of transits; the free part of a transit,
-//! between two tops.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
-use crate::scene::{Scene, Stretch, TiltPolicy};
-use crate::timing::{self, MotionLimits, SlowStretch, TimedPath};
-use crate::transit::error::{ClearanceShortfall, TransitError, TransitObstruction};
+use crate::scene::Stretch;
+use crate::timing::{self, SlowStretch, TimedPath};
+use crate::transit::error::{TransitError, TransitObstruction};
 use crate::transit::lift_line::{self, LiftLine, quintic};
+use crate::transit::rules::FreePath;
+use crate::transit::rules::STEP_RAD;
+use crate::transit::rules::TransitKind;
+use crate::transit::rules::TransitRules;
 use crate::transit::sampled;
 use platewash_kinematics::{Axes, JointVector, RobotModel};
-use platewash_workcell::arc::Arc;
 use rand_pcg::Pcg64;
-use serde::Serialize;
 
 /// Pace of the joints on a direct path \[rad of the fastest joint per metre of the parameter\], the candidates.
 const PACES_RAD_M: [f64; 3] = [2.0, 3.5, 6.0];
@@ -268,69 +267,4 @@ fn blended(from: &PathState, to: &PathState, length: f64) -> FreePath {
         q: shares.map(|s| quintic(from, to, length, s)).collect(),
         length,
     }
-}
-
-/// Requirements of a transit, and the candidates that it may try.
-#[derive(Debug, Clone, Copy)]
-pub struct TransitRules<'a> {
-    /// Scene in which the arm moves.
-    pub scene: &'a Scene<'a>,
-    /// Limits of the motion.
-    pub limits: &'a MotionLimits,
-    /// The clearance asked for \[m\]; [`Stretch::reserve_m`] is kept on top of it.
-    pub clearance_m: f64,
-    /// The arc round the base, where it may be tried.
-    pub arc: Option<BaseArc>,
-}
-
-/// The arc round the base, and how the tool stands on it.
-#[derive(Debug, Clone, Copy)]
-pub struct BaseArc {
-    /// Points, radius and height.
-    pub arc: Arc,
-    /// Tilt of the tool.
-    pub policy: TiltPolicy,
-}
-
-impl TransitRules<'_> {
-    /// Checks that a configuration \[rad\] keeps its clearance.
-    pub(crate) fn is_clear(&self, q: &JointVector, stretch: Stretch) -> bool {
-        let required_m = self.clearance_m + stretch.reserve_m();
-        self.scene.surroundings.is_clear(q, stretch, required_m)
-    }
-
-    /// The bodies that are too near where it does not.
-    pub(crate) fn too_near(&self, q: &JointVector, stretch: Stretch) -> Option<ClearanceShortfall> {
-        ClearanceShortfall::at(self.scene.surroundings, q, stretch, self.clearance_m)
-    }
-}
-
-/// Kind of route of a transit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, thiserror::Error)]
-#[serde(rename_all = "snake_case")]
-pub enum TransitKind {
-    /// Quintic from top to top in the joints.
-    #[error("straight in joint space")]
-    Direct,
-    /// The same connection over a raised configuration.
-    #[error("in joint space over a raised point")]
-    Raised,
-    /// Round the base.
-    #[error("on an arc around the base")]
-    Arc,
-    /// Found by random trees.
-    #[error("found by sampling")]
-    Sampled,
-}
-
-/// Largest joint motion between neighbouring configurations that are checked \[rad\].
-pub const STEP_RAD: f64 = 0.02;
-
-/// Configurations between two tops, both left out, with the parameter counted from the first top \[m\], and its
-/// value at the second.
-#[derive(Debug, Clone)]
-pub(crate) struct FreePath {
-    pub u: Vec<f64>,
-    pub q: Vec<JointVector>,
-    pub length: f64,
 }

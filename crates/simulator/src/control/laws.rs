@@ -1,7 +1,4 @@
-//! Input and output of every law.
-//!
-//! Also here: a perfect servo; gains of the torque laws; the paper's law, to the letter; proportional–derivative control of
-//! independent joints; proportional–derivative control with gravity compensation.
+//! Control laws: their input and output, and each law by its equation.
 //!
 //! Computed torque: the arm's own model makes every joint a double integrator.
 

@@ -1,6 +1,4 @@
-//! Stability of a sampled torque law, linearised about rest.
-//!
-//! Also here: within which limits a law that was refused would have been stable.
+//! Stability of a sampled torque law, linearised about rest, and the limits within which a law that was refused would have been stable.
 //!
 //! About a configuration that the arm shall hold, with gravity's slope left out, x = (δq, δq̇) obeys
 //! M δq̈ = −S δq − (D + C) δq̇ + u, u = −K x held over the sampling time T, K = (Kp, Kd) or M (Kp, Kd) for computed torque, D friction,

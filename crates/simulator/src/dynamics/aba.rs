@@ -1,6 +1,4 @@
-//! Forward dynamics: the articulated-body algorithm (Featherstone 2008, §7.3), in one common frame.
-//!
-//! Also here: a force on the tool; how the joints move it.
+//! Forward dynamics, also with a force on the tool: the articulated-body algorithm (Featherstone 2008, §7.3), in one common frame.
 //!
 //! Spatial vectors are (angular, linear). With S the joint's motion, v_i = v_{i−1} + S_i q̇_i and c_i = v_i × S_i q̇_i,
 //!

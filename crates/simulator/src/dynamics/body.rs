@@ -1,6 +1,4 @@
-//! A rigid body: mass, centre of mass, inertia.
-//!
-//! Also here: check that a body can exist; the tool as a body.
+//! A rigid body, a link or the tool: mass, centre of mass, inertia, and the check that it can exist.
 
 use nalgebra::{Matrix3, Vector3};
 use platewash_kinematics::geometry::Inertial;

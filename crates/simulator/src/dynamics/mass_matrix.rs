@@ -1,6 +1,5 @@
-//! The mass matrix: the composite-rigid-body algorithm (Featherstone 2008, §6.2), in one common frame.
-//!
-//! Also here: kinetic and potential energy; the largest inertia that each joint meets.
+//! Inertia of the arm at a configuration: the mass matrix by the composite-rigid-body algorithm (Featherstone 2008, §6.2), in one common
+//! frame; energy; the largest inertia that each joint meets.
 //!
 //! With S_i = (z_i, r_i × z_i) the joint's motion and Iᶜ_i the inertia of everything from body i outwards, taken as rigid,
 //! M_ij = S_jᵀ Iᶜ_i S_i for j ≤ i: in a common frame Iᶜ_{i−1} = I_{i−1} + Iᶜ_i is a plain sum.

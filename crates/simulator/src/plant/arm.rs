@@ -1,7 +1,5 @@
-//! An arm that torques move.
-//!
-//! Also here: one step of semi-implicit Euler, implicit in the friction; one step of the classical Runge–Kutta scheme (Kutta
-//! 1901), fourth order; viscous and Coulomb friction; torque limits of the motors; state of the joints.
+//! An arm that torques move: state of its joints, friction, torque limits, and the steps of two integrators, semi-implicit Euler and the
+//! classical Runge–Kutta scheme (Kutta 1901).
 //!
 //! With d = d(q̇) taken at the start of the step and friction at its end, (M + h diag(d)) q̈ = τ − C q̇ − g − d q̇; then
 //! q̇ += h q̈, q += h q̇. Symplectic without friction; friction alone never turns a joint round, however stiff it is.

@@ -3,7 +3,8 @@
 use crate::plant::foam::{DENSE_FACTOR, DENSE_STRAIN};
 use crate::simulate::error::SimulationError;
 use crate::simulate::execution::Execution;
-use crate::simulate::measures::{self, Effort, PayloadCheck, PayloadVerdict, SegmentTracking, Tracking};
+use crate::simulate::measures::{self, Effort, SegmentTracking, Tracking};
+use crate::simulate::payload::{PayloadCheck, PayloadVerdict};
 use crate::simulate::text::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::{JointFriction, RobotModel};

@@ -1,21 +1,23 @@
-//! The loop of samples: reference, law, plant.
-//!
-//! Also here: segments of a plan in time; how much work an execution may be; the sponge on a plate.
-//!
-//! About which configurations a run must be stable: with nothing touching, and with the sponge on plates.
+//! The loop of samples: reference, law, plant; and the configurations at which a run must be stable: with nothing touching, and with the
+//! sponge on plates.
 
 use crate::control::{self, Command, ControlLaw, OperatingPoint, Reference};
 use crate::dynamics::DynamicsModel;
 use crate::plant::{FoamLoad, Plant, PlantState, SpongeOnPlates, longest_step_s};
-use crate::simulate::error::{self, SimulationError};
+use crate::simulate::amount::MAX_SAMPLES;
+use crate::simulate::amount::MAX_STEPS;
+use crate::simulate::amount::highest_rate;
+use crate::simulate::check::check;
+use crate::simulate::error::SimulationError;
 use crate::simulate::execution::{Execution, Sample};
+use crate::simulate::schedule::Schedule;
 use nalgebra::Vector3;
-use platewash_kinematics::words::{rounded, rounded_down, rounded_up};
+use platewash_kinematics::words::rounded;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{PlantSettings, SimulationSettings};
-use platewash_workcell::trajectory::{JointState, PlanSegment, SegmentKind, Trajectory};
+use platewash_workcell::trajectory::{JointState, SegmentKind, Trajectory};
 
 /// Significant digits of a rate in messages.
 const RATE_DIGITS: usize = 6;
@@ -65,7 +67,7 @@ pub fn simulate_watched(
     plan.job.validate()?;
     let mount = plan.job.workcell.mount;
     let plan = &*plan.seen_from_base();
-    error::check(settings, &plan.job.workcell.tool)?;
+    check(settings, &plan.job.workcell.tool)?;
     let motion = plan.knots.motion()?;
     let schedule = Schedule::new(plan, settings.period_s())?;
     let count = count(motion.duration_s(), settings.period_s(), settings.plant.substeps)?;
@@ -299,86 +301,6 @@ fn check_bounded(t_s: f64, state: &PlantState) -> Result<(), SimulationError> {
         }),
         None => Ok(()),
     }
-}
-
-/// Largest excess of a sampling time over a segment's end that still counts as within it, as a part of the sampling period:
-/// rounding.
-const ROUNDING: f64 = 1e-6;
-
-/// The segment at ascending times.
-#[derive(Debug, Clone)]
-pub(crate) struct Schedule<'a> {
-    segments: &'a [PlanSegment],
-    index: usize,
-    slack_s: f64,
-}
-
-impl<'a> Schedule<'a> {
-    /// The segments of a plan, looked up every `period_s`.
-    ///
-    /// # Errors
-    /// [`SimulationError::Empty`] without segments, [`SimulationError::Plate`] for a segment of no plate.
-    pub fn new(plan: &'a Plan, period_s: f64) -> Result<Self, SimulationError> {
-        let (segments, plates) = (&plan.segments[..], plan.job.plates.len());
-        if segments.is_empty() || plan.knots.t_s.is_empty() {
-            return Err(SimulationError::Empty {
-                knots: plan.knots.t_s.len(),
-                segments: segments.len(),
-            });
-        }
-        if let Some(segment) = segments.iter().position(|s| s.plate >= plates) {
-            let plate = segments[segment].plate;
-            return Err(SimulationError::Plate { segment, plate, plates });
-        }
-        Ok(Self {
-            segments,
-            index: 0,
-            slack_s: ROUNDING * period_s,
-        })
-    }
-
-    /// Index of the segment that ends at or after `t`, not before the one asked for last; the last one beyond the end.
-    pub fn at(&mut self, t: f64) -> usize {
-        while self.index + 1 < self.segments.len() && self.segments[self.index].t_end_s + self.slack_s < t {
-            self.index += 1;
-        }
-        self.index
-    }
-
-    /// A segment.
-    pub fn segment(&self, index: usize) -> &'a PlanSegment {
-        &self.segments[index]
-    }
-
-    /// The plate that the sponge shall be on in a segment, if on any.
-    pub fn washed_plate(&self, index: usize) -> Option<usize> {
-        let segment = &self.segments[index];
-        (segment.kind == SegmentKind::Wash).then_some(segment.plate)
-    }
-}
-
-/// Most samples of an execution, some 500 MB.
-pub const MAX_SAMPLES: usize = 2_000_000;
-
-/// Most steps of integration.
-pub const MAX_STEPS: usize = 50_000_000;
-
-/// Significant digits of a rate or period that is suggested.
-const DIGITS: usize = 3;
-
-/// Periods of an execution that is not too much work, but for two of rounding.
-fn most_periods(substeps: usize) -> f64 {
-    MAX_SAMPLES.min(MAX_STEPS / substeps.max(1)).saturating_sub(3) as f64
-}
-
-/// A rate \[Hz\] at which so much motion is not too much work.
-pub(crate) fn highest_rate(duration_s: f64, substeps: usize) -> f64 {
-    rounded_down(most_periods(substeps) / duration_s, DIGITS)
-}
-
-/// A period \[s\] with which it is not.
-pub(crate) fn shortest_period(duration_s: f64, substeps: usize) -> f64 {
-    rounded_up(duration_s / most_periods(substeps), DIGITS)
 }
 
 /// Configurations along a plan about which the sampled loop is checked, at most; as many in washes, on each kind of foam.

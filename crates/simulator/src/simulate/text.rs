@@ -1,8 +1,7 @@
-//! The report as a person reads it.
-//!
-//! Also here: numbers as people read them.
+//! The report and its numbers, as a person reads them.
 
-use crate::simulate::measures::{Effort, PayloadVerdict, Tracking};
+use crate::simulate::measures::{Effort, Tracking};
+use crate::simulate::payload::PayloadVerdict;
 use crate::simulate::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
 use crate::simulate::report::{SimulationReport, SimulationVerdict};
 use platewash_kinematics::words::{distinct_decimals, percent, rounded};

@@ -1,6 +1,4 @@
-//! A program in the words of RAPID.
-//!
-//! Also here: head of a module, as comments.
+//! A program in the words of RAPID: modules, each with its head as comments.
 //!
 //! Lines of a module: ASCII, line feeds, no blanks at the end.
 //!
@@ -9,9 +7,10 @@
 mod motion;
 mod start;
 
-use crate::dialect::{Program, ProgramFile, start_within_deg};
-use crate::header::wrapped;
+use crate::comment::wrapped;
+use crate::dialect::start_within_deg;
 use crate::maker_joints::Joint3;
+use crate::program::{Program, ProgramFile};
 use crate::rapid::is_taken;
 use crate::rapid::write::motion::{Routine, routines};
 use platewash_kinematics::words::fixed;

@@ -1,8 +1,8 @@
 //! The motion: a routine a segment, a line a target.
 
-use crate::dialect::{Point, Program};
-use crate::header::wrapped;
+use crate::comment::wrapped;
 use crate::maker_joints::Joint3;
+use crate::program::{Point, Program};
 use crate::rapid::write::{PREFIX, RUNNING};
 use crate::rapid::zone_named;
 use platewash_kinematics::JointVector;

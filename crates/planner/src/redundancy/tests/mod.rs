@@ -14,7 +14,7 @@ use crate::redundancy::task::Profile;
 use crate::redundancy::washability::{Cause, Points, WashablePart, washable_part};
 use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
 use crate::redundancy::*;
-use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, stance};
+use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, tilt_policy};
 use crate::trig::sin_cos;
 use crate::{redundancy, scene};
 use nalgebra::Vector3;
@@ -64,7 +64,7 @@ proptest! {
             assert!(washing.travel_rad() < 15.0, "{}", washing.travel_rad());
             let rates = washing.tilt_rad.windows(2).zip(task.samples.length_m.windows(2));
             for (tilts, lengths) in rates {
-                assert!((tilts[1] - tilts[0]).abs() <= 1.05 * stance::FASTEST_RAD_M * (lengths[1] - lengths[0]) + 1e-12);
+                assert!((tilts[1] - tilts[0]).abs() <= 1.05 * tilt_policy::FASTEST_RAD_M * (lengths[1] - lengths[0]) + 1e-12);
             }
         });
     }

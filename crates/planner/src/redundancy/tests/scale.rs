@@ -46,7 +46,7 @@ impl Tally {
                     }
                 }
                 let gentle = TiltPolicy::sloping(
-                    path.cone_rad.min(crate::scene::stance::GENTLE_TILT_RAD),
+                    path.cone_rad.min(crate::scene::tilt_policy::GENTLE_TILT_RAD),
                     world.scene.distance(&at),
                     path.curve.radius_m,
                 );
