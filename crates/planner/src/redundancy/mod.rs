@@ -14,7 +14,7 @@
 //!
 //! # Method
 //!
-//! 1. `TiltPolicy` (`scene/stance.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
+//! 1. `TiltPolicy` (`scene/tilt_policy.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
 //!    points.
 //! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that is possible, smoothed
 //!    by a B-spline (`samples`) as far as it stays possible.
