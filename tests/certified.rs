@@ -2,7 +2,7 @@
 
 use platewash::certificate::{Certificate, Requirement};
 use platewash::planner::{Activity, PlannedJob, Watch, plan_with};
-use platewash::scenario::RegionName;
+use platewash::paper::PaperPart;
 use platewash::study::{Outcome, Row};
 use platewash::workcell::cancel::CancelToken;
 use platewash::workcell::fixtures::is_thorough;
@@ -91,7 +91,7 @@ fn the_papers_spacing_is_washed_too() {
     scenario.layout.min_distance_m = 0.28;
     scenario.layout.base_radius_m = 0.25;
     scenario.layout.overlap = Overlap::Report;
-    for region in [RegionName::Text, RegionName::Appendix] {
+    for region in PaperPart::ALL {
         scenario.layout.region = Some(region);
         for row in rows(&scenario, seeds()).unwrap() {
             assert_eq!(

@@ -172,7 +172,7 @@ impl Editor {
                 opened
             }
         };
-        let arm = subject.arms.of(&scenario)?.arm;
+        let arm = subject.arm(&scenario)?.arm;
         let mut view = View::of_configuration(&arm, None, &scenario.homes()[0].unwrap_or_else(JointVector::zeros));
         view.heading.scenario.clone_from(&scenario.name);
         Ok(view)

@@ -8,7 +8,7 @@ use platewash_kinematics::RobotModel;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::Files;
 use platewash_planner::Watch;
-use platewash_scenario::{Draft, Failure, Program, Scenario, Solids, values_of};
+use platewash_scenario::{Cache, Draft, Failure, Program, Scenario, Solids, values_of};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::WashJob;
 use platewash_workcell::layout::Layout;
@@ -60,8 +60,8 @@ pub struct Subject {
     pub is_open_to_others: bool,
     /// True where the latest answer is remembered.
     pub remembers: bool,
-    /// Arms that were loaded.
-    pub arms: Arms,
+    /// Arms that were loaded, by the data that decide them.
+    arms: Cache<String, Arc<RobotModel>, KEPT>,
     /// Meshes that were cut.
     pub solids: Solids,
     /// Source of the files that it names.
@@ -208,12 +208,6 @@ pub fn may_name_its_files(subject: &Subject, scenario: &Scenario) -> Result<(), 
 /// Arms that are kept.
 const KEPT: usize = 4;
 
-/// Arms by the data that decide them.
-#[derive(Debug, Default)]
-pub struct Arms {
-    kept: Mutex<Vec<LoadedArm>>,
-}
-
 /// An arm, and an id of its description.
 #[derive(Debug, Clone)]
 pub struct LoadedArm {
@@ -223,25 +217,12 @@ pub struct LoadedArm {
     pub arm: Arc<RobotModel>,
 }
 
-impl Arms {
+impl Subject {
     /// The arm of a scenario.
-    pub fn of(&self, scenario: &Scenario) -> Result<LoadedArm, Failure> {
+    pub fn arm(&self, scenario: &Scenario) -> Result<LoadedArm, Failure> {
         let id = id(scenario);
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(at) = kept.iter().position(|loaded| loaded.id == id) {
-            let loaded = kept.remove(at);
-            kept.push(loaded.clone());
-            return Ok(loaded);
-        }
-        drop(kept);
-        let arm = scenario.arm()?;
-        let loaded = LoadedArm { id, arm };
-        kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.push(loaded.clone());
-        if kept.len() > KEPT {
-            kept.remove(0);
-        }
-        Ok(loaded)
+        let arm = self.arms.of(id.clone(), || scenario.arm())?;
+        Ok(LoadedArm { id, arm })
     }
 }
 
@@ -282,7 +263,7 @@ pub struct PlacedJob {
 
 /// The job of a scenario.
 pub fn place_job(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<PlacedJob, End> {
-    let loaded = subject.arms.of(&scenario)?;
+    let loaded = subject.arm(&scenario)?;
     let layout = scenario.place(&loaded.arm, &Watch::silent(cancel))?;
     let job = scenario.job_on(&loaded.arm, &layout)?;
     Ok(PlacedJob {

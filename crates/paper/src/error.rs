@@ -14,36 +14,38 @@ use platewash_workcell::layout::LayoutError;
 use platewash_workcell::plan::PlanFileError;
 use platewash_workcell::verdict::Infeasibility;
 
-/// Reason that the paper's program could not be carried out; one variant per stage. A run that does not wash is no error.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// Reason that the paper's program could not be carried out; one variant per stage. A run that does not wash is no error. The messages
+/// contain those of their causes, which are not repeated as sources.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, derive_more::From)]
 #[non_exhaustive]
 pub enum PaperError {
     /// A setting with which nothing can be computed.
     #[error(transparent)]
-    Setting(#[from] SettingError),
+    Setting(SettingError),
     /// A job with which nothing can be computed, or a start beyond the arm's limits.
     #[error(transparent)]
-    Job(#[from] JobError),
+    Job(JobError),
     /// The settings could not be stated.
     #[error(transparent)]
-    Terms(#[from] PlanFileError),
+    Terms(PlanFileError),
     /// The run would take minutes.
     #[error(transparent)]
-    Work(#[from] WorkError),
+    Work(WorkError),
     /// The built-in arm is broken.
     #[error(transparent)]
-    Arm(#[from] EmbeddedModelError),
+    Arm(EmbeddedModelError),
     /// The plates could not be placed.
     #[error("layout: {0}")]
     Layout(LayoutError),
     /// A setting of the inverse kinematics is out of range.
     #[error(transparent)]
-    IkSettings(#[from] IkSettingsError),
+    IkSettings(IkSettingsError),
     /// The control law moves no waypoints.
     #[error(transparent)]
-    Law(#[from] ControlError),
+    Law(ControlError),
     /// A waypoint is not finite, or the control law does not stay finite.
     #[error(transparent)]
+    #[from(skip)]
     Tracking(TrackingError),
     /// The collision model could not be made.
     #[error("clearance: {0}")]
@@ -53,26 +55,7 @@ pub enum PaperError {
     Coverage(CoverageError),
     /// The caller asked to stop.
     #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-// The messages above contain those of their causes. The causes are therefore not repeated as sources.
-impl From<LayoutError> for PaperError {
-    fn from(error: LayoutError) -> Self {
-        Self::Layout(error)
-    }
-}
-
-impl From<ClearanceError> for PaperError {
-    fn from(error: ClearanceError) -> Self {
-        Self::Clearance(error)
-    }
-}
-
-impl From<CoverageError> for PaperError {
-    fn from(error: CoverageError) -> Self {
-        Self::Coverage(error)
-    }
+    Cancelled(Cancelled),
 }
 
 impl From<TrackingError> for PaperError {

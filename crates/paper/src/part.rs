@@ -8,9 +8,11 @@ use platewash_workcell::layout::{
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random;
 use platewash_workcell::surface::Surface;
+use serde::{Deserialize, Serialize};
 
 /// A part of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PaperPart {
     /// The text of the paper.
     Text,

@@ -2,6 +2,8 @@
 
 use crate::keys::line::line_at;
 use platewash_workcell::words::printable;
+use std::fmt::Display;
+use std::path::Path;
 
 /// Fault of a scenario.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -106,6 +108,17 @@ impl ScenarioError {
 }
 
 impl Problem {
+    /// The problem of keys that contradict each other.
+    pub(crate) fn conflict(keys: impl Into<String>, detail: impl Into<String>) -> Self {
+        let (keys, detail) = (keys.into(), detail.into());
+        Self::Conflict { keys, detail }
+    }
+
+    /// The problem of a file that a key names.
+    pub(crate) fn of_file(key: &str, file: &Path, detail: impl Display) -> Self {
+        Self::conflict(key, format!("{}: {detail}", file.display()))
+    }
+
     /// The key at fault, as [`ScenarioError::key`].
     #[must_use]
     pub fn key(&self) -> Option<&str> {
@@ -123,8 +136,7 @@ impl Problem {
 
 /// Refuses keys that contradict each other.
 pub(crate) fn conflict(keys: impl Into<String>, detail: impl Into<String>) -> Result<(), Problem> {
-    let (keys, detail) = (keys.into(), detail.into());
-    Err(Problem::Conflict { keys, detail })
+    Err(Problem::conflict(keys, detail))
 }
 
 fn line_text(line: Option<usize>) -> String {

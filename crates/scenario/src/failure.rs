@@ -23,14 +23,17 @@ use platewash_workcell::verdict::Infeasibility;
 use std::fmt;
 
 /// Reason that a scenario could not be carried out. Its words name the keys that decide it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, derive_more::From)]
 #[non_exhaustive]
 pub enum Failure {
     /// The scenario was refused.
+    #[from]
     Scenario(ScenarioError),
     /// The arm could not be made.
+    #[from]
     Arm(ArmError),
     /// The plates could not be placed.
+    #[from]
     Layout(LayoutError),
     /// The tip shall wash off the plates.
     NoContact {
@@ -38,20 +41,28 @@ pub enum Failure {
         height_m: f64,
     },
     /// The bodies of the tool are no tool.
+    #[from]
     Tool(ToolError),
     /// An obstacle or a body of the tool could not be made.
+    #[from]
     Body(BodyError),
     /// The terms are no job.
+    #[from(JobError, ClearanceError)]
     Job(JobError),
     /// The washing could not be planned.
+    #[from(PlanError, Cancelled)]
     Plan(PlanError),
     /// The paper's program could not be carried out.
+    #[from]
     Paper(PaperError),
     /// The plan could not be judged.
+    #[from]
     Prove(ProveError),
     /// The plan could not be simulated.
+    #[from]
     Simulation(SimulationError),
     /// The plan could not be written.
+    #[from]
     File(PlanFileError),
     /// Meshes of obstacles count as convex hulls, in which bodies stand that may be clear of the meshes.
     Hull {
@@ -241,83 +252,5 @@ fn control(f: &mut fmt::Formatter<'_>, error: &ControlError) -> fmt::Result {
             ..
         } => write!(f, "control.frequency_rad_s, control.rate_hz: {error}"),
         other => write!(f, "control.rate_hz, the gains of [control]: {other}"),
-    }
-}
-
-impl From<ScenarioError> for Failure {
-    fn from(error: ScenarioError) -> Self {
-        Self::Scenario(error)
-    }
-}
-
-impl From<ArmError> for Failure {
-    fn from(error: ArmError) -> Self {
-        Self::Arm(error)
-    }
-}
-
-impl From<LayoutError> for Failure {
-    fn from(error: LayoutError) -> Self {
-        Self::Layout(error)
-    }
-}
-
-impl From<ToolError> for Failure {
-    fn from(error: ToolError) -> Self {
-        Self::Tool(error)
-    }
-}
-
-impl From<BodyError> for Failure {
-    fn from(error: BodyError) -> Self {
-        Self::Body(error)
-    }
-}
-
-impl From<ClearanceError> for Failure {
-    fn from(error: ClearanceError) -> Self {
-        Self::Job(error.into())
-    }
-}
-
-impl From<JobError> for Failure {
-    fn from(error: JobError) -> Self {
-        Self::Job(error)
-    }
-}
-
-impl From<PlanError> for Failure {
-    fn from(error: PlanError) -> Self {
-        Self::Plan(error)
-    }
-}
-
-impl From<PaperError> for Failure {
-    fn from(error: PaperError) -> Self {
-        Self::Paper(error)
-    }
-}
-
-impl From<ProveError> for Failure {
-    fn from(error: ProveError) -> Self {
-        Self::Prove(error)
-    }
-}
-
-impl From<SimulationError> for Failure {
-    fn from(error: SimulationError) -> Self {
-        Self::Simulation(error)
-    }
-}
-
-impl From<PlanFileError> for Failure {
-    fn from(error: PlanFileError) -> Self {
-        Self::File(error)
-    }
-}
-
-impl From<Cancelled> for Failure {
-    fn from(error: Cancelled) -> Self {
-        Self::Plan(error.into())
     }
 }

@@ -20,6 +20,7 @@
 //! | obstacles alone, or a tool alone; planning scenes of MoveIt | `obstacle_file`, `planning_scene` |
 
 mod body_error;
+mod cache;
 mod draft;
 mod error;
 mod failure;
@@ -37,6 +38,7 @@ mod source;
 mod suggest;
 mod units;
 
+pub use crate::cache::Cache;
 pub use crate::body_error::{BodyError, BodyFault, BodySection};
 pub use crate::draft::{Draft, EditError};
 pub use crate::error::{Problem, ScenarioError, TextKind};
@@ -54,7 +56,7 @@ pub use crate::resolve::work::MAX_CONTACT_CHECKS;
 pub use crate::scenario::{Scenario, check_seed};
 pub use crate::sections::body_shape::{BodyShape, StatedShape};
 pub use crate::sections::holder::HolderSection;
-pub use crate::sections::layout::{Faces, LayoutSection, PlateSection, RegionName};
+pub use crate::sections::layout::{Faces, LayoutSection, PlateSection};
 pub use crate::sections::motion::{IkSection, JobSection, LimitsSection, OnFailure, Program, TransitionSection};
 pub use crate::sections::obstacle::{HeldPlates, MeshPartsName, ObstacleSection};
 pub use crate::sections::robot::{BuiltInArm, OriginLink, ReducedClearanceSection, RobotSection};

@@ -1,12 +1,11 @@
 //! From a file or a shipped name to a checked [`Scenario`].
 
 use crate::error::{Problem, ScenarioError, conflict};
-use crate::keys::fits::check;
 use crate::keys::line::{byte_of, line_at};
-use crate::keys::listed::{Misfit, check_list};
+use crate::keys::listed::{Misfit, check_list, check_value};
 use crate::keys::unknown::unknown;
-use crate::keys::value::{describe, json_of};
-use crate::keys::{KEYS, Key, LISTS};
+use crate::keys::value::describe;
+use crate::keys::{KEYS, LISTS};
 use crate::resolve::surroundings::in_folder;
 use crate::scenario::{Scenario, check_seed};
 use crate::sections::motion::Program;
@@ -14,7 +13,6 @@ use crate::source::source;
 use platewash_kinematics::Pose;
 use platewash_workcell::job::OrderRule;
 use std::path::Path;
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 impl Scenario {
@@ -203,7 +201,7 @@ pub(crate) fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfi
             continue;
         }
         match (KEYS.iter().find(|k| k.path == path), value.get_ref()) {
-            (Some(key), _) => check_value(key, value)?,
+            (Some(key), _) => check_value(key, || path.clone(), value)?,
             (None, DeValue::Table(section)) if is_section => check_table(section, &inside)?,
             (None, found) if is_section => {
                 let found = describe(found);
@@ -221,9 +219,4 @@ pub(crate) fn check_table(table: &DeTable<'_>, prefix: &str) -> Result<(), Misfi
         }
     }
     Ok(())
-}
-
-fn check_value(key: &Key, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
-    let found = || describe(value.get_ref());
-    check(key, &json_of(value.get_ref()), found).map_err(|problem| (value.span().start, problem))
 }

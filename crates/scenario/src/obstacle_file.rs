@@ -1,7 +1,7 @@
 //! Obstacles alone, out of a TOML text or a planning scene of MoveIt, and a tool alone: the sections of a scenario that belong to them, and
 //! nothing else.
 
-use crate::error::{Problem, ScenarioError, TextKind};
+use crate::error::{Problem, ScenarioError, TextKind, conflict};
 use crate::failure::Failure;
 use crate::keys::line::{byte_of, line_at};
 use crate::load::check_table;
@@ -91,10 +91,10 @@ impl ObstacleText {
             .position(|section| section.holds_plates.is_some());
         match held {
             None => scenario.check_surroundings(),
-            Some(index) => Err(Problem::Conflict {
-                keys: format!("obstacle[{index}].holds_plates"),
-                detail: "there are no plates here; leave it out".to_owned(),
-            }),
+            Some(index) => conflict(
+                format!("obstacle[{index}].holds_plates"),
+                "there are no plates here; leave it out",
+            ),
         }
         .map_err(at)?;
         scenario

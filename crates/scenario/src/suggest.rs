@@ -45,14 +45,11 @@ impl Scenario {
     pub fn suggest(&self, arm: &Arc<RobotModel>, map_time: Duration, watch: &Watch<'_>) -> Result<Suggestion, Failure> {
         if self.job.program == Program::Paper && self.wash.height_m != 0.0 {
             let height_m = self.wash.height_m;
-            let (keys, detail) = (
-                "wash.height_m".to_owned(),
-                format!(
-                    "what is suggested is for a certified job, whose sponge touches the plates: it needs wash.height_m = 0; the paper's \
-                     program of this scenario hovers at {height_m} m"
-                ),
+            let detail = format!(
+                "what is suggested is for a certified job, whose sponge touches the plates: it needs wash.height_m = 0; the paper's \
+                 program of this scenario hovers at {height_m} m"
             );
-            return Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }).into());
+            return Err(ScenarioError::new(&self.name, None, Problem::conflict("wash.height_m", detail)).into());
         }
         let plate_m = match self.plate.first().and_then(|plate| plate.at_m) {
             Some([x, y, _]) => [x, y],

@@ -7,26 +7,15 @@ use platewash_certificate::{Certificate, prove_with};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::Files;
 use platewash_planner::{PlannedJob, Watch, plan_with};
-use platewash_scenario::{Failure, Scenario, Solids};
+use platewash_scenario::{Cache, Failure, Scenario, Solids};
 use platewash_workcell::cancel::CancelToken;
 use serde_json::Value;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// Most arms that are kept.
 const MOST_ARMS: usize = 64;
-
-/// Source of an arm: URDF, SRDF, folders of its meshes, whether visuals are shapes, links that are split, joints that are held still.
-type ArmSource = (
-    Option<PathBuf>,
-    Option<PathBuf>,
-    Vec<PathBuf>,
-    bool,
-    Vec<String>,
-    String,
-);
 
 /// A scenario's layout, planned and proved, with an arm that was loaded for it.
 ///
@@ -61,17 +50,16 @@ pub struct Resolver {
     study: Arc<Study>,
     /// Meshes that were cut, for all scenarios.
     solids: Solids,
-    arms: Mutex<HashMap<ArmSource, Arc<RobotModel>>>,
-    last: Mutex<Option<CachedScenario>>,
+    /// The arms, by what decides them.
+    arms: Cache<String, Arc<RobotModel>, MOST_ARMS>,
+    /// The last scenario, by the values that it was made of, but for the seed.
+    last: Cache<(usize, BTreeMap<String, Value>), Arc<Scenario>, 1>,
     /// [`judged`]; a test has another.
     judge: Judge,
 }
 
 /// Function from a scenario with its arm to a plan and its certificate.
 type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(PlannedJob, Certificate), Failure>;
-
-/// A scenario with the values that it was made of, but for the seed.
-type CachedScenario = ((usize, BTreeMap<String, Value>), Arc<Scenario>);
 
 impl Resolver {
     /// Resolver of a study; nothing is read yet.
@@ -80,8 +68,8 @@ impl Resolver {
         Self {
             study,
             solids: Solids::default(),
-            arms: Mutex::default(),
-            last: Mutex::default(),
+            arms: Cache::default(),
+            last: Cache::default(),
             judge: judged,
         }
     }
@@ -130,22 +118,14 @@ impl Resolver {
     fn scenario(&self, address: &RowAddress) -> Result<Scenario, String> {
         let mut values = address.axes.clone();
         let seed = values.remove("seed").and_then(|seed| seed.as_u64());
-        let what = (address.base, values);
-        let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        let kept = last().clone().filter(|(of, _)| *of == what);
-        // No lock is held while a scenario is made: threads that come at the same time make it, too.
-        let mut scenario = match kept {
-            Some((_, scenario)) => Scenario::clone(&scenario),
-            None => {
-                let mut scenario = self.study.bases[address.base].scenario(&what.1)?;
-                scenario.solids = self.solids.clone();
-                scenario.files = Files::held(self.study.files.clone());
-                let read = scenario.plates_read().map_err(|error| error.to_string())?;
-                scenario = read.into_owned();
-                *last() = Some((what, Arc::new(scenario.clone())));
-                scenario
-            }
-        };
+        let made = self.last.of((address.base, values.clone()), || {
+            let mut scenario = self.study.bases[address.base].scenario(&values)?;
+            scenario.solids = self.solids.clone();
+            scenario.files = Files::held(self.study.files.clone());
+            let read = scenario.plates_read().map_err(|error| error.to_string())?;
+            Ok::<_, String>(Arc::new(read.into_owned()))
+        });
+        let mut scenario = Scenario::clone(&*made?);
         scenario.seed = seed.unwrap_or(scenario.seed);
         Ok(scenario)
     }
@@ -153,23 +133,14 @@ impl Resolver {
     fn arm(&self, scenario: &Scenario) -> Result<Arc<RobotModel>, Failure> {
         let robot = &scenario.robot;
         let source = (
-            robot.urdf.clone(),
-            robot.srdf.clone(),
-            robot.package_path.clone(),
+            &robot.urdf,
+            &robot.srdf,
+            &robot.package_path,
             robot.visual_shapes,
-            robot.split_links.clone(),
-            format!("{:?}", robot.fixed),
+            &robot.split_links,
+            &robot.fixed,
         );
-        let locked = || self.arms.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(arm) = locked().get(&source) {
-            return Ok(arm.clone());
-        }
-        let arm = scenario.arm()?;
-        let mut arms = locked();
-        if arms.len() >= MOST_ARMS {
-            arms.clear();
-        }
-        Ok(arms.entry(source).or_insert(arm).clone())
+        self.arms.of(format!("{source:?}"), || scenario.arm())
     }
 }
 

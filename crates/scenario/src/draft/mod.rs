@@ -186,14 +186,8 @@ impl Target {
             }
             _ => value.clone(),
         };
-        match check(target.key, &value, || describe_json(&value)) {
-            Ok(()) => Ok((target, Some(value))),
-            Err(Problem::Value { expected, found, .. }) => {
-                let key = target.path();
-                Err(EditError::Refused(Problem::Value { key, expected, found }))
-            }
-            Err(problem) => Err(EditError::Refused(problem)),
-        }
+        check(target.key, || target.path(), &value, || describe_json(&value)).map_err(EditError::Refused)?;
+        Ok((target, Some(value)))
     }
 
     /// Full name of the key.

@@ -13,13 +13,18 @@ const MOST_PLATES: u64 = 1000;
 /// Significant digits of a length that is suggested.
 const METRE_DIGITS: usize = 6;
 
-/// Refuses a value that lies outside a key's domain; `found` puts it into words.
-pub(crate) fn check(key: &Key, value: &Value, found: impl FnOnce() -> String) -> Result<(), Problem> {
+/// Refuses a value that lies outside a key's domain; `path` is the key as the text states it, `found` puts the value into words.
+pub(crate) fn check(
+    key: &Key,
+    path: impl FnOnce() -> String,
+    value: &Value,
+    found: impl FnOnce() -> String,
+) -> Result<(), Problem> {
     if fits(key.domain, value) {
         return Ok(());
     }
     Err(Problem::Value {
-        key: key.path.to_owned(),
+        key: path(),
         expected: key.domain.describe(),
         found: found() + &intended_value_hint(key, value),
     })

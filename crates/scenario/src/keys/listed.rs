@@ -4,15 +4,16 @@ use crate::error::Problem;
 use crate::keys::fits::check;
 use crate::keys::unknown::hint;
 use crate::keys::value::{describe, json_of};
-use crate::keys::{List, own_name};
+use crate::keys::{Key, List, own_name};
 use platewash_workcell::words::printable;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Fault of a value, and its byte in the text.
 pub(crate) type Misfit = (usize, Problem);
 
 /// Checks a list of a file.
-pub(crate) fn check_list(list: &List, value: &toml::Spanned<DeValue<'_>>) -> Result<(), Misfit> {
+pub(crate) fn check_list(list: &List, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
     let misfit = |found: String| {
         let problem = Problem::Value {
             key: list.name.to_owned(),
@@ -44,19 +45,15 @@ fn check_section(list: &List, index: usize, table: &DeTable<'_>) -> Result<(), M
         let Some(key) = list.keys.iter().find(|key| own_name(key) == name.get_ref()) else {
             return Err((name.span().start, unknown_in_list(list, index, name.get_ref())));
         };
-        check(key, &json_of(value.get_ref()), || describe(value.get_ref())).map_err(|problem| {
-            let problem = match problem {
-                Problem::Value { expected, found, .. } => Problem::Value {
-                    key: format!("{}[{index}].{}", list.name, own_name(key)),
-                    expected,
-                    found,
-                },
-                other => other,
-            };
-            (value.span().start, problem)
-        })?;
+        check_value(key, || format!("{}[{index}].{}", list.name, own_name(key)), value)?;
     }
     Ok(())
+}
+
+/// Refuses a value that lies outside the domain of its key, which the text states as `path`.
+pub(crate) fn check_value(key: &Key, path: impl FnOnce() -> String, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
+    let found = || describe(value.get_ref());
+    check(key, path, &json_of(value.get_ref()), found).map_err(|problem| (value.span().start, problem))
 }
 
 /// Problem for a key that does not exist in a section of a list, counted from 0.

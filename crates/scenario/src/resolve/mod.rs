@@ -297,7 +297,7 @@ impl Scenario {
             if *clearance_m >= required_m {
                 let keys = format!("reduced_clearance[{index}].clearance_m, wash.clearance_m");
                 let detail = format!("{clearance_m} m is not less than what all pairs keep, {required_m} m");
-                return Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }));
+                return Err(ScenarioError::new(&self.name, None, Problem::conflict(keys, detail)));
             }
             Ok(ReducedClearance {
                 pair: [a.clone(), b.clone()],

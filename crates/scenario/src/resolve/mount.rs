@@ -12,8 +12,8 @@ impl Scenario {
         let Some(detail) = self.robot.ambiguous_mount(arm) else {
             return Ok(());
         };
-        let keys = "robot.mount_m, robot.mount_rpy_deg, robot.mount_link".to_owned();
-        Err(ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail }))
+        let keys = "robot.mount_m, robot.mount_rpy_deg, robot.mount_link";
+        Err(ScenarioError::new(&self.name, None, Problem::conflict(keys, detail)))
     }
 }
 

@@ -277,9 +277,8 @@ impl Scenario {
             layout.plate_face.take(),
             layout.plate_ball_radius_m.take(),
         );
-        let plate = self.measure(stated, OF_LAYOUT, &mut files);
-        let of_layout = plate.map_err(refused)?.map(|(index, plate)| {
-            let shape = Shape::of(&plate);
+        let plate = self.measure(stated, ShapeKeys(None), &mut files);
+        let of_layout = plate.map_err(refused)?.map(|(index, shape)| {
             layout.plate_thickness_m = shape.thickness_m(layout.plate_thickness_m);
             (layout.plate_radius_m, layout.plate_knots) = (shape.radius_m, shape.knots);
             layout.plate_foot_m = shape.foot_m.or(layout.plate_foot_m);
@@ -295,12 +294,8 @@ impl Scenario {
                 row.face.take(),
                 row.ball_radius_m.take(),
             );
-            let keys = OF_LAYOUT.map(|key| ShapeKeys(Some(k)).called(key));
-            let plate = self
-                .measure(stated, keys.each_ref().map(String::as_str), &mut files)
-                .map_err(refused)?;
-            let index = plate.map(|(index, plate)| {
-                let shape = Shape::of(&plate);
+            let plate = self.measure(stated, ShapeKeys(Some(k)), &mut files);
+            let index = plate.map_err(refused)?.map(|(index, shape)| {
                 // What was measured counts, so that the body holds the mesh.
                 row.thickness_m = Some(shape.thickness_m(row.thickness_m.unwrap_or(self.layout.plate_thickness_m)));
                 (row.radius_m, row.knots) = (shape.radius_m, shape.knots);
@@ -317,16 +312,10 @@ impl Scenario {
             files.have_places = true;
             let kinds = std::mem::take(&mut read.plate);
             let of_kinds = std::mem::take(&mut files.of_section);
-            let text = self
-                .text_of(&path, "layout.plate_file", MOST_TABLE_BYTES)
-                .map_err(refused)?;
-            let rows = self.table(&text, &kinds).map_err(|error| {
-                let detail = format!("{}: {error}", path.display());
-                refused(Problem::Conflict {
-                    keys: "layout.plate_file".to_owned(),
-                    detail,
-                })
-            })?;
+            let key = "layout.plate_file";
+            let text = self.text_of(&path, key, MOST_TABLE_BYTES).map_err(refused)?;
+            let rows = self.table(&text, &kinds);
+            let rows = rows.map_err(|error| refused(Problem::of_file(key, &path, error)))?;
             for (row, kind) in rows {
                 let of_kind = kind.and_then(|kind| of_kinds[kind]);
                 files.of_section.push(if row.has_shape() { of_kind } else { of_layout });
@@ -339,25 +328,23 @@ impl Scenario {
         Ok(Cow::Owned(read))
     }
 
-    /// Measures the plate of a mesh or of points, if one of them is stated; adds it to the files, with its index.
+    /// Measures the plate of a mesh or of points, if one of them is stated; adds it to the files, with its index, and tells its shape.
     fn measure(
         &self,
         (mesh, points, unit, face, ball_radius_m): Measurement,
-        [of_mesh, of_points, of_unit, of_side, of_ball]: [&str; 5],
+        keys: ShapeKeys,
         files: &mut ReadFiles,
-    ) -> Result<Option<(usize, MeasuredPlate)>, Problem> {
+    ) -> Result<Option<(usize, Shape)>, Problem> {
         let is_probed = mesh.is_none();
-        let refused = |key: &str, path: &Path, detail: String| Problem::Conflict {
-            keys: key.to_owned(),
-            detail: format!("{}: {detail}", path.display()),
-        };
+        let keys = OF_LAYOUT.map(|key| keys.called(key));
+        let [of_mesh, of_points, of_unit, of_side, of_ball] = keys.each_ref().map(String::as_str);
         let misfit = |key: &str, path: &Path, error: MeasuredError| {
             let hint = match error {
                 MeasuredError::Unit { .. } => format!(" ({of_unit})"),
                 MeasuredError::OtherSide { .. } | MeasuredError::FaceUnclear { .. } => format!(" ({of_side})"),
                 _ => String::new(),
             };
-            refused(key, path, format!("{error}{hint}"))
+            Problem::of_file(key, path, format_args!("{error}{hint}"))
         };
         if mesh.is_some() && ball_radius_m.is_some() {
             conflict(
@@ -370,15 +357,15 @@ impl Scenario {
                 let source = MeshSource::new(&self.robot.package_path, None).reading(&self.files);
                 let scan = source
                     .scan(&path.to_string_lossy())
-                    .map_err(|error| refused(of_mesh, &path, error.to_string()))?;
+                    .map_err(|error| Problem::of_file(of_mesh, &path, error))?;
                 // What states its unit comes in metres.
                 let unit = match (unit, scan.unit_m) {
                     (Some(unit), Some(of_file_m)) if unit.length_m() != of_file_m => {
-                        let detail = format!(
-                            "the file states its unit, {of_file_m} m, and the unit {} is stated, too; leave it out",
-                            unit.name()
+                        let unit = unit.name();
+                        let detail = format_args!(
+                            "the file states its unit, {of_file_m} m, and the unit {unit} is stated, too; leave it out"
                         );
-                        return Err(refused(of_unit, &path, detail));
+                        return Err(Problem::of_file(of_unit, &path, detail));
                     }
                     (_, Some(_)) => Some(Unit::Metre),
                     (unit, None) => unit,
@@ -390,16 +377,14 @@ impl Scenario {
             (None, Some(path)) => {
                 let text = self.text_of(&path, of_points, MOST_TABLE_BYTES)?;
                 let touched = measured::probe_points(&text);
-                let (touched, stated) = touched.map_err(|error| refused(of_points, &path, error.to_string()))?;
+                let (touched, stated) = touched.map_err(|error| Problem::of_file(of_points, &path, error))?;
                 if let (Some(unit), Some(of_file)) = (unit, stated)
                     && unit != of_file
                 {
-                    let detail = format!(
-                        "its columns are in {}, and the unit {} is stated, too; leave it out",
-                        of_file.name(),
-                        unit.name()
-                    );
-                    return Err(refused(of_unit, &path, detail));
+                    let [unit, of_file] = [unit, of_file].map(Unit::name);
+                    let detail =
+                        format_args!("its columns are in {of_file}, and the unit {unit} is stated, too; leave it out");
+                    return Err(Problem::of_file(of_unit, &path, detail));
                 }
                 let unit = stated.or(unit);
                 let plate = match ball_radius_m {
@@ -421,19 +406,14 @@ impl Scenario {
             out_of_round_m: plate.out_of_round_m,
             relief: plate.relief.clone(),
         });
-        Ok(Some((files.measured.len() - 1, plate)))
+        Ok(Some((files.measured.len() - 1, Shape::of(&plate))))
     }
 
     /// The text of a file that a key names.
     fn text_of(&self, path: &Path, key: &str, limit: u64) -> Result<String, Problem> {
-        let bytes = self.files.read_bytes(path, limit).map_err(|error| Problem::Conflict {
-            keys: key.to_owned(),
-            detail: format!("{}: {}", path.display(), unread(error)),
-        })?;
-        String::from_utf8(bytes.to_vec()).map_err(|_| Problem::Conflict {
-            keys: key.to_owned(),
-            detail: format!("{}: is not UTF-8 text", path.display()),
-        })
+        let bytes = self.files.read_bytes(path, limit);
+        let bytes = bytes.map_err(|error| Problem::of_file(key, path, unread(error)))?;
+        String::from_utf8(bytes.to_vec()).map_err(|_| Problem::of_file(key, path, "is not UTF-8 text"))
     }
 
     /// The frames in which a touched place may be, in the world: that of the arm's root link, and that of the controller's base.
@@ -454,6 +434,11 @@ impl Scenario {
             has_comments: true,
         };
         let table = NumberTable::read(text, &shape)?;
+        let at_head = |reason: String| TableError {
+            line: 1,
+            column: None,
+            reason,
+        };
         let is_touched = match (table.places(&PLACE), table.places(&TOUCHED)) {
             (Some(_), None) => false,
             (None, Some(_)) => true,
@@ -463,17 +448,8 @@ impl Scenario {
                     PLACE.join(","),
                     TOUCHED.join(",")
                 );
-                return Err(TableError {
-                    line: 1,
-                    column: None,
-                    reason,
-                });
+                return Err(at_head(reason));
             }
-        };
-        let at_head = |reason: String| TableError {
-            line: 1,
-            column: None,
-            reason,
         };
         let touched = match is_touched {
             true => Some(self.touched_frames().map_err(at_head)?),
@@ -556,10 +532,7 @@ impl Scenario {
         };
         let key = "wash.soil_file";
         let text = self.text_of(path, key, MAX_BYTES)?;
-        let refused = |detail: String| Problem::Conflict {
-            keys: key.to_owned(),
-            detail: format!("{}: {detail}", path.display()),
-        };
+        let refused = |detail: String| Problem::of_file(key, path, detail);
         let file: SoilFile = toml::from_str(&text).map_err(|error| refused(error.to_string().trim_end().to_owned()))?;
         for (index, soil) in file.soil.iter().enumerate() {
             let name = &soil.name;
@@ -618,9 +591,7 @@ impl Shape {
             foot_m: plate.foot.map(|foot| [foot.radius_m, foot.height_m]),
         }
     }
-}
 
-impl Shape {
     /// Thickness of the plate: as measured, otherwise as stated, and so thick that the body holds the whole mesh \[m\].
     fn thickness_m(&self, stated_m: f64) -> f64 {
         self.measured_m.unwrap_or_else(|| stated_m.max(self.least_m))

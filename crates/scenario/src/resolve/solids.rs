@@ -1,13 +1,14 @@
 //! Meshes as convex bodies and as plates, cut and fitted once: a scenario is resolved again and again, for every seed of a sweep and every move on a page.
 
 use crate::body_error::BodyFault;
+use crate::cache::Cache;
 use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
 use nalgebra::Point3;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::{MeshSource, MeshSplitter};
 use platewash_workcell::clearance::{SolidError, SolidParts, excess_m, solid_parts};
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// Meshes that are kept.
 const KEPT: usize = 64;
@@ -19,43 +20,8 @@ pub(crate) type Hulls = Arc<Vec<Vec<Point3<f64>>>>;
 /// one takes effect at once. Clones share the cache; it decides nothing, and all caches are equal.
 #[derive(Debug, Clone, Default)]
 pub struct Solids {
-    hulls: Cache<Hulls>,
-    plates: Cache<MeasuredPlate>,
-}
-
-/// Results that are kept by a key; the longest unused one is forgotten first.
-#[derive(Debug, Clone)]
-struct Cache<T> {
-    kept: Arc<Mutex<Vec<(String, T)>>>,
-}
-
-impl<T> Default for Cache<T> {
-    fn default() -> Self {
-        Self { kept: Arc::default() }
-    }
-}
-
-impl<T: Clone> Cache<T> {
-    /// Returns the result of a key, which then becomes the last to be forgotten.
-    fn found(&self, id: &str) -> Option<T> {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let at = kept.iter().position(|(of, _)| of == id)?;
-        let found = kept.remove(at);
-        let result = found.1.clone();
-        kept.push(found);
-        Some(result)
-    }
-
-    fn keep(&self, id: String, result: T) {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        // Another thread may have computed it meanwhile.
-        if kept.iter().all(|(of, _)| *of != id) {
-            kept.push((id, result));
-        }
-        if kept.len() > KEPT {
-            kept.remove(0);
-        }
-    }
+    hulls: Cache<String, Hulls, KEPT>,
+    plates: Cache<String, MeasuredPlate, KEPT>,
 }
 
 impl PartialEq for Solids {
@@ -87,13 +53,8 @@ impl Solids {
             SolidParts::Decomposed => "decomposed",
             SolidParts::Few => "few",
         };
-        let id = id(triangles, kind);
-        if let Some(hulls) = self.hulls.found(&id) {
-            return Ok(hulls);
-        }
-        let hulls = Arc::new(solid_parts(triangles, parts)?);
-        self.hulls.keep(id, hulls.clone());
-        Ok(hulls)
+        let made = || solid_parts(triangles, parts).map(Arc::new);
+        self.hulls.of(id(triangles, kind), made)
     }
 
     /// The plate of a mesh, in the unit and with the face stated.
@@ -104,13 +65,8 @@ impl Solids {
         face: Option<FaceSide>,
     ) -> Result<MeasuredPlate, MeasuredError> {
         let stated = format!("{}{}", unit.map_or("", Unit::name), face.map_or("", FaceSide::name));
-        let id = id(triangles, &stated);
-        if let Some(plate) = self.plates.found(&id) {
-            return Ok(plate);
-        }
-        let plate = measured::from_mesh(triangles, unit, face)?;
-        self.plates.keep(id, plate.clone());
-        Ok(plate)
+        let made = || measured::from_mesh(triangles, unit, face);
+        self.plates.of(id(triangles, &stated), made)
     }
 
     /// Upper bound on how far the convex parts of a mesh reach beyond it \[m\]; `None` where there are none.
@@ -164,17 +120,5 @@ mod tests {
         let second = parts(&solids, 1.0, SolidParts::Hull);
         assert_ne!(first, second);
         assert_eq!(second, parts(&Solids::default(), 1.0, SolidParts::Hull));
-    }
-
-    #[test]
-    fn the_cache_is_bounded_and_drops_the_longest_unused_first() {
-        let (solids, hulls) = (Solids::default(), Hulls::default());
-        for k in 0..KEPT {
-            solids.hulls.keep(k.to_string(), hulls.clone());
-        }
-        assert!(solids.hulls.found("0").is_some());
-        solids.hulls.keep("more".to_owned(), hulls);
-        assert_eq!(solids.hulls.kept.lock().unwrap().len(), KEPT);
-        assert!(solids.hulls.found("0").is_some() && solids.hulls.found("1").is_none());
     }
 }

@@ -30,7 +30,7 @@ impl Scenario {
             shapes.push(section_shape(index, section)?);
         }
         // The weight and volume of a mesh are known once its file is read.
-        let shapes: Option<Vec<_>> = shapes.into_iter().map(ToolBodySource::convex).collect();
+        let shapes: Option<Vec<_>> = shapes.into_iter().map(Result::ok).collect();
         let Some(shapes) = shapes else {
             return Ok(());
         };
@@ -57,8 +57,8 @@ impl Scenario {
         let mut shapes = Vec::new();
         for (index, section) in self.tool_body.iter().enumerate() {
             shapes.push(match section_shape(index, section).map_err(refused)? {
-                ToolBodySource::Convex(shape) => shape,
-                ToolBodySource::Mesh { file, scale } => self.tool_hull(index, section, file, scale)?,
+                Ok(shape) => shape,
+                Err(mesh) => self.tool_hull(index, section, mesh)?,
             });
         }
         Ok(shapes)
@@ -68,8 +68,7 @@ impl Scenario {
         &self,
         index: usize,
         section: &ToolBodySection,
-        file: &Path,
-        scale: Option<[f64; 3]>,
+        (file, scale): ScaledMesh<'_>,
     ) -> Result<Shape, BodyError> {
         let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, SolidParts::Hull);
@@ -100,8 +99,8 @@ impl Scenario {
         }
         let tool = chain.tool()?.mounted(self.tool.mounted_on.clone());
         let tool = tool.on(arm).map_err(|error| {
-            let (keys, detail) = ("tool.mounted_on".to_owned(), error.to_string());
-            ScenarioError::new(&self.name, None, Problem::Conflict { keys, detail })
+            let problem = Problem::conflict("tool.mounted_on", error.to_string());
+            ScenarioError::new(&self.name, None, problem)
         })?;
         let is_link = |name: &str| arm.links().iter().any(|link| link.name == name);
         match self.tool_body.iter().find(|body| is_link(&body.name)) {
@@ -114,33 +113,19 @@ impl Scenario {
     }
 }
 
-/// Body of the tool, as far as its section states it.
-enum ToolBodySource<'a> {
-    Convex(Shape),
-    Mesh { file: &'a Path, scale: Option<[f64; 3]> },
-}
+/// The mesh of a file, and its scale.
+type ScaledMesh<'a> = (&'a Path, Option<[f64; 3]>);
 
-impl ToolBodySource<'_> {
-    fn convex(self) -> Option<Shape> {
-        match self {
-            Self::Convex(shape) => Some(shape),
-            Self::Mesh { .. } => None,
-        }
-    }
-}
-
-fn section_shape(index: usize, section: &ToolBodySection) -> Result<ToolBodySource<'_>, Problem> {
+/// Body of the tool, as far as its section states it: a convex shape, or a mesh.
+fn section_shape(index: usize, section: &ToolBodySection) -> Result<Result<Shape, ScaledMesh<'_>>, Problem> {
     let at = format!("tool_body[{index}]");
     section.check_name(&at)?;
     Ok(match section.body.stated(&at)? {
-        SectionShape::Convex(shape) => ToolBodySource::Convex(shape),
-        SectionShape::Mesh { file, scale } => ToolBodySource::Mesh { file, scale },
+        SectionShape::Convex(shape) => Ok(shape),
+        SectionShape::Mesh { file, scale } => Err((file, scale)),
         SectionShape::HalfSpace => {
-            let (keys, detail) = (
-                format!("{at}.shape"),
-                "a half-space cannot be a body of a tool".to_owned(),
-            );
-            return Err(Problem::Conflict { keys, detail });
+            let detail = "a half-space cannot be a body of a tool";
+            return Err(Problem::conflict(format!("{at}.shape"), detail));
         }
     })
 }

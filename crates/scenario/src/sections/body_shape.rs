@@ -126,10 +126,7 @@ pub(crate) enum SectionShape<'a> {
 impl StatedShape {
     /// The shape of the section called `at` with the sizes that it states: no more and no fewer than the shape has.
     pub(crate) fn stated(&self, at: &str) -> Result<SectionShape<'_>, Problem> {
-        let wrong = |key: &str, detail: String| Problem::Conflict {
-            keys: format!("{at}.{key}"),
-            detail,
-        };
+        let wrong = |key: &str, detail: String| Problem::conflict(format!("{at}.{key}"), detail);
         let Some(shape) = self.shape else {
             return Err(wrong("shape", "is missing; every body has one".to_owned()));
         };

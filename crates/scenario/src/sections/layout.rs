@@ -8,8 +8,9 @@ use crate::measured::{FaceSide, Unit};
 use crate::sections::body_shape::pose;
 use crate::sections::robot::OriginLink;
 use platewash_keys::Section;
+use platewash_paper::PaperPart;
 use platewash_workcell::job::Overlap;
-use platewash_workcell::layout::{PlateGeometry, Region};
+use platewash_workcell::layout::PlateGeometry;
 use platewash_workcell::plate::Plate;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -91,7 +92,7 @@ pub struct LayoutSection {
     /// Region of plate centres by name: as the paper's text, or as its appendix code.
     #[key(domain = Word(&["text", "appendix"]))]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub region: Option<RegionName>,
+    pub region: Option<PaperPart>,
     /// Range of x of plate centres.
     #[key(unit = "m", domain = Range(-10.0, 10.0))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -152,27 +153,6 @@ impl ProfileName {
             Self::Rim270 => "rim270",
             Self::Deep230 => "deep230",
             Self::Dessert190 => "dessert190",
-        }
-    }
-}
-
-/// The paper's two regions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RegionName {
-    /// As the paper's text says.
-    Text,
-    /// As its appendix code says.
-    Appendix,
-}
-
-impl RegionName {
-    /// The region it names.
-    #[must_use]
-    pub fn region(self) -> Region {
-        match self {
-            Self::Text => Region::PAPER_TEXT,
-            Self::Appendix => Region::PAPER_APPENDIX,
         }
     }
 }
