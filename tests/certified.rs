@@ -1,8 +1,8 @@
 //! Certified jobs: planned, proved, and refused with a reason.
 
 use platewash::certificate::{Certificate, Requirement};
-use platewash::planner::{Activity, PlannedJob, Watch, plan_with};
 use platewash::paper::PaperPart;
+use platewash::planner::{Activity, PlannedJob, Watch, plan_with};
 use platewash::study::{Outcome, Row};
 use platewash::workcell::cancel::CancelToken;
 use platewash::workcell::fixtures::is_thorough;

@@ -75,17 +75,9 @@ pub fn run(options: &Options, arguments: &DryRunArguments) -> Result<ExitCode> {
     refuse_own_place(&arguments.plan, &files.places(&REPORTS[..4]))?;
     let file = PlanFile::read(options, &arguments.plan)?;
     let asked = job(&file, arguments.height, arguments.speed)?;
-    let parent = file.prove(options)?;
-    if !parent.passes() {
-        let first = &parent.headline;
-        let words = format_args!("a dry run is one of a proved plan; this one is {first}");
-        return Err(file.not_verified(words));
-    }
+    file.prove_as_parent(options, "dry run")?;
     let progress = options.progress("planning the dry run");
-    let watch = Watch {
-        tell: &|activity| progress.say(activity),
-        cancel: &options.cancel,
-    };
+    let watch = progress.watch(&options.cancel);
     let hash = file.plan.hash.as_deref().unwrap_or_default();
     let planned = match plan_in_order(&asked, &file.plan.order, &file.plan.wash_paths, &watch) {
         Ok(planned) => planned,

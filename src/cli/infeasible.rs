@@ -70,10 +70,7 @@ fn in_full(
         return Ok(InfeasibleAnswer { why, remedies });
     };
     let progress = options.progress(LOOKING);
-    let watch = Watch {
-        tell: &|activity| progress.say(activity),
-        cancel: &options.cancel,
-    };
+    let watch = progress.watch(&options.cancel);
     let arm = scenario.arm()?;
     let start = Instant::now();
     let (why, others) = match &error {
@@ -112,10 +109,7 @@ pub fn remedies_of_proof(
         return Ok(None);
     }
     let progress = options.progress(LOOKING);
-    let watch = Watch {
-        tell: &|activity| progress.say(activity),
-        cancel: &options.cancel,
-    };
+    let watch = progress.watch(&options.cancel);
     Ok(Some(scenario.remedies_of_proof(
         arm,
         certificate,

@@ -6,6 +6,8 @@ use super::options::Options;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use platewash::CancelToken;
+use platewash::planner::{Activity, Watch};
 use serde::Serialize;
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write};
@@ -111,8 +113,9 @@ const TICK: Duration = Duration::from_millis(100);
 /// Progress display: the work and its present step, with a spinner, and a bar once the amount of work is known. It disappears when
 /// it is dropped.
 pub struct Progress {
-    work: &'static str,
     bar: ProgressBar,
+    /// Shows the activity of a planner.
+    tell: Box<dyn Fn(&Activity) + Sync>,
     timer: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
@@ -136,8 +139,12 @@ impl Progress {
     fn hidden(work: &'static str) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()).with_message(work);
         style(&bar, "{spinner} {msg}, {elapsed}");
-        let timer = None;
-        Self { work, bar, timer }
+        let shown = bar.clone();
+        Self {
+            bar,
+            tell: Box::new(move |activity| shown.set_message(format!("{work}: {activity}"))),
+            timer: None,
+        }
     }
 
     /// Writes a line with the present step to `out` at the given interval.
@@ -157,9 +164,10 @@ impl Progress {
         self
     }
 
-    /// Shows the present step of the work.
-    pub fn say(&self, what: &dyn Display) {
-        self.bar.set_message(format!("{}: {what}", self.work));
+    /// Returns what tells a planner to give up, and shows what it says.
+    pub fn watch<'a>(&'a self, cancel: &'a CancelToken) -> Watch<'a> {
+        let tell = &*self.tell;
+        Watch { tell, cancel }
     }
 
     /// Shows the progress of a study.
@@ -245,8 +253,8 @@ mod progress_tests {
     fn without_a_terminal_prints_a_progress_line_now_and_then() {
         let written = SharedBuffer::default();
         let progress = Progress::hidden("planning").lines(Duration::from_millis(1), written.clone());
-        for what in ["ring 1 of 30", "ring 2 of 30"] {
-            progress.say(&what);
+        for what in [0, 1].map(|plate| Activity::Cause { plate }) {
+            (progress.tell)(&what);
             let line = format!("planning: {what} (");
             while !written.text().contains(&line) {
                 std::thread::yield_now();
@@ -261,7 +269,7 @@ mod progress_tests {
     #[test]
     fn quiet_work_starts_no_progress_thread() {
         let progress = Progress::new(true, "planning");
-        progress.say(&"ring 1 of 30");
+        (progress.tell)(&Activity::Cause { plate: 0 });
         assert!(progress.timer.is_none() && progress.bar.is_hidden());
     }
 }

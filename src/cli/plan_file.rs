@@ -44,6 +44,16 @@ impl<'a> PlanFile<'a> {
         proved.map_err(|error| self.failure(error.into()))
     }
 
+    /// The certificate of the plan, which must be proved: what is asked for is `made` of proved plans alone.
+    pub fn prove_as_parent(&self, options: &Options, made: &str) -> Result<Certificate> {
+        let proved = self.prove(options)?;
+        let (passes, first) = (proved.passes(), &proved.headline);
+        match passes {
+            true => Ok(proved),
+            false => Err(self.not_verified(format_args!("a {made} is one of a proved plan; this one is {first}"))),
+        }
+    }
+
     /// Something in the file that cannot be used.
     pub fn refused(&self, error: impl Display) -> Error {
         refused(self.path, error)

@@ -12,7 +12,7 @@ use clap::Args;
 use platewash::certificate::prove_with;
 use platewash::export::Joint3;
 use platewash::kinematics::AXES;
-use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, Watch, recover};
+use platewash::planner::{PlanError, Recovered, RecoveryError, Stop, recover};
 use platewash::workcell::job::Treatment;
 use platewash::workcell::words::pair_text;
 use platewash::{Certificate, Failure, PairClearance, Plan};
@@ -98,18 +98,11 @@ pub fn run(options: &Options, arguments: &RecoverArguments) -> Result<ExitCode> 
     let mut files = Files::new(options.folder().join("recovery"), &NAMES);
     files.check()?;
     let file = PlanFile::read(options, &arguments.plan)?;
-    let parent = file.prove(options)?;
-    if !parent.passes() {
-        let first = &parent.headline;
-        return Err(file.not_verified(format_args!("a recovery is one of a proved plan; this one is {first}")));
-    }
+    let parent = file.prove_as_parent(options, "recovery")?;
     let at = joints(&arguments.at_deg, Unit::Degrees).context("--at-deg")?;
     let at = arguments.joint_3.unwrap_or_default().convert_back(&at);
     let progress = options.progress("planning the recovery");
-    let watch = Watch {
-        tell: &|activity| progress.say(activity),
-        cancel: &options.cancel,
-    };
+    let watch = progress.watch(&options.cancel);
     let recovered = match recover(&file.plan, &file.arm, &at, arguments.stopped_s, &watch) {
         Ok(recovered) => recovered,
         Err(error) => {

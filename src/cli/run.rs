@@ -12,7 +12,7 @@ use anyhow::Result;
 use clap::Args;
 use platewash::certificate::{planned_headline, prove_with};
 use platewash::paper::run_with;
-use platewash::planner::{PlanError, PlannedJob, Watch, plan_with};
+use platewash::planner::{PlanError, PlannedJob, plan_with};
 use platewash::scenario::{Program, Remedies};
 use platewash::simulator::simulate::table;
 use platewash::viewer::view::ExecutedMotion;
@@ -49,10 +49,7 @@ pub fn wash(options: &Options, scenario: &Scenario) -> Result<Washing, Failure> 
     let arm = options.arm(scenario)?;
     options.warn(&scenario.notes_on_bodies(&arm));
     let progress = options.progress("planning");
-    let watch = Watch {
-        tell: &|activity| progress.say(activity),
-        cancel: &options.cancel,
-    };
+    let watch = progress.watch(&options.cancel);
     // What fails wherever the plates lie, before they are placed.
     scenario.check_standing(&arm, &Layout::of(Vec::new()))?;
     let layout = scenario.place(&arm, &watch)?;

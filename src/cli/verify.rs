@@ -9,7 +9,7 @@ use super::plan_file::{self, PlanFile, refused};
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline, prove_with};
-use platewash::planner::{RecoveryError, Watch};
+use platewash::planner::RecoveryError;
 use platewash::scenario::Program;
 use platewash::workcell::dry_run::{DryRun, DryRunError, dry_run_terms};
 use platewash::workcell::job::Recovery;
@@ -162,10 +162,7 @@ fn against_scenario(options: &Options, name: &str, plan: &Plan) -> Result<(PlanC
 /// Resolved job of a scenario, with its plates placed again.
 fn terms(options: &Options, scenario: &Scenario, arm: &Arc<RobotModel>) -> Result<JobTerms, Failure> {
     let progress = options.progress("placing the plates");
-    let watch = Watch {
-        tell: &|activity| progress.say(activity),
-        cancel: &options.cancel,
-    };
+    let watch = progress.watch(&options.cancel);
     match scenario.job.program {
         Program::Certified => {
             let layout = scenario.place(arm, &watch)?;

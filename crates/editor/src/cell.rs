@@ -279,12 +279,8 @@ impl UnwashableReport {
     fn unreachable_by_transit(plate: usize, reason: &str) -> Self {
         Self {
             plate,
-            proved: false,
             words: reason.to_owned(),
-            causes: Vec::new(),
-            share: None,
-            free_m: Vec::new(),
-            dead_m: Vec::new(),
+            ..Self::default()
         }
     }
 }

@@ -333,7 +333,7 @@ pub struct PlateProof {
 }
 
 /// A plate that cannot be washed, or that no way to wash was found for.
-#[derive(Debug, Clone, PartialEq, Serialize, TS)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, TS)]
 pub struct UnwashableReport {
     /// The plate.
     pub plate: usize,

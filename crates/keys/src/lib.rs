@@ -32,7 +32,9 @@ pub fn section(input: TokenStream) -> TokenStream {
         };
         defaults += &format!("{}: {},", field.name, field.default);
         if let Some(domain) = &field.domain {
-            let path = format!("concat!({section}, \".\", \"{}\")", field.name);
+            // The keys at the top of a file are in no section.
+            let dot = if section == "\"\"" { "" } else { "." };
+            let path = format!("concat!({section}, \"{dot}{}\")", field.name);
             let meaning = format!("concat!({})", field.meaning.join(", \" \", "));
             keys += &format!("crate::keys::key::key({path}, {}, {domain}, {meaning}),", field.unit);
         }

@@ -38,8 +38,8 @@ mod source;
 mod suggest;
 mod units;
 
-pub use crate::cache::Cache;
 pub use crate::body_error::{BodyError, BodyFault, BodySection};
+pub use crate::cache::Cache;
 pub use crate::draft::{Draft, EditError};
 pub use crate::error::{Problem, ScenarioError, TextKind};
 pub use crate::failure::Failure;

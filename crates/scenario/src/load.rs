@@ -5,10 +5,11 @@ use crate::keys::line::{byte_of, line_at};
 use crate::keys::listed::{Misfit, check_list, check_value};
 use crate::keys::unknown::unknown;
 use crate::keys::value::describe;
-use crate::keys::{KEYS, LISTS};
+use crate::keys::{KEYS, LISTS, first_stated};
 use crate::resolve::surroundings::in_folder;
 use crate::scenario::{Scenario, check_seed};
 use crate::sections::motion::Program;
+use crate::sections::robot::RobotSection;
 use crate::source::source;
 use platewash_kinematics::Pose;
 use platewash_workcell::job::OrderRule;
@@ -113,14 +114,9 @@ impl Scenario {
         }
         self.check_tool()?;
         let robot = &self.robot;
-        let of_description = [
-            ("srdf", robot.srdf.is_some()),
-            ("package_path", !robot.package_path.is_empty()),
-            ("split_links", !robot.split_links.is_empty()),
-            ("fixed", !robot.fixed.is_empty()),
-        ];
-        if let (None, Some((key, _))) = (&robot.urdf, of_description.iter().find(|(_, is_stated)| *is_stated)) {
-            return conflict("robot.urdf", format!("robot.{key} needs a robot.urdf"));
+        let of_description = |name: &str| ["srdf", "package_path", "split_links", "fixed"].contains(&name);
+        if let (None, Some(key)) = (&robot.urdf, first_stated(robot, RobotSection::KEYS, of_description)) {
+            return conflict("robot.urdf", format!("{} needs a robot.urdf", key.path));
         }
         if self.job.program == Program::Paper && self.job.order == OrderRule::Fastest {
             return conflict(

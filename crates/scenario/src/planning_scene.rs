@@ -69,6 +69,7 @@ struct SceneMesh {
 }
 
 /// Rest of a text.
+#[derive(Default)]
 struct Reader<'a> {
     rest: &'a str,
     line: usize,
@@ -84,9 +85,7 @@ impl<'a> Reader<'a> {
         Self {
             rest: text,
             line: 1,
-            names: Vec::new(),
-            keeps_meshes: false,
-            meshes: Vec::new(),
+            ..Self::default()
         }
     }
 

@@ -18,6 +18,7 @@ use platewash_workcell::layout::LayoutError;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
@@ -404,12 +405,8 @@ fn keys_of_cause(error: &PlanError) -> Vec<TriedKey> {
 
 /// Each key once.
 fn once_each(mut all: Vec<TriedKey>) -> Vec<TriedKey> {
-    let mut keys: Vec<&str> = Vec::new();
-    all.retain(|tried| {
-        let is_new = !keys.contains(&tried.key());
-        keys.push(tried.key());
-        is_new
-    });
+    let mut keys = BTreeSet::new();
+    all.retain(|tried| keys.insert(tried.key()));
     all
 }
 

@@ -12,6 +12,7 @@ use crate::sections::room::{FloorSection, TableSection};
 use crate::sections::simulation::{ControlSection, PlantSection};
 use crate::sections::tool::{ToolBodySection, ToolSection};
 use crate::sections::wash::WashSection;
+use platewash_keys::Section;
 use platewash_kinematics::urdf::Files;
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::job::MAX_SEED;
@@ -20,12 +21,15 @@ use std::path::{Path, PathBuf};
 
 /// A job in full: all values of a scenario file, with defaults filled in. Ranges are checked by
 /// [`Scenario::parse`] and [`Scenario::validate`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Section)]
+#[section("")]
 #[serde(default, deny_unknown_fields)]
 pub struct Scenario {
     /// Name, for reports.
+    #[key(domain = Text, default = "unnamed".to_owned())]
     pub name: String,
-    /// Seed of every random stream.
+    /// Seed of every random stream; the same seed gives the same bytes. Larger ones are no JSON numbers of their own.
+    #[key(domain = Integer(0, MAX_SEED as i64), default = 1)]
     pub seed: u64,
     /// Program, order of the plates and coverage of the job.
     pub job: JobSection,
@@ -99,35 +103,6 @@ impl Scenario {
         let read = self.plate_files.paths();
         let of_plates = self.plate_paths().into_iter().chain(read);
         of_arm.chain(meshes).chain(of_plates).map(PathBuf::as_path)
-    }
-}
-
-impl Default for Scenario {
-    fn default() -> Self {
-        Self {
-            name: "unnamed".to_owned(),
-            seed: 1,
-            job: JobSection::default(),
-            robot: RobotSection::default(),
-            reduced_clearance: Vec::new(),
-            tool: ToolSection::default(),
-            tool_body: Vec::new(),
-            floor: FloorSection::default(),
-            table: TableSection::default(),
-            obstacle: Vec::new(),
-            layout: LayoutSection::default(),
-            plate: Vec::new(),
-            wash: WashSection::default(),
-            holder: HolderSection::default(),
-            ik: IkSection::default(),
-            transition: TransitionSection::default(),
-            limits: LimitsSection::default(),
-            control: ControlSection::default(),
-            plant: PlantSection::default(),
-            solids: Solids::default(),
-            plate_files: PlateFiles::default(),
-            files: Files::default(),
-        }
     }
 }
 

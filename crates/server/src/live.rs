@@ -26,10 +26,11 @@ const ROWS_AN_EVENT: usize = 500;
 const RETRY_MS: u32 = 500;
 
 /// Progress of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, TS)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum LiveState {
     /// The run has not begun.
+    #[default]
     Waiting,
     /// The run is under way.
     Running,
@@ -68,7 +69,7 @@ pub struct LiveRun {
     changed: Condvar,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct LiveLog {
     state: LiveState,
     rows: Vec<Row>,
@@ -87,16 +88,8 @@ impl LiveRun {
     pub fn new(tag: &str) -> Arc<Self> {
         Arc::new(Self {
             tag: tag.chars().filter(char::is_ascii_alphanumeric).collect(),
-            log: Mutex::new(LiveLog {
-                state: LiveState::Waiting,
-                rows: Vec::new(),
-                end: None,
-                followers: 0,
-                ever: 0,
-                know_the_end: 0,
-                is_closed: false,
-            }),
-            changed: Condvar::new(),
+            log: Mutex::default(),
+            changed: Condvar::default(),
         })
     }
 

@@ -3,7 +3,6 @@
 use crate::error::ServerError;
 use rand::TryRng;
 use rand::rngs::SysRng;
-use std::fmt::Write;
 use std::hint::black_box;
 use std::io::Error;
 
@@ -19,12 +18,7 @@ pub fn token() -> Result<String, ServerError> {
     SysRng
         .try_fill_bytes(&mut bytes)
         .map_err(|error| ServerError::Randomness(Error::other(error)))?;
-    let mut digits = String::with_capacity(2 * BYTES);
-    for byte in bytes {
-        // Writing into a string does not fail.
-        let _ = write!(digits, "{byte:02x}");
-    }
-    Ok(digits)
+    Ok(format!("{:032x}", u128::from_be_bytes(bytes)))
 }
 
 /// Compares a token with the expected one, in a time that does not depend on their differences. No token equals an empty one.

@@ -14,7 +14,7 @@ pub const ROW_SCHEMA: u32 = 2;
 
 /// Result of one scenario of a study. It depends on the study and the program's version alone: the time that it took is kept
 /// elsewhere.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
     /// [`ROW_SCHEMA`].
@@ -56,15 +56,7 @@ impl Row {
             key,
             scenario,
             axes,
-            outcome: Outcome::Error,
-            reason: None,
-            place: Place::default(),
-            duration_s: None,
-            swept: None,
-            pressed: None,
-            clearance_m: None,
-            clearance_pair: None,
-            plan: None,
+            ..Self::default()
         }
     }
 
@@ -111,7 +103,7 @@ impl Row {
 }
 
 /// Outcome of a row. The words are those of `sweep`, and one more.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Planned, and every requirement proved.
@@ -123,6 +115,7 @@ pub enum Outcome {
     /// No way to do it was found; there may be one.
     NotFound,
     /// The values of this row state no job.
+    #[default]
     Error,
     /// The program failed on this row, which is a fault of the program.
     Crashed,

@@ -132,41 +132,20 @@ fn data_block(name: &str, document: &impl Serialize) -> Result<String, PageError
 
 /// JSON as it may stand in a data block: the same values, and nothing that HTML or a script would read as markup or the end of a line.
 fn in_data_block(json: &str) -> String {
-    replaced(json, |c| match c {
-        '<' => Some("\\u003c"),
-        '\u{2028}' => Some("\\u2028"),
-        '\u{2029}' => Some("\\u2029"),
-        _ => None,
-    })
+    json.replace('<', "\\u003c")
+        .replace('\u{2028}', "\\u2028")
+        .replace('\u{2029}', "\\u2029")
+}
+
+/// Text as it stands in HTML or SVG, between elements or in an attribute in double quotes.
+pub(crate) fn escaped_but_for_apostrophes(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 /// Text as it stands in HTML, between elements or in an attribute.
 fn escaped(text: &str) -> String {
-    replaced(text, |c| match c {
-        '&' => Some("&amp;"),
-        '<' => Some("&lt;"),
-        '>' => Some("&gt;"),
-        '"' => Some("&quot;"),
-        '\'' => Some("&#39;"),
-        _ => None,
-    })
-}
-
-fn replaced(text: &str, by: impl Fn(char) -> Option<&'static str>) -> String {
-    let mut written = String::with_capacity(text.len() + text.len() / 16);
-    let mut kept = 0;
-    for (at, byte) in text.bytes().enumerate() {
-        // Nearly all of a document is ASCII, of which a byte is a character.
-        let found = match byte.is_ascii() {
-            true => Some(char::from(byte)),
-            false => text.get(at..).and_then(|rest| rest.chars().next()),
-        };
-        if let Some((c, other)) = found.and_then(|c| Some((c, by(c)?))) {
-            written.push_str(&text[kept..at]);
-            written.push_str(other);
-            kept = at + c.len_utf8();
-        }
-    }
-    written.push_str(&text[kept..]);
-    written
+    escaped_but_for_apostrophes(text).replace('\'', "&#39;")
 }

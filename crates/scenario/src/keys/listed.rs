@@ -51,7 +51,11 @@ fn check_section(list: &List, index: usize, table: &DeTable<'_>) -> Result<(), M
 }
 
 /// Refuses a value that lies outside the domain of its key, which the text states as `path`.
-pub(crate) fn check_value(key: &Key, path: impl FnOnce() -> String, value: &Spanned<DeValue<'_>>) -> Result<(), Misfit> {
+pub(crate) fn check_value(
+    key: &Key,
+    path: impl FnOnce() -> String,
+    value: &Spanned<DeValue<'_>>,
+) -> Result<(), Misfit> {
     let found = || describe(value.get_ref());
     check(key, path, &json_of(value.get_ref()), found).map_err(|problem| (value.span().start, problem))
 }

@@ -14,8 +14,7 @@ pub(crate) mod value;
 
 pub use crate::keys::key::{Domain, Key};
 
-use crate::keys::key::Domain::{Integer, Text};
-use crate::keys::key::key;
+use crate::scenario::Scenario;
 use crate::sections::holder::HolderSection;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, TransitionSection};
@@ -25,14 +24,14 @@ use crate::sections::room::{FloorSection, TableSection};
 use crate::sections::simulation::{ControlSection, PlantSection};
 use crate::sections::tool::{TOOL_BODY_KEYS, ToolSection};
 use crate::sections::wash::WashSection;
-use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::workcell::MOST_BODIES;
+use serde::Serialize;
 use std::sync::LazyLock;
 
 /// Every key, in the order of the reference; those of sections that may be stated several times are in [`LISTS`].
 pub static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
     let sections = [
-        TOP_LEVEL,
+        Scenario::KEYS,
         JobSection::KEYS,
         RobotSection::KEYS,
         ToolSection::KEYS,
@@ -50,17 +49,6 @@ pub static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
     sections.concat()
 });
 
-/// Keys of no section.
-const TOP_LEVEL: &[Key] = &[
-    key("name", "", Text, "Name, for reports."),
-    key(
-        "seed",
-        "",
-        Integer(0, MAX_SEED as i64),
-        "Seed of every random stream; the same seed gives the same bytes. Larger ones are no JSON numbers of their own.",
-    ),
-];
-
 /// A section that may be stated several times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct List {
@@ -74,27 +62,27 @@ pub struct List {
 
 /// Every list, in the order of the reference.
 pub const LISTS: &[List] = &[
-    List {
-        name: "reduced_clearance",
-        most: 50,
-        keys: ReducedClearanceSection::KEYS,
-    },
-    List {
-        name: "tool_body",
-        most: 50,
-        keys: TOOL_BODY_KEYS,
-    },
-    List {
-        name: "plate",
-        most: 1000,
-        keys: PlateSection::KEYS,
-    },
-    List {
-        name: "obstacle",
-        most: MOST_BODIES,
-        keys: OBSTACLE_KEYS,
-    },
+    list("reduced_clearance", 50, ReducedClearanceSection::KEYS),
+    list("tool_body", 50, TOOL_BODY_KEYS),
+    list("plate", 1000, PlateSection::KEYS),
+    list("obstacle", MOST_BODIES, OBSTACLE_KEYS),
 ];
+
+const fn list(name: &'static str, most: usize, keys: &'static [Key]) -> List {
+    List { name, most, keys }
+}
+
+/// The first key of a section, of those wanted, that the section states. One with a default is always stated.
+pub(crate) fn first_stated(
+    section: &impl Serialize,
+    keys: &'static [Key],
+    wanted: impl Fn(&str) -> bool,
+) -> Option<&'static Key> {
+    let values = serde_json::to_value(section).unwrap_or_default();
+    let is_stated = |name: &str| values.get(name).is_some_and(|value| !value.is_null());
+    keys.iter()
+        .find(|key| wanted(own_name(key)) && is_stated(own_name(key)))
+}
 
 /// The name of a key within its section.
 pub(crate) fn own_name(key: &Key) -> &'static str {

@@ -211,9 +211,20 @@ fn side_of_points(
     Ok(Frame::new(&if side == 1 { -axis } else { *axis }, Vector3::zeros()))
 }
 
+fn azimuth(point: &Vector3<f64>) -> f64 {
+    atan2(point.y, point.x)
+}
+
+/// The first gap between the azimuths of points, all round, that is wider than `most` \[rad\].
+fn wide_gap<'a>(points: impl Iterator<Item = &'a Vector3<f64>>, most: f64) -> Option<[f64; 2]> {
+    let mut azimuths: Vec<f64> = points.map(azimuth).collect();
+    azimuths.sort_unstable_by(f64::total_cmp);
+    azimuths.extend(azimuths.first().map(|first| first + TAU));
+    azimuths.array_windows().find(|[from, to]| to - from > most).copied()
+}
+
 /// Refuses points whose outermost ones are not on one circle, or not all round.
 fn check_rim(local: &[Vector3<f64>], placed: impl Fn(&Vector3<f64>) -> Place) -> Result<(), MeasuredError> {
-    let azimuth = |point: &Vector3<f64>| atan2(point.y, point.x);
     let mut outermost = [0.0_f64; RIM_SECTORS];
     for point in local {
         let sector = ((azimuth(point) + PI) / TAU * RIM_SECTORS as f64) as usize % RIM_SECTORS;
@@ -230,15 +241,12 @@ fn check_rim(local: &[Vector3<f64>], placed: impl Fn(&Vector3<f64>) -> Place) ->
         return Err(MeasuredError::BeyondRim { place, rim_m });
     }
     let on_rim = local.iter().filter(|point| off(point) >= -MOST_DEVIATION_M);
-    let mut azimuths: Vec<f64> = on_rim.map(azimuth).collect();
-    azimuths.sort_unstable_by(f64::total_cmp);
-    azimuths.extend(azimuths.first().map(|first| first + TAU));
-    match azimuths.windows(2).find(|gap| gap[1] - gap[0] > RIM_GAP) {
+    match wide_gap(on_rim, RIM_GAP) {
         None => Ok(()),
-        Some(gap) => {
-            let (sine, cosine) = sin_cos(gap[0].midpoint(gap[1]));
+        Some([from, to]) => {
+            let (sine, cosine) = sin_cos(from.midpoint(to));
             Err(MeasuredError::RimGap {
-                between_deg: [gap[0].to_degrees(), gap[1].to_degrees()],
+                between_deg: [from.to_degrees(), to.to_degrees()],
                 most_deg: RIM_GAP.to_degrees().round(),
                 place: placed(&Vector3::new(rim_m * cosine, rim_m * sine, 0.0)),
                 rim_m,
@@ -257,11 +265,8 @@ fn check_gaps(local: &[Vector3<f64>], rim_m: f64) -> Result<(), MeasuredError> {
         return Err(MeasuredError::NoAxis { why });
     }
     let outer = local.iter().filter(|p| p.xy().norm() > 0.5 * rim_m);
-    let mut azimuths: Vec<f64> = outer.map(|p| atan2(p.y, p.x)).collect();
-    azimuths.sort_unstable_by(f64::total_cmp);
-    azimuths.extend(azimuths.first().map(|first| first + TAU));
-    if let Some(gap) = azimuths.windows(2).find(|gap| gap[1] - gap[0] > AZIMUTH_GAP) {
-        let [from, to] = [0, 1].map(|k| gap[k].to_degrees());
+    if let Some(gap) = wide_gap(outer, AZIMUTH_GAP) {
+        let [from, to] = gap.map(f64::to_degrees);
         let why =
             format!("none lies between azimuth {from:.0}° and {to:.0}° in the outer half; touch the face there, too");
         return Err(MeasuredError::NoAxis { why });

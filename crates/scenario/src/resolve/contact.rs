@@ -1,6 +1,7 @@
 //! Requirements of `[wash]` on the contact of sponge and plate, with their defaults, and keys of it that contradict each other.
 
 use crate::error::{Problem, conflict};
+use crate::keys::first_stated;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::tool::ASSUMED_STIFFNESS_KPA;
@@ -63,18 +64,7 @@ impl WashSection {
 
     /// The keys that say how much contact, of those that are stated.
     fn stated_contact_key(&self) -> Option<&'static str> {
-        let stated = [
-            ("wash.contact_compression_m", self.contact_compression_m.is_some()),
-            ("wash.contact_height_error_m", self.contact_height_error_m.is_some()),
-            ("wash.contact_share", self.contact_share.is_some()),
-            ("wash.contact_strain", self.contact_strain.is_some()),
-            ("wash.contact_force_n", self.contact_force_n.is_some()),
-            ("wash.contact_time_s", self.contact_time_s.is_some()),
-            ("wash.contact_time_share", self.contact_time_share.is_some()),
-            ("wash.contact_dose_pa_m", self.contact_dose_pa_m.is_some()),
-            ("wash.contact_dose_share", self.contact_dose_share.is_some()),
-        ];
-        stated.into_iter().find_map(|(key, is_stated)| is_stated.then_some(key))
+        first_stated(self, Self::KEYS, |name| name.starts_with("contact_")).map(|key| key.path)
     }
 }
 

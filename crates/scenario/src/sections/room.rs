@@ -1,6 +1,7 @@
 //! The `[floor]` and `[table]` sections.
 
 use crate::error::{Problem, conflict};
+use crate::keys::first_stated;
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
 use platewash_kinematics::Pose;
@@ -66,11 +67,9 @@ const TOP_M: f64 = 0.03;
 impl FloorSection {
     /// Refuses a height or a margin of a floor that is not present.
     pub(crate) fn check(&self) -> Result<(), Problem> {
-        let of_floor = [("height_m", self.height_m), ("margin_m", self.margin_m)];
-        let stated = of_floor.into_iter().find(|(_, stated)| stated.is_some());
-        match stated.filter(|_| !self.present) {
-            Some((key, _)) => conflict(
-                format!("floor.{key}"),
+        match first_stated(self, Self::KEYS, |name| name != "present" && !self.present) {
+            Some(key) => conflict(
+                key.path,
                 "says nothing where there is no floor: leave it out, or floor.present = false",
             ),
             None => Ok(()),
@@ -90,18 +89,10 @@ impl FloorSection {
 impl TableSection {
     /// Refuses where and how a table is that has no size.
     pub(crate) fn check(&self) -> Result<(), Problem> {
-        let of_table = [
-            ("height_m", self.height_m.is_some()),
-            ("thickness_m", self.thickness_m.is_some()),
-            ("at_m", self.at_m.is_some()),
-            ("yaw_deg", self.yaw_deg.is_some()),
-            ("margin_m", self.margin_m.is_some()),
-        ];
-        let stated = of_table.into_iter().find(|(_, stated)| *stated);
-        match stated.filter(|_| self.size_m.is_none()) {
-            Some((key, _)) => conflict(
+        match first_stated(self, Self::KEYS, |_| self.size_m.is_none()) {
+            Some(key) => conflict(
                 "table.size_m",
-                format!("is missing; table.{key} is stated, and a table without a size is none"),
+                format!("is missing; {} is stated, and a table without a size is none", key.path),
             ),
             None => Ok(()),
         }

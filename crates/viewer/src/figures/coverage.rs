@@ -5,10 +5,10 @@ use super::axes::{round_above, tick_labels};
 use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
 use super::page;
-use super::subject::{Subject, Track, per_cent, short};
+use super::subject::{Subject, Track, first_of, per_cent, short};
 use super::svg::{BAD, Drawing, EXECUTED, GOOD, GREY, LINE, MIDDLE, Rect, SMALL, WORDS, fill, fitted, stroke, width};
 use crate::view::PressedRule;
-use crate::view::coverage::{proved_share, swept};
+use crate::view::coverage::proved_share;
 use platewash_workcell::coverage::reaches;
 use platewash_workcell::trajectory::PlanSegment;
 use platewash_workcell::words::plate_name;
@@ -84,11 +84,7 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
     let job = &subject.plan.job;
     let sponge = format!("sponge, radius {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
     let least = short(100.0 * job.requirements.coverage);
-    let washed: Vec<_> = subject
-        .washes()
-        .filter_map(|(_, wash)| job.plates.get(wash.plate))
-        .collect();
-    let counted: Vec<Option<PressedRule>> = washed.iter().map(|plate| PressedRule::on(plate, job)).collect();
+    let counted = subject.counted();
     let promised = counted.iter().flatten().find(|counted| counted.is_promised);
     let meaning = match (promised, &job.requirements.contact) {
         (Some(counted), Some(contact)) => format!(
@@ -108,10 +104,7 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
         Some(_) => "Of each plate there is what is planned, and what is executed.",
         None => "Nothing was simulated.",
     };
-    let first = match washed.len() {
-        all if plates < all => format!("The first {plates} of {all} plates. "),
-        _ => String::new(),
-    };
+    let first = first_of(plates, counted.len());
     format!("{first}Each plate along its axis: for how long the middle of each cell {meaning} {what}")
 }
 
@@ -131,22 +124,13 @@ impl Map {
         (way, plate): (&[crate::view::tips::Tip], usize),
         is_executed: bool,
     ) -> Self {
-        let job = &subject.plan.job;
-        let of = &job.plates[plate];
-        let counted = PressedRule::on(of, job);
-        let raster = swept(
-            of,
-            &job.workcell.tool,
-            counted.as_ref(),
-            std::iter::once(way.to_vec()),
-            CELLS,
-        );
+        let of = &subject.plan.job.plates[plate];
         Self {
             place,
             plate,
             is_executed,
-            counted,
-            dwell_s: raster.dwell_s(),
+            counted: PressedRule::on(of, &subject.plan.job),
+            dwell_s: subject.dwell_s(of, way, CELLS),
         }
     }
 

@@ -4,10 +4,8 @@ use super::axes::{Axes, ROOM};
 use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
 use super::page::{self, Entry, Sign, legend};
-use super::subject::{Subject, per_cent, short};
+use super::subject::{Subject, first_of, per_cent, short};
 use super::svg::{DASHED, Drawing, END, EXECUTED, GREY, GROUND, INK, LINE, Rect, Spot, fill, fitted, stroke};
-use crate::view::PressedRule;
-use crate::view::coverage::swept;
 use crate::view::tips::Tip;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::plate_name;
@@ -68,11 +66,7 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
         Some(report) => format!("under the law “{}”", report.law.name()),
         None => "as planned; nothing was simulated".to_owned(),
     };
-    let first = if plates > MOST {
-        format!("The first {MOST} of {plates} plates. ")
-    } else {
-        String::new()
-    };
+    let first = first_of(MOST, plates);
     format!(
         "{first}Each plate along its axis, in the order of washing: what the tip was to follow, and what it followed {what}. Error: distance of \
          the tip from where the plan has it at that time."
@@ -97,8 +91,7 @@ fn entries(subject: &Subject<'_>) -> Vec<Entry> {
 fn coloured_part_text(subject: &Subject<'_>) -> String {
     let job = &subject.plan.job;
     let sponge = format!("a sponge of {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
-    let washed = subject.washes().filter_map(|(_, wash)| job.plates.get(wash.plate));
-    let counted: Vec<Option<PressedRule>> = washed.map(|plate| PressedRule::on(plate, job)).collect();
+    let counted = subject.counted();
     match counted.iter().flatten().find(|counted| counted.is_promised) {
         Some(counted) => format!(
             "pressed by {} mm or more by {sponge}, the plate within ±{} mm",
@@ -145,19 +138,12 @@ impl<'a> Panel<'a> {
             axes.at(local.x, local.y)
         };
         let line: Vec<Spot> = self.way.iter().map(|tip| spot(&tip.at)).collect();
-        let counted = PressedRule::on(self.plate, job);
-        let raster = swept(
-            self.plate,
-            &job.workcell.tool,
-            counted.as_ref(),
-            std::iter::once(self.way.to_vec()),
-            CELLS,
-        );
+        let dwell_s = self.subject.dwell_s(self.plate, self.way, CELLS);
         drawing.within(cell, |drawing| {
             drawing.circle(middle, radius, &fill(GROUND));
             let face = Rect::new(middle[0] - radius, middle[1] - radius, 2.0 * radius, 2.0 * radius);
             let is_reached = |seconds: &Option<f64>| seconds.is_some_and(|seconds| seconds > 0.0);
-            colour_cells(drawing, face, &raster.dwell_s(), CELLS, |seconds| {
+            colour_cells(drawing, face, &dwell_s, CELLS, |seconds| {
                 is_reached(seconds).then_some(BAND)
             });
             drawing.circle(middle, radius, &stroke(LINE, 2.0));

@@ -2,6 +2,8 @@
 
 use super::error::{FARTHEST_M, FigureError};
 use super::page::FigureTexts;
+use crate::view::PressedRule;
+use crate::view::coverage::swept;
 use crate::view::tips::{Tip, Tips};
 use nalgebra::Vector3;
 use platewash_certificate::Certificate;
@@ -10,6 +12,7 @@ use platewash_kinematics::{Axes, JointVector, Pose, RobotModel};
 use platewash_simulator::{Execution, SimulationReport};
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plan::{Plan, Process};
+use platewash_workcell::plate::Plate;
 use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use platewash_workcell::words::quoted;
@@ -139,6 +142,20 @@ impl<'a> Subject<'a> {
         all.filter(|(_, segment)| segment.kind == SegmentKind::Wash)
     }
 
+    /// What counts as contact on each washed plate.
+    pub(super) fn counted(&self) -> Vec<Option<PressedRule>> {
+        let job = &self.plan.job;
+        let washed = self.washes().filter_map(|(_, wash)| job.plates.get(wash.plate));
+        washed.map(|plate| PressedRule::on(plate, job)).collect()
+    }
+
+    /// Time for which each cell of a raster of a plate counts, along a way of the tip \[s\]; `None` outside the rim.
+    pub(super) fn dwell_s(&self, plate: &Plate, way: &[Tip], cells: usize) -> Vec<Option<f64>> {
+        let counted = PressedRule::on(plate, &self.plan.job);
+        let ways = std::iter::once(way.to_vec());
+        swept(plate, &self.plan.job.workcell.tool, counted.as_ref(), ways, cells).dwell_s()
+    }
+
     /// Checks for a segment of a kind.
     pub(super) fn has(&self, kind: SegmentKind) -> bool {
         self.plan.segments.iter().any(|segment| segment.kind == kind)
@@ -190,6 +207,14 @@ impl<'a> Subject<'a> {
             (false, _, true) => "NOT PROVED: the plan was changed after it was written".to_owned(),
             (false, _, false) => format!("NOT PROVED: {}", broken.join(", ")),
         }
+    }
+}
+
+/// Beginning of a caption, where a figure shows the first of several plates.
+pub(super) fn first_of(shown: usize, plates: usize) -> String {
+    match plates > shown {
+        true => format!("The first {shown} of {plates} plates. "),
+        false => String::new(),
     }
 }
 

@@ -3,6 +3,8 @@
 //! Looks are SVG's own attributes, made by [`fill`], [`stroke`] and [`outlined`], so that a drawing within a page needs no style sheet and
 //! no names that another drawing could have, too.
 
+use crate::page::escaped_but_for_apostrophes;
+
 /// A place on a drawing \[px\]: x to the right, y down.
 pub type Spot = [f64; 2];
 
@@ -234,10 +236,7 @@ fn number(value: f64) -> f64 {
 fn escaped(text: &str) -> String {
     let is_said = |c: &char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
     let said: String = text.chars().filter(is_said).collect();
-    said.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    escaped_but_for_apostrophes(&said)
 }
 
 /// About how wide a text of a size is in common sans-serif typefaces, rather more than less \[px\].

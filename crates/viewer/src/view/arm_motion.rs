@@ -98,10 +98,7 @@ fn knots(motion: &PiecewiseMotion) -> Motion {
     Motion {
         t_s: Numbers::f64([times.len()], times.iter().copied()),
         q_rad: Numbers::f64([states.len(), AXES], states.iter().flat_map(|[q, _]| q.iter().copied())),
-        qd_rad_s: Numbers::f32(
-            [states.len(), AXES],
-            states.iter().flat_map(|[_, qd]| qd.iter().map(|v| *v as f32)),
-        ),
+        qd_rad_s: Numbers::f32_rows(states.iter().map(|[_, qd]| qd)),
     }
 }
 

@@ -7,6 +7,7 @@
 
 use super::pressed::PressedRule;
 use super::raster::{Disc, Marks, Raster};
+use super::thinned;
 use super::tips::{Tip, washes};
 use platewash_certificate as proved;
 use platewash_workcell::plan::Plan;
@@ -14,6 +15,7 @@ use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use ts_rs::TS;
 
 /// Cells of all rasters of a motion together, about.
@@ -60,18 +62,16 @@ pub(super) fn plates(
     cells: usize,
     tips: impl Fn([f64; 2]) -> Vec<Tip> + Sync,
 ) -> Vec<PlateCoverage> {
-    let mut order: Vec<usize> = Vec::new();
-    for (plate, _) in washes(plan) {
-        if !order.contains(&plate) {
-            order.push(plate);
-        }
-    }
+    let mut seen = BTreeSet::new();
+    let order = washes(plan).map(|(plate, _)| plate);
+    let order: Vec<usize> = order.filter(|plate| seen.insert(*plate)).collect();
     let cells = (cells / order.len().max(1)).isqrt().clamp(EDGE[0], EDGE[1]);
     let duration_s = plan.duration_s();
     let one = |&index: &usize| {
         let plate = plan.job.plates.get(index)?;
         let of_plate = washes(plan).filter(|(washed, _)| *washed == index);
-        let ways = of_plate.map(|(_, span)| thinned(&tips(span)));
+        let is_far = |last: &Tip, tip: &Tip| (tip.at - last.at).norm() >= STEP_M;
+        let ways = of_plate.map(|(_, span)| thinned(&tips(span), is_far).into_iter().copied().collect());
         let counted = PressedRule::on(plate, &plan.job);
         let tool = &plan.job.workcell.tool;
         Some(PlateCoverage {
@@ -83,21 +83,6 @@ pub(super) fn plates(
         })
     };
     order.par_iter().filter_map(one).collect()
-}
-
-/// The first moment, the last one, and those between whose places are not too near to each other.
-fn thinned(way: &[Tip]) -> Vec<Tip> {
-    let Some((last, before)) = way.split_last() else {
-        return Vec::new();
-    };
-    let mut kept: Vec<Tip> = Vec::with_capacity(way.len());
-    for tip in before {
-        if kept.last().is_none_or(|last| (tip.at - last.at).norm() >= STEP_M) {
-            kept.push(*tip);
-        }
-    }
-    kept.push(*last);
-    kept
 }
 
 /// The least share of a plate that counts, as it is proved.

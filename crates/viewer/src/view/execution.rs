@@ -3,6 +3,7 @@
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
 use super::numbers::Numbers;
+use super::thinned;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;
@@ -215,7 +216,8 @@ impl Execution {
 fn thinned_samples(samples: &[RecordedSample], plates: usize) -> Vec<&RecordedSample> {
     let most = MOST_SAMPLES[0] + MOST_SAMPLES[1] * plates;
     let [first_s, last_s] = [samples.first(), samples.last()].map(|sample| sample.map_or(0.0, |sample| sample.t_s));
-    thinned(samples, LEAST_STEP_S.max((last_s - first_s) / (most - 1) as f64))
+    let step_s = LEAST_STEP_S.max((last_s - first_s) / (most - 1) as f64);
+    thinned(samples, is_later(step_s))
 }
 
 /// A column that is shown where every sample has it, and there are samples.
@@ -232,26 +234,14 @@ fn column<'a>(
 fn tip_between(samples: &[RecordedSample], tips: &Tips<'_>, [from_s, to_s]: [f64; 2]) -> Vec<Tip> {
     let first = samples.partition_point(|sample| sample.t_s < from_s);
     let last = samples.partition_point(|sample| sample.t_s <= to_s);
-    let during = thinned(samples.get(first..last).unwrap_or_default(), WASH_STEP_S);
+    let during = thinned(samples.get(first..last).unwrap_or_default(), is_later(WASH_STEP_S));
     during
         .into_iter()
         .map(|sample| tips.of(&sample.q, sample.t_s))
         .collect()
 }
 
-/// The first sample, the last one, and those between that are at least so far apart in time \[s\]. Steps that come out a little
-/// short count as whole ones.
-fn thinned(samples: &[RecordedSample], step_s: f64) -> Vec<&RecordedSample> {
-    let Some((last, before)) = samples.split_last() else {
-        return Vec::new();
-    };
-    let mut next_s = f64::NEG_INFINITY;
-    let far_enough = |sample: &&RecordedSample| {
-        let is_kept = sample.t_s >= next_s;
-        if is_kept {
-            next_s = sample.t_s + (1.0 - 1e-6) * step_s;
-        }
-        is_kept
-    };
-    before.iter().filter(far_enough).chain([last]).collect()
+/// True from a time after a sample on, but for rounding.
+fn is_later(step_s: f64) -> impl Fn(&RecordedSample, &RecordedSample) -> bool {
+    move |last, sample| sample.t_s >= last.t_s + (1.0 - 1e-6) * step_s
 }

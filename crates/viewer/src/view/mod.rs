@@ -129,6 +129,21 @@ pub struct Motion {
     pub qd_rad_s: Numbers,
 }
 
+/// The first item, each that is far enough from the last one kept, and the last one.
+fn thinned<T>(all: &[T], is_far: impl Fn(&T, &T) -> bool) -> Vec<&T> {
+    let Some((end, before)) = all.split_last() else {
+        return Vec::new();
+    };
+    let mut kept: Vec<&T> = Vec::new();
+    for item in before {
+        if kept.last().is_none_or(|last| is_far(last, item)) {
+            kept.push(item);
+        }
+    }
+    kept.push(end);
+    kept
+}
+
 impl From<&Trajectory> for Motion {
     fn from(motion: &Trajectory) -> Self {
         let (times, positions) = (motion.times(), motion.positions());
