@@ -82,9 +82,7 @@ impl ProveMotionArguments {
             Interpolation::Quintic => trajectory::Interpolation::Quintic,
         })
     }
-}
 
-impl ProveMotionArguments {
     /// Note on a mesh that comes too near and whose convex parts reach beyond it.
     fn note_on_mesh(&self, options: &Options, report: &MotionReport) -> Option<Note> {
         let pair = report.too_near()?;

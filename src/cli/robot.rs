@@ -247,17 +247,17 @@ impl ToolMountRow {
 
 impl InverseKinematics {
     fn of(robot: &RobotModel) -> Self {
-        match AnalyticArm::recognise(robot) {
-            Ok(arm) => Self {
-                closed_form: true,
-                structure: Some(arm.structure()),
-                reason: arm.rounding().map(|rounding| rounding.to_string()),
-            },
-            Err(mismatch) => Self {
-                closed_form: false,
-                structure: None,
-                reason: Some(mismatch.to_string()),
-            },
+        let (structure, reason) = match AnalyticArm::recognise(robot) {
+            Ok(arm) => (
+                Some(arm.structure()),
+                arm.rounding().map(|rounding| rounding.to_string()),
+            ),
+            Err(mismatch) => (None, Some(mismatch.to_string())),
+        };
+        Self {
+            closed_form: structure.is_some(),
+            structure,
+            reason,
         }
     }
 

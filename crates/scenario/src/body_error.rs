@@ -37,6 +37,17 @@ impl BodySection {
         }
     }
 
+    /// The error of a body of the list.
+    pub(crate) fn error(self, index: usize, name: &str, why: BodyFault) -> BodyError {
+        let (section, name) = (self, name.to_owned());
+        BodyError {
+            section,
+            index,
+            name,
+            why,
+        }
+    }
+
     fn noun(self) -> &'static str {
         match self {
             Self::Obstacle => "obstacle",

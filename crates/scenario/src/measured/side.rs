@@ -29,38 +29,34 @@ pub enum FaceSide {
 }
 
 impl FaceSide {
-    /// All sides with their names in files.
-    const NAMES: [(Self, &str); 6] = [
-        (Self::PlusZ, "+z"),
-        (Self::MinusZ, "-z"),
-        (Self::PlusX, "+x"),
-        (Self::MinusX, "-x"),
-        (Self::PlusY, "+y"),
-        (Self::MinusY, "-y"),
+    /// All sides with their names in files and their directions.
+    const ALL: [(Self, &str, [f64; 3]); 6] = [
+        (Self::PlusZ, "+z", [0.0, 0.0, 1.0]),
+        (Self::MinusZ, "-z", [0.0, 0.0, -1.0]),
+        (Self::PlusX, "+x", [1.0, 0.0, 0.0]),
+        (Self::MinusX, "-x", [-1.0, 0.0, 0.0]),
+        (Self::PlusY, "+y", [0.0, 1.0, 0.0]),
+        (Self::MinusY, "-y", [0.0, -1.0, 0.0]),
     ];
+
+    fn row(self) -> &'static (Self, &'static str, [f64; 3]) {
+        Self::ALL.iter().find(|row| row.0 == self).unwrap_or(&Self::ALL[0])
+    }
 
     /// Name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        let found = Self::NAMES.iter().find(|(side, _)| *side == self);
-        found.map_or("+z", |(_, name)| name)
+        self.row().1
     }
 
     fn direction(self) -> Vector3<f64> {
-        match self {
-            Self::PlusX => Vector3::x(),
-            Self::MinusX => -Vector3::x(),
-            Self::PlusY => Vector3::y(),
-            Self::MinusY => -Vector3::y(),
-            Self::PlusZ => Vector3::z(),
-            Self::MinusZ => -Vector3::z(),
-        }
+        self.row().2.into()
     }
 
     /// Returns the side that looks most along an axis.
     pub(super) fn of(axis: &Vector3<f64>) -> Self {
         let along = |side: &Self| side.direction().dot(axis);
-        let sides = Self::NAMES.into_iter().map(|(side, _)| side);
+        let sides = Self::ALL.into_iter().map(|(side, ..)| side);
         sides
             .max_by(|a, b| along(a).total_cmp(&along(b)))
             .unwrap_or(Self::PlusZ)

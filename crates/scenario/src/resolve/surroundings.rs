@@ -1,6 +1,6 @@
 //! From the sections of floor, table and obstacles to the bodies that stand around the arm.
 
-use crate::body_error::{BodyError, BodyFault, BodySection};
+use crate::body_error::{BodyFault, BodySection};
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::scenario::Scenario;
@@ -73,7 +73,9 @@ impl Scenario {
         let mut all: Vec<_> = self.floor.obstacle().into_iter().chain(self.table.obstacle()).collect();
         for (index, section) in self.obstacle.iter().enumerate() {
             if let Some(of) = self.owner(&section.name, arm, tool) {
-                return Err(obstacle_error(index, section, BodyFault::NameTaken { of }).into());
+                return Err(BodySection::Obstacle
+                    .error(index, &section.name, BodyFault::NameTaken { of })
+                    .into());
             }
             all.push(Obstacle {
                 name: section.name.clone(),
@@ -214,7 +216,7 @@ impl Scenario {
         };
         let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, solid_parts(section));
-        let hulls = hulls.map_err(|why| obstacle_error(index, section, why))?;
+        let hulls = hulls.map_err(|why| BodySection::Obstacle.error(index, &section.name, why))?;
         Ok(match hulls.as_slice() {
             [points] => ObstacleShape::Convex(Shape::Hull { points: points.clone() }),
             hulls => ObstacleShape::Parts(hulls.to_vec()),
@@ -226,14 +228,5 @@ fn solid_parts(section: &ObstacleSection) -> SolidParts {
     match section.mesh_parts.unwrap_or_default() {
         MeshPartsName::Hull => SolidParts::Hull,
         MeshPartsName::Decomposed => SolidParts::Decomposed,
-    }
-}
-
-fn obstacle_error(index: usize, section: &ObstacleSection, why: BodyFault) -> BodyError {
-    BodyError {
-        section: BodySection::Obstacle,
-        index,
-        name: section.name.clone(),
-        why,
     }
 }

@@ -5,12 +5,12 @@ use crate::error::{Problem, ScenarioError, conflict};
 use crate::failure::Failure;
 use crate::scenario::Scenario;
 use crate::sections::body_shape::{SectionShape, pose};
-use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, ToolBodySection, tool_keys};
+use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, HandleName, ToolBodySection, tool_keys};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::tool_chain::{ToolChain, ToolError};
+use platewash_workcell::tool_chain::{Handle, ToolChain, ToolError};
 use std::path::Path;
 
 /// Greatest reach of a mesh of the tool from its origin \[m\], like other bodies by the ranges of their sizes.
@@ -46,7 +46,10 @@ impl Scenario {
         ToolChain {
             straight: self.tool.straight(),
             mount,
-            handle: self.tool.handle.into(),
+            handle: match self.tool.handle {
+                HandleName::Round => Handle::Round,
+                HandleName::None => Handle::None,
+            },
             bodies: bodies.map(|(section, shape)| section.body(shape, &mount)).collect(),
         }
     }
@@ -72,12 +75,7 @@ impl Scenario {
     ) -> Result<Shape, BodyError> {
         let source = self.meshes();
         let hulls = self.solids.parts(&source, file, scale, SolidParts::Hull);
-        let error = |why| BodyError {
-            section: BodySection::ToolBody,
-            index,
-            name: section.name.clone(),
-            why,
-        };
+        let error = |why| BodySection::ToolBody.error(index, &section.name, why);
         let points: Vec<_> = hulls.map_err(error)?.iter().flatten().copied().collect();
         let reach_m = points.iter().map(|point| point.coords.norm()).fold(0.0, f64::max);
         if reach_m > GREATEST_M {

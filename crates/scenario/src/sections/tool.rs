@@ -10,7 +10,7 @@ use platewash_keys::Section;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::tool::StraightTool;
-use platewash_workcell::tool_chain::{ChainBody, Handle, ToolError};
+use platewash_workcell::tool_chain::{ChainBody, ToolError};
 use serde::{Deserialize, Serialize};
 
 /// Stiffness of a sponge where contact is promised and none is stated \[kPa\]: an assumption, after the firmness of upholstery foams
@@ -81,15 +81,6 @@ pub enum HandleName {
     Round,
     /// Nothing but further bodies.
     None,
-}
-
-impl From<HandleName> for Handle {
-    fn from(name: HandleName) -> Self {
-        match name {
-            HandleName::Round => Self::Round,
-            HandleName::None => Self::None,
-        }
-    }
 }
 
 impl ToolSection {

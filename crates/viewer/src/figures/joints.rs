@@ -121,16 +121,15 @@ fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
     let (anywhere, washing) = (terms.limits.tip_speed_m_s, terms.wash_speed_m_s());
     let panel = Panel::new("tip [m/s]", vec![(speeds, stroke(TRANSIT, 1.8))], [0.0, anywhere]);
     let limits = format!("limits: {anywhere} m/s anywhere, {washing} m/s while it washes");
-    let beyond = if panel.words.is_empty() {
-        String::new()
-    } else {
-        format!("; {}", panel.words)
-    };
+    let words: Vec<String> = [limits, panel.words]
+        .into_iter()
+        .filter(|words| !words.is_empty())
+        .collect();
     Panel {
         // Room for the words above the limit.
         range: [panel.range[0], 1.32 * panel.range[1]],
         limits: vec![washing, anywhere],
-        words: limits + &beyond,
+        words: words.join("; "),
         ..panel
     }
 }
@@ -162,10 +161,9 @@ impl Panel {
             name,
             range,
             limits: limits.to_vec(),
-            words: if beyond.is_empty() {
-                String::new()
-            } else {
-                format!("beyond the frame: up to {}", beyond.join(" and "))
+            words: match beyond.is_empty() {
+                true => String::new(),
+                false => format!("beyond the frame: up to {}", beyond.join(" and ")),
             },
             lines,
         }

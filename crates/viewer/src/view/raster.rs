@@ -85,11 +85,9 @@ impl Raster {
 
     /// Adds when the sponge is on the middle of each cell inside the rim: from and to \[s\], in order, of a place \[m\].
     pub fn add_stays(&mut self, stays: impl Fn([f64; 2]) -> Vec<[f64; 2]>) {
-        for cell in 0..self.first_s.len() {
-            if !self.is_inside(cell) {
-                continue;
-            }
-            let stays = stays([self.middle(cell % self.cells), self.middle(cell / self.cells)]);
+        let inside: Vec<usize> = self.inside().collect();
+        for cell in inside {
+            let stays = stays(self.middle_of(cell));
             let Some([first_s, _]) = stays.first() else { continue };
             self.first_s[cell] = self.first_s[cell].min(*first_s);
             self.dwell_s[cell] += stays.iter().map(|[from, to]| to - from).sum::<f64>();
@@ -107,8 +105,7 @@ impl Raster {
     /// Share of the cells inside the rim that the sponge was on.
     #[cfg(test)]
     pub fn share(&self) -> f64 {
-        let inside = (0..self.first_s.len()).filter(|&cell| self.is_inside(cell));
-        let (all, swept) = inside.fold((0.0, 0.0), |(all, swept), cell| {
+        let (all, swept) = self.inside().fold((0.0, 0.0), |(all, swept), cell| {
             (all + 1.0, swept + f64::from(u8::from(self.first_s[cell].is_finite())))
         });
         swept / all
@@ -116,15 +113,12 @@ impl Raster {
 
     /// The middles of the cells inside the rim, row by row \[m\].
     pub fn middles(&self) -> Vec<[f64; 2]> {
-        let inside = (0..self.first_s.len()).filter(|&cell| self.is_inside(cell));
-        inside
-            .map(|cell| [self.middle(cell % self.cells), self.middle(cell / self.cells)])
-            .collect()
+        self.inside().map(|cell| self.middle_of(cell)).collect()
     }
 
     /// Sets the first times \[s\] at the middles of the cells inside the rim.
     pub fn arrive(&mut self, times_s: &[f64]) {
-        let inside: Vec<usize> = (0..self.first_s.len()).filter(|&cell| self.is_inside(cell)).collect();
+        let inside: Vec<usize> = self.inside().collect();
         for (cell, time_s) in inside.into_iter().zip(times_s) {
             self.first_s[cell] = *time_s;
         }
@@ -175,8 +169,18 @@ impl Raster {
         self.half_m * ((2 * index + 1) as f64 / self.cells as f64 - 1.0)
     }
 
+    /// Middle of a cell \[m\].
+    fn middle_of(&self, cell: usize) -> [f64; 2] {
+        [cell % self.cells, cell / self.cells].map(|index| self.middle(index))
+    }
+
+    /// The cells whose middles are within the rim.
+    fn inside(&self) -> impl Iterator<Item = usize> {
+        (0..self.first_s.len()).filter(|&cell| self.is_inside(cell))
+    }
+
     fn is_inside(&self, cell: usize) -> bool {
-        let [x, y] = [cell % self.cells, cell / self.cells].map(|index| self.middle(index));
+        let [x, y] = self.middle_of(cell);
         x * x + y * y <= self.half_m * self.half_m
     }
 }
