@@ -176,17 +176,14 @@ pub fn judged_motion(
     acceleration_rad_s2: Option<&JointVector>,
 ) -> PiecewiseMotion {
     let states_speeds = motion.start.is_some() && !motion.rests_outside();
-    let limits = accelerations(arm, acceleration_rad_s2);
+    let given = acceleration_rad_s2.copied();
+    let given = given.unwrap_or_else(|| JointVector::repeat(f64::INFINITY));
+    // The lesser of those given and those of the description; infinite where neither is.
+    let limits = arm.limits().within_acceleration(&given);
     match states_speeds && limits.iter().all(|limit| *limit > 0.0 && limit.is_finite()) {
         true => with_stop(&motion.motion, &limits),
         false => motion.motion.clone(),
     }
-}
-
-/// Greatest accelerations of the joints \[rad/s²\]: the lesser of those given and those of the description; infinite where neither is.
-fn accelerations(arm: &RobotModel, given: Option<&JointVector>) -> JointVector {
-    let given = given.copied().unwrap_or_else(|| JointVector::repeat(f64::INFINITY));
-    arm.limits().within_acceleration(&given)
 }
 
 /// Returns what the description states and this proof does not use: limits of accelerations where speeds jump, whatever
@@ -310,8 +307,11 @@ impl MotionReport {
         let (fault, points) = (self.at_fault(), count_with_noun(self.points, "point"));
         match (self.verdict, fault) {
             (MotionVerdict::Proved, _) => {
-                let bound_m = self.bound_m().map(|m| m.max(self.required_clearance_m));
-                let least = bound_m.map_or_else(String::new, |m| format!("at least {}", millimetres_down(m)));
+                let mut rules = self.rules.iter();
+                let clearance = rules.find(|rule| rule.requirement == Requirement::Clearance);
+                let bound_m = clearance.and_then(|rule| rule.measure?.bound);
+                let least_m = bound_m.map(|m| m.max(self.required_clearance_m));
+                let least = least_m.map_or_else(String::new, |m| format!("at least {}", millimetres_down(m)));
                 let span = self
                     .span_s
                     .map_or("for any timing (speeds are not judged)".to_owned(), |_| {
@@ -350,15 +350,6 @@ impl MotionReport {
             true => String::new(),
             false => format!("; {}", told.join("; ")),
         }
-    }
-
-    /// The least clearance that is proved over all pairs \[m\].
-    fn bound_m(&self) -> Option<f64> {
-        let rule = self
-            .rules
-            .iter()
-            .find(|rule| rule.requirement == Requirement::Clearance)?;
-        rule.measure?.bound
     }
 
     fn required_words(&self) -> String {
@@ -647,11 +638,8 @@ fn excluded_words(excluded: &[Exclusion]) -> Option<String> {
 
 impl fmt::Display for MotionMoment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(time_s) = self.time_s {
-            match self.exact {
-                Some(exact) => write!(f, "at {exact} s, ")?,
-                None => write!(f, "at {} s, ", rounded(time_s, 7))?,
-            }
+        if let Some(exact) = self.exact {
+            write!(f, "at {exact} s, ")?;
         }
         if let Some(stopping_s) = self.stopping_s {
             return write!(

@@ -110,12 +110,8 @@ pub fn remedies_of_proof(
     }
     let progress = options.progress(LOOKING);
     let watch = progress.watch(&options.cancel);
-    Ok(Some(scenario.remedies_of_proof(
-        arm,
-        certificate,
-        &watch,
-        search_time,
-    )?))
+    let remedies = scenario.remedies_of_proof(arm, certificate, &watch, search_time)?;
+    Ok(Some(remedies))
 }
 
 /// Ends a job that was not carried out. Where the job cannot be done, a report replaces the files of earlier calls.

@@ -372,10 +372,8 @@ impl Answer {
             .filter(is_described)
             .map(|(joint, _)| joint.name.as_str())
             .collect();
-        match (
-            described.len(),
-            self.joints.iter().any(|joint| joint.acceleration_rad_s2.is_some()),
-        ) {
+        let is_stated = self.joints.iter().any(|joint| joint.acceleration_rad_s2.is_some());
+        match (described.len(), is_stated) {
             (AXES, _) => "as the URDF states".to_owned(),
             (0, false) => "assumed: the URDF states none (limits.joint_acceleration_rad_s2)".to_owned(),
             (0, true) => "of the scenario, less than the URDF states (limits.joint_acceleration_rad_s2)".to_owned(),

@@ -109,7 +109,14 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
                 arguments.parent.is_none(),
                 "{name}: a run of the paper's program is neither a dry run nor a recovery"
             );
-            Judgement::of_paper(&plan)
+            Judgement::Paper {
+                verdict: Verdict::Fail,
+                headline: paper_headline(&plan),
+                process: plan.process,
+                duration_s: plan.duration_s(),
+                hash: HashFinding::of(&plan),
+                scenario: plan.provenance.scenario,
+            }
         }
         Process::Wash => {
             let file = PlanFile::with_arm(options, &arguments.plan, plan, arm.as_ref())?;
@@ -270,19 +277,6 @@ impl fmt::Display for Answer {
         }
         let mut others = [&self.against, &self.parent].into_iter().flatten();
         others.try_for_each(|other| write!(f, "\n{other}"))
-    }
-}
-
-impl Judgement {
-    fn of_paper(plan: &Plan) -> Self {
-        Self::Paper {
-            verdict: Verdict::Fail,
-            headline: paper_headline(plan),
-            process: plan.process,
-            scenario: plan.provenance.scenario.clone(),
-            duration_s: plan.duration_s(),
-            hash: HashFinding::of(plan),
-        }
     }
 }
 
