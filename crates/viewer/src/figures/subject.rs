@@ -142,7 +142,7 @@ impl<'a> Subject<'a> {
         all.filter(|(_, segment)| segment.kind == SegmentKind::Wash)
     }
 
-    /// What counts as contact on each washed plate.
+    /// Rule of contact on each washed plate.
     pub(super) fn counted(&self) -> Vec<Option<PressedRule>> {
         let job = &self.plan.job;
         let washed = self.washes().filter_map(|(_, wash)| job.plates.get(wash.plate));
