@@ -28,7 +28,7 @@ pub trait Dialect: Debug + Sync {
     /// stands for the largest distance from the start.
     fn assumptions(&self) -> &'static [&'static str];
 
-    /// Returns true where its programs state joints as the arm's controller counts them ([`Joint3`]), not as the description does.
+    /// Returns true where its programs state joints as the arm's controller counts them ([`Joint3`](crate::maker_joints::Joint3)), not as the description does.
     fn has_maker_joints(&self) -> bool {
         false
     }
