@@ -131,6 +131,7 @@ def test_eight_threads_give_the_plan_of_one() -> None:
 def test_a_sweep_equals_its_plans() -> None:
     rows = pw.sweep("kitchen", [3, 1])
     assert [row.axes["seed"] for row in rows] == [3, 1] and {row.outcome for row in rows} == {"proved"}
+    assert [row.index for row in rows] == [0, 1]
     assert (rows[1].duration_s, rows[1].plan) == (plan("kitchen", 1).duration_s, plan("kitchen", 1).hash)
     with pytest.raises(pw.InputError):
         pw.sweep("paper-text", [1])

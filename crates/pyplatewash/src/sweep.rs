@@ -5,10 +5,8 @@ use crate::work::patiently;
 use crate::{argument, errors, scenario};
 use platewash::Failure;
 use platewash::scenario::Program;
-use platewash::study::Row;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// Plans and proves a scenario once a seed: one record a seed, with the fields of a study's rows: `axes` (`{"seed": n}`), `outcome`
@@ -26,11 +24,9 @@ pub fn sweep<'py>(
     scenario::of_program(py, &scenario, Program::Certified)?;
     let seeds = argument::each("seeds", seeds, "a list of seeds", argument::seed)?;
     let rows = patiently(py, move |cancel| {
-        let one = |&seed: &u64| {
-            cancel.check()?;
-            platewash::sweep(&scenario, seed..=seed, cancel, &mut |_| ControlFlow::Continue(()))
-        };
-        seeds.par_iter().map(one).collect::<Result<Vec<Vec<Row>>, Failure>>()
+        let rows = platewash::sweep(&scenario, seeds.into_iter(), cancel, &mut |_| ControlFlow::Continue(()))?;
+        cancel.check()?;
+        Ok::<_, Failure>(rows)
     })?;
-    records(py, &rows.map_err(|e| errors::failure(py, &e))?.concat())
+    records(py, &rows.map_err(|e| errors::failure(py, &e))?)
 }

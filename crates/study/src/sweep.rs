@@ -8,10 +8,10 @@ use platewash_scenario::{Failure, Scenario, ScenarioError, TextKind, check_seed}
 use platewash_workcell::cancel::CancelToken;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::ops::{ControlFlow, RangeInclusive};
+use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Plans and proves the scenario with every seed: `done` gets each row in the order of the seeds, as soon as it and those before it
+/// Plans and proves the scenario with every seed: `done` gets each row in the order in which they are given, as soon as it and those before it
 /// are done. No further layout begins once `done` breaks or the token cancels; then the rows that `done` got are returned. Threads are
 /// rayon's, and the rows depend on none of them.
 ///
@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// [`Failure`] for a scenario that is wrong for every seed; what goes wrong with one is a row.
 pub fn sweep(
     scenario: &Scenario,
-    seeds: RangeInclusive<u64>,
+    seeds: impl Iterator<Item = u64> + Clone + Send,
     cancel: &CancelToken,
     done: &mut (dyn FnMut(&Row) -> ControlFlow<()> + Send),
 ) -> Result<Vec<Row>, Failure> {
@@ -29,7 +29,8 @@ pub fn sweep(
         line: None,
         problem,
     };
-    check_seed("the last of the seeds", *seeds.end()).map_err(seed_error)?;
+    let greatest = seeds.clone().max().unwrap_or_default();
+    check_seed("the last of the seeds", greatest).map_err(seed_error)?;
     // Its files are read once, not for every seed.
     let read = scenario.plates_read()?;
     let scenario = &*read;
@@ -40,13 +41,12 @@ pub fn sweep(
         Err(error) if error.infeasibility().is_some() => scenario.arm()?,
         Err(error) => return Err(error),
     };
-    let first = *seeds.start();
     let in_order = Mutex::new((Vec::new(), BTreeMap::new(), ControlFlow::Continue(()), done));
     let locked = || in_order.lock().unwrap_or_else(PoisonError::into_inner);
     // A bridge hands the seeds out one after the other, so that the first rows are done first. That somebody broke off is no
     // error: the rows up to there are kept.
-    let _: Option<()> = seeds.par_bridge().try_for_each(|seed| {
-        let row = row(scenario, &arm, (seed - first, seed), cancel)?;
+    let _: Option<()> = (0..).zip(seeds).par_bridge().try_for_each(|place| {
+        let row = row(scenario, &arm, place, cancel)?;
         let (rows, waiting, flow, done) = &mut *locked();
         waiting.insert(row.index, row);
         while flow.is_continue()
