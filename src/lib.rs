@@ -16,6 +16,8 @@
 //! ```
 
 #[cfg(feature = "command")]
+pub mod align;
+#[cfg(feature = "command")]
 pub mod cli;
 mod motion_proof;
 mod motion_stop;
@@ -26,10 +28,12 @@ mod spirals;
 #[cfg(feature = "command")]
 extern crate self as platewash;
 
+pub use platewash_bodies as bodies;
 pub use platewash_certificate as certificate;
 pub use platewash_editor as editor;
 pub use platewash_export as export;
 pub use platewash_kinematics as kinematics;
+pub use platewash_motion as motion;
 pub use platewash_paper as paper;
 pub use platewash_planner as planner;
 pub use platewash_scenario as scenario;
@@ -51,19 +55,20 @@ pub use report::WashReport;
 pub use spirals::paper_spirals;
 
 // What they speak of.
+pub use platewash_bodies::clearance::{ClearanceModel, PairClearance};
+pub use platewash_bodies::job::WashJob;
 pub use platewash_kinematics::ik::{IkError, IkFailure, IkSettings, IkSolution, IkSolver};
 pub use platewash_kinematics::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel, ToolFrame};
+pub use platewash_motion::plan::Plan;
+pub use platewash_motion::trajectory::Trajectory;
 pub use platewash_paper::{PaperJob, PaperReport, PaperRun};
 pub use platewash_simulator::{DynamicsError, DynamicsModel, Energy};
 pub use platewash_workcell::cancel::CancelToken;
-pub use platewash_workcell::clearance::{ClearanceModel, PairClearance};
-pub use platewash_workcell::job::{JobTerms, WashJob};
+pub use platewash_workcell::job::JobTerms;
 pub use platewash_workcell::layout::Layout;
-pub use platewash_workcell::plan::Plan;
 pub use platewash_workcell::plate::Plate;
 pub use platewash_workcell::surface::Surface;
 pub use platewash_workcell::tool::Tool;
-pub use platewash_workcell::trajectory::Trajectory;
 pub use platewash_workcell::verdict::Verdict;
 pub use platewash_workcell::workcell::Workcell;
 

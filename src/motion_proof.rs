@@ -8,8 +8,8 @@ use platewash_export::trajectory::{ExactTime, Interpolation, PointMotion};
 use platewash_kinematics::urdf::FollowerLink;
 use platewash_kinematics::words::{decimals_down, distinct_decimals, rounded};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_motion::piecewise::PiecewiseMotion;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::piecewise::PiecewiseMotion;
 use platewash_workcell::words::count_with_noun;
 use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell};
 use serde::Serialize;
@@ -131,13 +131,13 @@ pub struct MotionReport {
 ///
 /// ```
 /// use platewash::export::trajectory::JointPoints;
-/// use platewash::workcell::workcell::Workcell;
+/// use platewash::bodies::assembly;
 /// use platewash::{CancelToken, JointVector, Pose, RobotModel, prove_motion};
 ///
 /// let arm = RobotModel::irb120()?;
 /// let points = JointPoints { q_rad: vec![JointVector::zeros(), JointVector::repeat(0.5)], ..JointPoints::default() };
 /// let motion = points.motion(&arm, None)?;
-/// let alone = Workcell::without_tool(&arm, Pose::identity(), Vec::new())?;
+/// let alone = assembly::workcell_without_tool(&arm, Pose::identity(), Vec::new())?;
 /// let report = prove_motion(&motion, &alone, &arm, 0.005, None, &CancelToken::new())?;
 /// assert!(report.headline.starts_with("PROVED"), "{report}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -1,7 +1,7 @@
 //! Ends of a motion at speed: the stop after the last point.
 
 use platewash_kinematics::{AXES, JointVector};
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 
 /// Speed below which a joint counts as at rest \[rad/s\].
 const REST_RAD_S: f64 = 1e-9;

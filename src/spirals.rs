@@ -1,11 +1,11 @@
 //! The spirals that the paper's program commands, which its plan file does not state.
 
 use platewash_kinematics::RobotModel;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_paper::{PaperError, PaperJob, run_with};
 use platewash_viewer::figures::IdealPath;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::SegmentKind;
 use std::sync::Arc;
 
 /// The commanded path on each plate of a plan of the paper's program, in the order of washing: the program is run again.

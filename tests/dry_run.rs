@@ -1,11 +1,13 @@
 //! Dry runs: the same paths in the air, proved, never a washing, and refused wherever they are not what they say.
 
 use crate::shipped;
+use platewash::bodies::assembly;
 use platewash::certificate::{Status, Verdict, differences};
+use platewash::motion::dry_run::{DryRunError, dry_run_terms, least_height_m};
 use platewash::planner::{PlannedJob, Watch, plan_in_order};
 use platewash::simulator::simulate::PlateVerdict;
-use platewash::workcell::dry_run::{DryRun, DryRunError, dry_run_terms, least_height_m};
-use platewash::workcell::job::JobError;
+use platewash::workcell::dry_run::DryRun;
+use platewash::workcell::job::TermsError;
 use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{
     CancelToken, Certificate, ClearanceModel, Plan, ProveError, Requirement, Scenario, SimulationReport,
@@ -122,7 +124,7 @@ fn a_washing_that_calls_itself_a_dry_run_is_refused() {
     let real = plan.job.plates.iter().enumerate();
     let standing = real.map(|(i, plate)| DryRun::plate_as_obstacle(i, &dry_run.lowered(plate)));
     plan.job.workcell.obstacles.extend(standing.collect::<Vec<_>>());
-    plan.job.workcell.exclusions = plan.job.workcell.own_exclusions(job.arm()).unwrap();
+    plan.job.workcell.exclusions = assembly::own_exclusions(&plan.job.workcell, job.arm()).unwrap();
     plan.job.dry_run = Some(dry_run);
     plan.hash = plan.seal().ok();
     let certificate = judged(&plan);
@@ -295,11 +297,11 @@ fn rejects_an_invalid_parent_of_a_dry_run() {
     let hash = PARENT.1.hash.as_ref().unwrap();
     for bad in ["", "abc", &hash.to_uppercase(), &format!("{hash}0"), "\u{1b}[31m"] {
         let said = error(bad, 0.05);
-        assert!(matches!(said, ProveError::Job(JobError::Parent)), "{said}");
+        assert!(matches!(said, ProveError::Job(TermsError::Parent)), "{said}");
     }
     for bad in [0.0, -0.05, f64::NAN, f64::INFINITY, 1e9] {
         assert!(
-            matches!(error(hash, bad), ProveError::Job(JobError::Number { .. })),
+            matches!(error(hash, bad), ProveError::Job(TermsError::Number { .. })),
             "{bad}"
         );
     }

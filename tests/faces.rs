@@ -1,10 +1,10 @@
 //! Plates of every shape that ships: planned, proved, as fast as is promised, the wrist on one side and the tool in its cone; a flat plate
 //! said in three ways is one; what a scenario pins is planned.
 
+use platewash::motion::trajectory::SegmentKind;
 use platewash::scenario::SHIPPED;
 use platewash::workcell::job::PatternName;
 use platewash::workcell::random::stream;
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel, Scenario, plan, prove};
 use rand::RngExt;
 use rand_pcg::Pcg64;

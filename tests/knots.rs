@@ -8,10 +8,10 @@
 //! `PLATEWASH_THOROUGH=1` compares all seeds.
 
 use crate::shipped::{SEED, planned};
+use platewash::motion::plan::Knots;
 use platewash::scenario::{Program, SHIPPED};
-use platewash::workcell::fixtures::is_thorough;
-use platewash::workcell::plan::Knots;
 use platewash::{Scenario, paper, plan};
+use platewash_fixtures::is_thorough;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;

@@ -3,8 +3,8 @@
 //! `PLATEWASH_THOROUGH=1` tries all shipped scenarios and all factors.
 
 use platewash::scenario::{Program, SHIPPED};
-use platewash::workcell::fixtures::is_thorough;
 use platewash::{Scenario, plan};
+use platewash_fixtures::is_thorough;
 use rayon::prelude::*;
 
 /// Factors on speeds and on accelerations.

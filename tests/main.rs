@@ -11,6 +11,7 @@
 )]
 
 mod cells;
+mod align;
 mod certified;
 mod dry_run;
 mod facade;

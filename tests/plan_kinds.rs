@@ -2,10 +2,11 @@
 
 use crate::shipped;
 use platewash::certificate::Requirement;
+use platewash::motion::dry_run::dry_run_terms;
+use platewash::motion::trajectory::SegmentKind;
 use platewash::planner::{Watch, plan_in_order, recover};
-use platewash::workcell::dry_run::{DryRun, dry_run_terms};
+use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::job::{FixtureTerms, HolderTerms, PlanKind, Statement, StatementRule};
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::workcell::{Exclusion, ExclusionReason, ReducedClearance};
 use platewash::{CancelToken, JobTerms, Plan, WashJob, prove};
 

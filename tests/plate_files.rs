@@ -1,7 +1,7 @@
 //! Plates and soils out of files: planned, proved, and no longer proved where a plan is edited.
 
 use platewash::certificate::{Requirement, Verdict};
-use platewash::workcell::plan::Plan;
+use platewash::motion::plan::Plan;
 use platewash::{Certificate, Scenario, plan, prove};
 use std::path::Path;
 

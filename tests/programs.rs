@@ -13,7 +13,7 @@ use platewash::export::judgement::{JOINT_SPEED_SHARE, motions};
 use platewash::export::reading::{Reading, SegmentShape};
 use platewash::export::{ExportSettings, ExportedProgram, compare, export};
 use platewash::kinematics::sha256_hex;
-use platewash::workcell::plan::Plan;
+use platewash::motion::plan::Plan;
 use platewash::{CancelToken, Certified, JointVector, RobotModel, Scenario, certify, plan};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -1,12 +1,13 @@
 //! Jobs that nobody thought of: what is planned of them is proved, and does the job that was asked for.
 
+use platewash::bodies::assembly;
 use platewash::certificate::{Requirement, differences, prove};
 use platewash::planner::PlannedJob;
-use platewash::workcell::fixtures::{is_thorough, kitchen_terms};
 use platewash::workcell::job::{OrderRule, Planner, PlannerSettings};
 use platewash::workcell::random::stream;
 use platewash::workcell::tool::StraightTool;
-use platewash::{JobTerms, Plate, RobotModel, WashJob, Workcell, plan};
+use platewash::{JobTerms, Plate, RobotModel, WashJob, plan};
+use platewash_fixtures::{is_thorough, kitchen_terms};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -46,7 +47,7 @@ fn terms(random: &mut Pcg64, robot: &RobotModel) -> JobTerms {
     let rim_m = any(random, [0.07, 0.145]);
     let tool = tool(random);
     let mut terms = kitchen_terms(robot, plates(random, rim_m));
-    terms.workcell = Workcell::on_floor(robot, tool.into()).unwrap();
+    terms.workcell = assembly::workcell_on_floor(robot, tool.into()).unwrap();
     let path_radius_m = rim_m - any(random, [0.0, 0.8]) * tool.sponge_radius_m;
     let Planner::Wash(settings) = terms.planner else {
         unreachable!("the kitchen is washed");

@@ -1,9 +1,9 @@
 //! Of the spiral points that an independent analytic check finds reachable, every one is solved.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use platewash::motion::trajectory::SegmentKind;
 use platewash::paper::{PaperPart, ToolPath};
 use platewash::workcell::tool::tool_down;
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::{IkError, IkSolver, JointVector, RobotModel, ToolFrame};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,17 +1,17 @@
 //! Recovery from a stop: from where the arm stands home with a proof, or the true reason; then the plates that are left.
 
 use crate::shipped;
+use platewash::bodies::clearance::{ClearanceModel, PairClearance};
 use platewash::certificate::{Requirement, Status, certify, prove};
 use platewash::export::dialect::by_name;
 use platewash::export::program::ProgramFile;
 use platewash::export::{ExportSettings, compare, export};
 use platewash::kinematics::RobotModel;
+use platewash::motion::dry_run::dry_run_terms;
+use platewash::motion::trajectory::SegmentKind;
 use platewash::planner::{Recovered, RecoveryError, Stop, Watch, recover};
-use platewash::workcell::clearance::{ClearanceModel, PairClearance};
-use platewash::workcell::dry_run::dry_run_terms;
 use platewash::workcell::job::RecoveryPart;
 use platewash::workcell::random::stream;
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::workcell::ReducedClearance;
 use platewash::{CancelToken, JointVector, Plan};
 use rand::{Rng, RngExt};

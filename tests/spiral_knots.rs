@@ -2,8 +2,8 @@
 //!
 //! `tests/golden/spiral-knots.json` holds wash knots of the program of before; `spiral_knots.py` beside it wrote them.
 
-use platewash::workcell::plan::Plan;
-use platewash::workcell::trajectory::SegmentKind;
+use platewash::motion::plan::Plan;
+use platewash::motion::trajectory::SegmentKind;
 use platewash::{Scenario, plan};
 use serde::Deserialize;
 

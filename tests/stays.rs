@@ -5,12 +5,12 @@
 use nalgebra::{Vector2, Vector3};
 use platewash::certificate::prove;
 use platewash::planner::{Watch, plan_here};
-use platewash::workcell::fixtures::is_thorough;
 use platewash::workcell::plate::Plate;
 use platewash::workcell::random::stream;
 use platewash::workcell::simulation::ControlLawName;
 use platewash::workcell::surface::Surface;
 use platewash::{CancelToken, Plan, RobotModel, Scenario, simulate};
+use platewash_fixtures::is_thorough;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;

@@ -5,8 +5,8 @@ use platewash::planner::joint_path::{Ends, JointPath};
 use platewash::planner::scene::{Contact, Scene, TiltPolicy};
 use platewash::planner::timing::{self, MotionLimits, TipLimits};
 use platewash::workcell::arc;
-use platewash::workcell::fixtures::is_thorough;
 use platewash::{ClearanceModel, IkSettings, IkSolver, Plan, RobotModel, Scenario, plan};
+use platewash_fixtures::is_thorough;
 
 /// Samples of one straight stretch between two waypoints of the arc.
 const SAMPLES: usize = 40;

@@ -1,10 +1,10 @@
 //! Tools that lean from axis 6, or begin beside it: planned, proved and simulated as the straight one is.
 
 use platewash::certificate::{Requirement, Status, prove};
+use platewash::motion::trajectory::SegmentKind;
 use platewash::planner::plan;
-use platewash::workcell::fixtures::is_thorough;
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel, Scenario, SimulationReport, SimulationVerdict, simulate};
+use platewash_fixtures::is_thorough;
 use proptest::prelude::*;
 
 /// Two plates beside each other, washed in the order of their list.

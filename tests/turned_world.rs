@@ -2,11 +2,12 @@
 //! is proved of it.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use platewash::bodies::assembly;
 use platewash::certificate::{Certificate, Requirement};
 use platewash::kinematics::geometry::Shape;
-use platewash::workcell::fixtures::is_thorough;
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose, Scenario, SimulationReport, WashJob, plan, prove, simulate};
+use platewash_fixtures::is_thorough;
 use proptest::prelude::*;
 use proptest::test_runner::Config;
 
@@ -26,7 +27,7 @@ fn kitchen(seed: u64) -> WashJob {
     let mut post = Obstacle::new("post", ObstacleShape::Convex(post), Pose::translation(-0.45, 0.1, 0.3));
     post.margin_m = 0.005;
     terms.workcell.obstacles.push(post);
-    terms.workcell.exclusions = terms.workcell.own_exclusions(job.arm()).unwrap();
+    terms.workcell.exclusions = assembly::own_exclusions(&terms.workcell, job.arm()).unwrap();
     WashJob::new(job.shared_arm(), terms).unwrap()
 }
 

@@ -6,12 +6,12 @@ use super::numbers::{coordinate, within};
 use super::options::Options;
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
+use platewash::align::{
+    Alignment, DrawnPoint, Touch, TouchedPoint, align, drawn_points, fitting_order, touched_points,
+};
 use platewash::kinematics::urdf::file::read_text;
 use platewash::kinematics::words::fixed;
 use platewash::scenario::{OriginLink, RobotSection, load_arm};
-use platewash::workcell::align::{
-    Alignment, DrawnPoint, Touch, TouchedPoint, align, drawn_points, fitting_order, touched_points,
-};
 use platewash::workcell::number_table::TableError;
 use platewash::workcell::words::{millimetres, printable};
 use platewash::{Failure, RobotModel, Scenario};

@@ -19,8 +19,8 @@ use platewash::export::{
     dialect, export, ros2,
 };
 use platewash::kinematics::urdf::file::read_bytes;
+use platewash::motion::plan::Plan;
 use platewash::workcell::dry_run::DryRun;
-use platewash::workcell::plan::Plan;
 use platewash::workcell::words::{count_with_noun, printable};
 use platewash::{Certified, JointVector, Pose, ProveError};
 use serde::Serialize;

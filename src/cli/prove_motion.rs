@@ -8,6 +8,7 @@ use super::output::DetailArguments;
 use super::page::needed_bundle;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueEnum};
+use platewash::bodies::assembly;
 use platewash::certificate::ProveError;
 use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
@@ -164,7 +165,7 @@ fn workcell(options: &Options, arguments: &ProveMotionArguments, arm: &RobotMode
     if let Some(readings) = mount.ambiguous_mount(arm) {
         bail!("--mount, --mount-link: {readings}");
     }
-    let mut cell = Workcell::without_tool(arm, mount.mount(arm), Vec::new())?;
+    let mut cell = assembly::workcell_without_tool(arm, mount.mount(arm), Vec::new())?;
     if let Some(file) = &arguments.tool {
         cell.tool = load(file)?.tool(arm, &meshes).map_err(Failure::from)?;
     }

@@ -6,6 +6,8 @@ use super::fk::FramePose;
 use super::options::Options;
 use anyhow::{Context, Result};
 use clap::Args;
+use platewash::bodies::assembly;
+use platewash::bodies::clearance::TouchingPairs;
 use platewash::kinematics::controller_base::ControllerBase;
 use platewash::kinematics::ik::analytic::AnalyticArm;
 use platewash::kinematics::tool_mount::ToolMount;
@@ -15,9 +17,8 @@ use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, arm_outlines, draw_region};
-use platewash::workcell::clearance::TouchingPairs;
 use platewash::workcell::workcell::Obstacle;
-use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame, Workcell};
+use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -277,7 +278,7 @@ impl InverseKinematics {
 
 /// The clearances of an arm without a tool over the floor.
 pub fn bare_clearance(robot: &RobotModel) -> Result<ClearanceModel, platewash::Failure> {
-    let bare = Workcell::without_tool(robot, Pose::identity(), vec![Obstacle::floor()])?;
+    let bare = assembly::workcell_without_tool(robot, Pose::identity(), vec![Obstacle::floor()])?;
     Ok(ClearanceModel::new(robot, &bare, &[])?)
 }
 

@@ -6,8 +6,8 @@ mod clutter;
 mod swept;
 mod walls;
 
+use platewash::bodies::clearance::exclusions;
 use platewash::certificate::Certificate;
-use platewash::workcell::clearance::exclusions;
 use platewash::workcell::workcell::Obstacle;
 use platewash::{Plan, Scenario, plan, prove};
 

@@ -3,11 +3,11 @@
 
 use super::{among, judged};
 use nalgebra::Vector3;
+use platewash::bodies::clearance::ClearanceModel;
+use platewash::bodies::clearance::motion::PartPairs;
 use platewash::certificate::{PairRule, Status};
 use platewash::kinematics::BodyPoses;
 use platewash::kinematics::geometry::Shape;
-use platewash::workcell::clearance::ClearanceModel;
-use platewash::workcell::clearance::motion::PartPairs;
 use platewash::workcell::random::stream;
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose, RobotModel, Scenario, prove};

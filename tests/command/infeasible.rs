@@ -1,7 +1,7 @@
 //! Certified jobs that cannot be done: what is said, written and removed.
 
 use super::*;
-use platewash::workcell::fixtures::is_thorough;
+use platewash_fixtures::is_thorough;
 
 fn plan(dir: &Path, file: &Path) -> CommandOutput {
     platewash(dir, &["plan", "--scenario", file.to_str().unwrap(), "--out", "o"])

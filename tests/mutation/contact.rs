@@ -8,6 +8,7 @@ use platewash::certificate::Requirement::{
     Pressed, Strain, Swept, Tilt, Tool, WashPaths, WashSpeed, Wrist,
 };
 use platewash::certificate::{Certificate, Status, prove};
+use platewash::motion::trajectory::SegmentKind;
 use platewash::workcell::job::{
     ContactRequirements, FixtureTerms, HolderTerms, PatternName, Planner, PlannerSettings, RingTerms,
 };
@@ -15,7 +16,6 @@ use platewash::workcell::plate::Foot;
 use platewash::workcell::simulation::FoamContact;
 use platewash::workcell::surface::Knot;
 use platewash::workcell::tool::Sponge;
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::wash_path::{Rings, WashCurve};
 use platewash::{Plan, RobotModel, Surface, plan};
 use rayon::prelude::*;

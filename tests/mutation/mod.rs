@@ -21,7 +21,7 @@ mod sampler;
 use crate::mutation::edit::{Edit, ExpectedResult, good};
 use crate::mutation::judge::{Outcome, STATEMENTS};
 use platewash::certificate::prove;
-use platewash::workcell::fixtures::is_thorough;
+use platewash_fixtures::is_thorough;
 use rayon::prelude::*;
 
 #[test]

@@ -4,7 +4,7 @@ use crate::mutation::edit::good;
 use nalgebra::Point3;
 use platewash::certificate::prove;
 use platewash::kinematics::geometry::Shape;
-use platewash::workcell::plan::Process;
+use platewash::motion::plan::Process;
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose};
 

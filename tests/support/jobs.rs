@@ -1,7 +1,8 @@
 //! Jobs of more than one test.
 
-use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{JobTerms, Overlap, Planner, PlannerSettings, WashJob};
+use platewash_bodies::job::WashJob;
+use platewash_fixtures::{kitchen, kitchen_plate};
+use platewash_workcell::job::{JobTerms, Overlap, Planner, PlannerSettings};
 
 /// The kitchen with other terms.
 pub fn job(change: impl FnOnce(&mut JobTerms, &mut PlannerSettings)) -> WashJob {

@@ -2,11 +2,11 @@
 
 use platewash_export::Joint3;
 use platewash_export::program::{Point, Program, ProgramFile};
+use platewash_fixtures::{kitchen_plates, kitchen_terms};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};
-use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_motion::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use proptest::prelude::*;
 
 pub const UR5: &str = include_str!("../../crates/kinematics/tests/fixtures/ur5_lengths.urdf");

@@ -5,14 +5,14 @@ use platewash_export::dialect::{Dialect, ReadError, by_name};
 use platewash_export::program::{Point, Program, ProgramFile};
 use platewash_export::reading::Reading;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use std::sync::OnceLock;
 
 /// The kitchen's plan, and its arm.
 pub fn kitchen() -> &'static (Plan, RobotModel) {
     static KITCHEN: OnceLock<(Plan, RobotModel)> = OnceLock::new();
     KITCHEN.get_or_init(|| {
-        let job = platewash_workcell::fixtures::kitchen();
+        let job = platewash_fixtures::kitchen();
         let planned = platewash_planner::plan(&job).unwrap();
         let certified = platewash_certificate::certify(planned.plan, job.arm()).unwrap();
         let arm = RobotModel::irb120().unwrap();
@@ -34,7 +34,7 @@ pub fn every(step: usize) -> Vec<Point> {
     let chosen = (0..=last).filter(|index| index % step == 0 || *index == last || rests(*index));
     let points = chosen.map(|index| {
         let t_s = knots.t_s[index];
-        let ends = |segment: &platewash_workcell::trajectory::PlanSegment| t_s <= segment.t_end_s + 1e-9;
+        let ends = |segment: &platewash_motion::trajectory::PlanSegment| t_s <= segment.t_end_s + 1e-9;
         let segment = plan.segments.iter().position(ends).unwrap_or(plan.segments.len() - 1);
         Point {
             t_s,

@@ -1,16 +1,16 @@
 //! A washing that no planner made: two plates of the kitchen, the tool upright, each stretch at rest at both ends.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use platewash_fixtures::{kitchen_plates, kitchen_terms};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, Pose, RobotModel, trig};
+use platewash_motion::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_simulator::{Execution, SimulationReport, simulate};
-use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::tool_down;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;

@@ -19,7 +19,7 @@ const LONGEST: [&str; 10] = [
     "platewash-certificate certificate",
     "platewash-server server",
     "platewash-export platewash_export",
-    "platewash-workcell workcell",
+    "platewash-bodies bodies",
     "platewash-simulator simulator",
     "platewash-kinematics kinematics",
     "platewash-planner planner",

@@ -4,7 +4,7 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, Link, Pose};
 use platewash_problems::stages::surroundings;
-use platewash_workcell::job::WashJob;
+use platewash_bodies::job::WashJob;
 use platewash_workcell::words::plate_name;
 use platewash_workcell::workcell::ObstacleShape;
 use serde_json::{Value, json};

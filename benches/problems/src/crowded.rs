@@ -1,8 +1,8 @@
 //! A cell crowded by obstacles that nothing comes near: what they cost is the price of looking at them.
 
+use platewash_bodies::clearance::ClearanceModel;
 use platewash_planner::plan;
 use platewash_scenario::{BodyShape, ObstacleSection, Scenario, StatedShape};
-use platewash_workcell::clearance::ClearanceModel;
 use platewash_workcell::random::stream;
 use rand::RngExt;
 use std::collections::BTreeMap;

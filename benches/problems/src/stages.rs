@@ -1,15 +1,15 @@
 //! The stages of a certified job on one core, each with what the stages before it made.
 
+use platewash_bodies::clearance::ClearanceModel;
+use platewash_bodies::job::WashJob;
 use platewash_certificate::prove;
+use platewash_motion::plan::Plan;
 use platewash_planner::joint_path::{Ends, JointPath};
 use platewash_planner::plan;
 use platewash_planner::redundancy::{Task, Washing, washing};
 use platewash_planner::scene::Scene;
 use platewash_planner::timing::{self, MotionLimits, TipLimits};
 use platewash_scenario::Scenario;
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::job::WashJob;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::error::Error;
 use std::hint::black_box;

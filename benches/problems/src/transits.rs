@@ -1,12 +1,12 @@
 //! Each transit of a cell alone: how long it takes to plan, and to prove as a motion of its own.
 
+use platewash_bodies::job::WashJob;
 use platewash_certificate::{MotionProof, Requirement, Status, prove_motion};
 use platewash_kinematics::JointVector;
+use platewash_motion::plan::{Knots, Plan};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_planner::{Activity, Watch, plan_here};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::WashJob;
-use platewash_workcell::plan::{Knots, Plan};
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::plate_name;
 use std::error::Error;
 use std::sync::{Mutex, PoisonError};

@@ -13,11 +13,13 @@ use crate::report::certificate::World;
 use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::subject::{self, JointLimits};
+use platewash_bodies::assembly;
+use platewash_bodies::clearance::{ClearanceModel, FixedOverlap, standing_overlaps};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::{ClearanceModel, FixedOverlap, standing_overlaps};
-use platewash_workcell::job::{JobError, check_workcell};
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_workcell::job::TermsError;
+use platewash_workcell::job::check_workcell;
 use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell, is_pair};
 
 /// Rules that a motion of an arm must keep, besides the limits of the arm's description.
@@ -96,14 +98,14 @@ impl ArmMotionProof {
 /// the arm, its SRDF and the tool are left out; exclusions that the workcell states are ignored.
 ///
 /// ```
+/// use platewash_bodies::assembly;
 /// use platewash_certificate::{MotionRules, Status, Timing, prove_arm_motion};
 /// use platewash_kinematics::{JointVector, Pose, RobotModel};
+/// use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 /// use platewash_workcell::cancel::CancelToken;
-/// use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-/// use platewash_workcell::workcell::Workcell;
 ///
 /// let arm = RobotModel::irb120()?;
-/// let cell = Workcell::without_tool(&arm, Pose::identity(), Vec::new())?;
+/// let cell = assembly::workcell_without_tool(&arm, Pose::identity(), Vec::new())?;
 /// let ends = [JointVector::zeros(), JointVector::repeat(0.5)];
 /// let motion = PiecewiseMotion::new(vec![MotionPiece::line([0.0, 1.0], ends)])?;
 /// let rules = MotionRules { clearance_m: 0.005, acceleration_rad_s2: None, rests_outside: false, timing: Timing::Stated };
@@ -129,7 +131,7 @@ pub fn prove_arm_motion(
     }
     let world = World::of(&workcell.mount);
     let seen = workcell.seen_from_base().into_owned();
-    let excluded = seen.own_exclusions(arm)?;
+    let excluded = assembly::own_exclusions(&seen, arm)?;
     // Pairs that should not meet are looked at, too.
     let (suspects, others): (Vec<_>, Vec<_>) = excluded.iter().cloned().partition(|pair| may_not_meet(arm, pair));
     let seen = Workcell {
@@ -217,7 +219,7 @@ fn reaching(FixedOverlap { body, other, by_m }: &FixedOverlap) -> PairBound {
 fn check_rules(rules: &MotionRules) -> Result<(), ProveError> {
     let refused = |name, expected: &str, found| {
         let expected = expected.to_owned();
-        Err(ProveError::Rules(JobError::Number { name, expected, found }))
+        Err(ProveError::Rules(TermsError::Number { name, expected, found }))
     };
     if !(0.0..=1.0).contains(&rules.clearance_m) {
         return refused("the required clearance", "from 0 to 1 m", rules.clearance_m);

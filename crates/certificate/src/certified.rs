@@ -4,8 +4,8 @@ use crate::error::ProveError;
 use crate::prove::prove_with;
 use crate::report::certificate::Certificate;
 use platewash_kinematics::RobotModel;
+use platewash_motion::plan::Plan;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::Plan;
 
 /// A value with the certificate that holds for it. Only [`certify`] and [`certify_with`] make one.
 #[derive(Debug, Clone, PartialEq)]

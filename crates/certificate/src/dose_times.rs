@@ -13,11 +13,11 @@ use crate::subject::Subject;
 use crate::washing::instants::Instants;
 use crate::washing::shares::bounds::Passes;
 use crate::washing::shares::cell::{Cell, CellState};
+use platewash_bodies::contact::Foundation;
 use platewash_kinematics::RobotModel;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::contact::Foundation;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 
 /// Half of the edge of the cell around a place \[m\].

@@ -1,11 +1,11 @@
 //! Reasons that a plan cannot be judged.
 
+use platewash_bodies::clearance::ClearanceError;
+use platewash_bodies::coverage::CoverageError;
 use platewash_kinematics::words::distinct_decimals;
+use platewash_motion::trajectory::KnotError;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::clearance::ClearanceError;
-use platewash_workcell::coverage::CoverageError;
-use platewash_workcell::job::JobError;
-use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::job::TermsError;
 use platewash_workcell::words::{count_with_noun, printable};
 
 /// Reason that a plan cannot be judged. A plan that breaks a requirement is no error.
@@ -20,7 +20,7 @@ pub enum ProveError {
     Cancelled(#[from] Cancelled),
     /// The job of the plan cannot be judged.
     #[error("the plan's job: {}", printable(&.0.to_string()))]
-    Job(JobError),
+    Job(TermsError),
     /// A body of the tool or an obstacle has no finite size above 0 or no valid pose.
     #[error("\"{}\": a body must have a finite size above 0 and a pose; lengths up to 1000 m can be judged", printable(.name))]
     Body {
@@ -70,7 +70,7 @@ pub enum ProveError {
     },
     /// The rules of a motion or its workcell cannot be judged.
     #[error("{}", printable(&.0.to_string()))]
-    Rules(JobError),
+    Rules(TermsError),
     /// Two bodies have the same name, by which pairs are left out.
     #[error("more than one body is named \"{}\"; each must have a name of its own", printable(.name))]
     NameTwice {

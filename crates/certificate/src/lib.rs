@@ -50,4 +50,4 @@ pub use crate::washing::contact::{PlateContact, ProvedExtreme, ProvedShare};
 pub use crate::washing::coverage::PlateCoverage;
 pub use crate::washing::holding::{HolderLoad, RingShares};
 pub use crate::washing::reach::ReachedNeighbour;
-pub use platewash_workcell::differences::{Difference, differences};
+pub use platewash_motion::differences::{Difference, differences};

@@ -30,10 +30,10 @@ use crate::statements::wash_paths;
 use crate::subject::Subject;
 use crate::washing::coverage::{self, PlateCoverage};
 use platewash_kinematics::RobotModel;
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_motion::plan::Plan;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::PATH_TOLERANCE_M;
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-use platewash_workcell::plan::Plan;
 
 /// Limits for a program's motion, in addition to the requirements of its plan's job.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -20,9 +20,9 @@ use crate::washing::contact::{self, PlateContact};
 use crate::washing::coverage::{self, PlateCoverage, Wash};
 use crate::washing::{following, holding, landing, reach};
 use platewash_kinematics::{AXES, RobotModel};
+use platewash_motion::plan::{Knots, Plan, Process};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::plan::{Knots, Plan, Process};
 
 /// Greatest joint position for which sines are accurate (see [`platewash_kinematics::trig`]) \[rad\].
 const MOST_TURN_RAD: f64 = 1e4;

@@ -5,9 +5,10 @@ use nalgebra::Point3;
 use platewash_certificate::{Certificate, ProveError, Verdict, prove, prove_with};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::geometry::Shape;
+use platewash_motion::plan::{Plan, Process};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{JobError, Planner};
-use platewash_workcell::plan::{Plan, Process};
+use platewash_workcell::job::Planner;
+use platewash_workcell::job::TermsError;
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 
 fn changed(change: impl FnOnce(&mut Plan)) -> Result<Certificate, ProveError> {
@@ -60,10 +61,10 @@ fn huge_numbers_end_in_a_clear_error() {
     fails(|p| p.wash_paths[0].lift_m = 1e300);
     for wild in [1e300, -1e300, 1e9] {
         let found = changed(|p| p.job.plates[1].pose.translation.x = wild);
-        assert_eq!(found, Err(ProveError::Job(JobError::NoPlate { plate: 1 })));
+        assert_eq!(found, Err(ProveError::Job(TermsError::NoPlate { plate: 1 })));
     }
     let found = changed(|p| p.job.plates[0].thickness_m = 0.0);
-    assert_eq!(found, Err(ProveError::Job(JobError::NoPlate { plate: 0 })));
+    assert_eq!(found, Err(ProveError::Job(TermsError::NoPlate { plate: 0 })));
     let job = |change: fn(&mut Plan)| matches!(changed(change), Err(ProveError::Job(_)));
     assert!(job(|p| p.job.workcell.tool.tip.translation.x = 1e300));
     assert!(job(|p| p.job.requirements.clearance_m = f64::NAN));
@@ -206,7 +207,7 @@ fn a_thousand_plates_end_soon_and_more_are_refused() {
             p.order = (0..count).collect();
         }
     };
-    let refused = Err(ProveError::Job(JobError::PlateCount { found: 1001 }));
+    let refused = Err(ProveError::Job(TermsError::PlateCount { found: 1001 }));
     assert_eq!(changed(crowd(1001)), refused);
     fails(crowd(300));
 }

@@ -1,14 +1,15 @@
 //! Motions of an arm alone, against dense samples.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use platewash_bodies::assembly;
+use platewash_bodies::clearance::{ClearanceModel, ITERATIVE_ERROR_M};
 use platewash_certificate::{ArmMotionProof, MotionRules, ProveError, Requirement, Status, Timing, prove_arm_motion};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{DisabledPairs, JointVector, Pose, RobotModel};
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::{ClearanceModel, ITERATIVE_ERROR_M};
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
 use proptest::prelude::*;
 
@@ -24,7 +25,7 @@ fn cell(arm: &RobotModel, mount: Pose) -> Workcell {
         bar("post", [0.35, 0.25, 0.3], [0.02, 0.02, 0.3]),
         bar("beam", [0.3, 0.0, 0.85], [0.02, 0.4, 0.02]),
     ];
-    Workcell::without_tool(arm, mount, obstacles).unwrap()
+    assembly::workcell_without_tool(arm, mount, obstacles).unwrap()
 }
 
 fn rules() -> MotionRules {
@@ -197,7 +198,7 @@ fn judges_pairs_that_no_joint_moves_apart() {
         Obstacle::new("block", ObstacleShape::Convex(shape), Pose::translation(0.0, 0.0, z))
     };
     let proof = |obstacles: Vec<Obstacle>| {
-        let cell = Workcell::without_tool(&arm, Pose::identity(), obstacles).unwrap();
+        let cell = assembly::workcell_without_tool(&arm, Pose::identity(), obstacles).unwrap();
         judged(&lines(&[joint_1(0.0), joint_1(0.3)], 2.0), &cell, &arm, &rules())
     };
     let line_of = |proof: &ArmMotionProof, pair: [&str; 2]| {
@@ -297,7 +298,7 @@ fn a_disabled_pair_that_meets_is_named() {
         let pairs = DisabledPairs::parse(&text).unwrap();
         RobotModel::irb120().unwrap().with_disabled_pairs(pairs).unwrap()
     };
-    let alone = Workcell::without_tool(&with(""), Pose::identity(), Vec::new()).unwrap();
+    let alone = assembly::workcell_without_tool(&with(""), Pose::identity(), Vec::new()).unwrap();
     // The wrist folded down to the foot.
     let folded = JointVector::from([0.0, 109.0, 60.0, 0.0, 90.0, 0.0]).map(f64::to_radians);
     let motion = lines(&[JointVector::zeros(), folded], 5.0);
@@ -335,7 +336,7 @@ fn a_disabled_pair_that_meets_is_named() {
 fn described_accelerations_are_judged_beside_a_jump() {
     let text = IRB120_URDF.replace("effort=\"0\"", "effort=\"0\" acceleration=\"2\"");
     let arm = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
-    let alone = Workcell::without_tool(&arm, Pose::identity(), Vec::new()).unwrap();
+    let alone = assembly::workcell_without_tool(&arm, Pose::identity(), Vec::new()).unwrap();
     let zero = JointVector::zeros();
     for (angle, status) in [(0.1, None), (0.8, Some(Status::Violated))] {
         let [a, b, c] = [0.0, angle, angle + 0.1].map(joint_1);

@@ -3,8 +3,8 @@
 use crate::maker::{Recipe, good, irb120, resealed};
 use platewash_certificate::Requirement::{self, EveryPlateOnce, Plates};
 use platewash_certificate::{Certificate, differences, prove};
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::plan::Plan;
 
 fn judged(plan: Plan) -> Certificate {
     prove(&resealed(plan), &irb120()).unwrap()

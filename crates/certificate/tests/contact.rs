@@ -3,8 +3,8 @@
 use crate::foundation::{dose_times_s, raster};
 use crate::maker::{Recipe, irb120};
 use platewash_certificate::{PlateContact, Requirement, Status, dose_times, prove};
-use platewash_workcell::fixtures::is_thorough;
-use platewash_workcell::plan::Plan;
+use platewash_fixtures::is_thorough;
+use platewash_motion::plan::Plan;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{Rings, WashCurve};
 

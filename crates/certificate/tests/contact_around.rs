@@ -4,9 +4,9 @@
 use crate::contact::{disc, rings, washed};
 use crate::maker::{Recipe, irb120};
 use platewash_certificate::{Certificate, PlateContact, Requirement, prove};
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::surface::{Knot, Surface};
-use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::WashCurve;
 
 /// Depth below the face \[m\]: less than the millimetre that the line over a path allows.

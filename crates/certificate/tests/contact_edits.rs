@@ -4,8 +4,8 @@
 use crate::contact::{disc, profile, rings};
 use crate::maker::{Recipe, irb120};
 use platewash_certificate::{Certificate, Measure, Requirement, Status, prove};
-use platewash_workcell::fixtures::is_thorough;
-use platewash_workcell::plan::Plan;
+use platewash_fixtures::is_thorough;
+use platewash_motion::plan::Plan;
 use rayon::prelude::*;
 
 /// An edit: the requirement that it concerns, and the job with a share of what there is to spare taken away.

@@ -10,8 +10,8 @@ use platewash_certificate::Requirement::{
     self, ContactDose, ContactForce, ContactHeight, ContactTime, PathDeviation, Pressed, Strain,
 };
 use platewash_certificate::{Certificate, prove};
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::ContactRequirements;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::{Knot, Surface};
 use platewash_workcell::tool::Sponge;
 use platewash_workcell::wash_path::WashCurve;

@@ -3,10 +3,10 @@
 
 use crate::maker::{Recipe, good, irb120};
 use nalgebra::Vector3;
+use platewash_bodies::clearance::ClearanceModel;
 use platewash_certificate::{Certificate, PairRule, Requirement, prove};
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::SegmentKind;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::wash_path::WashCurve;
 
 struct MotionSample {

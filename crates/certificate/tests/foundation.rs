@@ -2,9 +2,9 @@
 
 use crate::maker::irb120;
 use nalgebra::Vector3;
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 
 /// Edge of a square \[m\].

@@ -1,15 +1,15 @@
 //! A small planner for tests: inverse kinematics along the wash path, straight joint motions between, slow timing.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use platewash_fixtures::{kitchen_plate, kitchen_terms};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, Pose, RobotModel};
-use platewash_workcell::fixtures::{kitchen_plate, kitchen_terms};
+use platewash_motion::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::job::{ContactRequirements, JobTerms};
-use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::{StraightTool, Tool, tool_down};
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 use std::sync::OnceLock;

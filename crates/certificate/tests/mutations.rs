@@ -4,10 +4,10 @@ use crate::maker::{Recipe, good, irb120, resealed, tool};
 use platewash_certificate::Requirement::{self, *};
 use platewash_certificate::{Certificate, PairRule, Status, Verdict, prove};
 use platewash_kinematics::JointVector;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::job::Overlap;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use platewash_workcell::workcell::{self, Exclusion, ExclusionReason};
 
@@ -270,7 +270,7 @@ fn refuses_an_obstacle_that_is_too_near() {
     far.pose.translation.x = -0.9;
     plan.job.workcell.obstacles.push(far);
     plan.job.workcell.exclusions =
-        platewash_workcell::clearance::exclusions(&irb120(), &plan.job.workcell.tool, &plan.job.workcell.obstacles)
+        platewash_bodies::clearance::exclusions(&irb120(), &plan.job.workcell.tool, &plan.job.workcell.obstacles)
             .unwrap();
     assert_eq!(broken(&judged(plan.clone())), []);
     plan.job.workcell.obstacles[1].pose.translation.x = 0.4;

@@ -3,12 +3,12 @@
 
 use crate::maker::{good, irb120, resealed};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
+use platewash_bodies::clearance::{ClearanceModel, exclusions};
 use platewash_certificate::{Requirement, Status, prove};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
-use platewash_workcell::clearance::{ClearanceModel, exclusions};
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::Overlap;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 use proptest::prelude::*;
 

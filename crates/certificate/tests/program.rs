@@ -5,10 +5,10 @@ use platewash_certificate::{
     Certified, Check, ProgramLimits, ProgramProof, Requirement, Status, certify, prove_program,
 };
 use platewash_kinematics::JointVector;
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use proptest::prelude::*;
 use std::sync::OnceLock;
 

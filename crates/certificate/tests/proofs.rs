@@ -1,13 +1,13 @@
 //! Results of a proof besides its requirements: a certified value, a motion alone, the basis of the verdict.
 
 use crate::maker::{good, irb120, resealed};
+use platewash_bodies::clearance::exclusions;
 use platewash_certificate::Requirement::{Clearance, JointSpeed, TipSpeed};
 use platewash_certificate::{CertifyError, PairRule, ProveError, Status, certify, prove, prove_motion};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
+use platewash_motion::plan::Process;
 use platewash_workcell::cancel::{CancelToken, Cancelled};
-use platewash_workcell::clearance::exclusions;
-use platewash_workcell::plan::Process;
 use platewash_workcell::tool::ToolBody;
 use std::collections::BTreeSet;
 

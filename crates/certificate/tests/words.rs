@@ -5,8 +5,8 @@ use crate::maker::{good, irb120, resealed};
 use platewash_certificate::{Certificate, PairRule, ProveError, Requirement, Sense, Unit, prove};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::{decimals_down, decimals_up};
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::Overlap;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::WashPath;
 use platewash_workcell::workcell::Obstacle;
 

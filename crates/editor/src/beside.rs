@@ -1,10 +1,10 @@
 //! The paper's program on the plates of a plan, for the page that shows both on one clock.
 
 use platewash_kinematics::{Pose, RobotModel};
+use platewash_motion::plan::{Plan, Process};
 use platewash_paper::{self as paper, PaperJob, PaperPart};
 use platewash_viewer::view::{Beside, ExecutedMotion};
 use platewash_workcell::layout::Layout;
-use platewash_workcell::plan::{Plan, Process};
 use platewash_workcell::verdict::Verdict;
 use std::sync::Arc;
 

@@ -10,6 +10,7 @@ use crate::protocol::{
 use crate::refusal::plain;
 use crate::subject::{LastResult, PlacedJob, Subject, changed, place_job};
 use platewash_certificate::{Certificate, prove_with};
+use platewash_motion::plan::Plan;
 use platewash_planner::{
     Chance, InfeasibleReport, MapArea, MapPatch, PlanError, PlannedJob, PlateOutlook, SEARCHED_M, UnwashablePlate,
     Watch, nearest_place, plan_here, plate_outlooks, unwashable_plates, washable_map,
@@ -17,7 +18,6 @@ use platewash_planner::{
 use platewash_scenario::Failure;
 use platewash_viewer::view::{self, View, ViewExtras};
 use platewash_workcell::layout::Finding;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::verdict::Verdict;
 use platewash_workcell::words::plate_name;
 use std::sync::Arc;

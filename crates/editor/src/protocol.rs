@@ -1,10 +1,10 @@
 //! Questions of the page and lines of answers, as JSON: `platewash-edit/1`. The page's TypeScript types are made from these.
 
 use crate::answer_writer::Milliseconds;
+use platewash_motion::trajectory::PlanSegment;
 use platewash_planner::Chance;
 use platewash_viewer::view;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::trajectory::PlanSegment;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -6,10 +6,10 @@ use crate::refusal::plain;
 use crate::subject::{Subject, changed, place_job};
 use platewash_certificate::prove_with;
 use platewash_kinematics::JointVector;
+use platewash_motion::plan::Plan;
 use platewash_planner::{Recovered, RecoveryError, Watch, plan_here, recover};
 use platewash_scenario::Failure;
 use platewash_viewer::view::{View, ViewExtras};
-use platewash_workcell::plan::Plan;
 
 /// Answers a question for a recovery.
 pub fn answer(subject: &Subject, question: &RecoveryQuestion, answer: &mut AnswerWriter<'_>) {

@@ -3,16 +3,16 @@
 use crate::answer_writer::End;
 use crate::protocol::{Edit, Refusal};
 use crate::refusal::{about, at, of_edit, of_scenario, plain};
+use platewash_bodies::job::WashJob;
 use platewash_certificate::Certificate;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::Files;
+use platewash_motion::plan::Plan;
 use platewash_planner::Watch;
 use platewash_scenario::{Cache, Draft, Failure, Program, Scenario, Solids, values_of};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::WashJob;
 use platewash_workcell::layout::Layout;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::words::count_with_noun;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};

@@ -20,8 +20,8 @@ use crate::tool_frame;
 use platewash_certificate::{Certified, ProveError};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_motion::plan::Plan;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::Plan;
 use std::collections::HashMap;
 
 /// Greatest number of changes that are listed.

@@ -9,7 +9,7 @@ use crate::program::{Place, Point, Program, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::csv::{MAX_ROWS, STATE};
+use platewash_motion::csv::{MAX_ROWS, STATE};
 use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
 
 /// End of a table's name.

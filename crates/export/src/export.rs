@@ -12,8 +12,8 @@ use crate::{header, tool_frame};
 use platewash_certificate::{Certified, ProveError};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_motion::plan::Plan;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::workcell::ArmId;
 
 /// Largest difference between a point that was read back and the one that was written \[°\], and between their times \[s\].

@@ -12,8 +12,8 @@ use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, U
 use platewash_kinematics::tool_mount::ToolMount;
 use platewash_kinematics::words::{decimals_down, decimals_up, fixed, rounded as rounded_to};
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel, sha256_hex};
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::{Requirements, Soil};
-use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::{count_with_noun, plate_name, quoted};
 

@@ -13,10 +13,10 @@ use platewash_certificate::{
     Certified, Check, Measure, ProgramLimits, ProgramProof, ProveError, Requirement, Sense, prove_program,
 };
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::KnotError;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::KnotError;
 use serde::Serialize;
 
 /// Share of the arm's joint speeds that a program may use: the rest is left for the controller to keep its time.

@@ -11,8 +11,8 @@ use crate::program::Point;
 use crate::refusal::Refusal;
 use crate::settings::ExportSettings;
 use platewash_kinematics::{Axes, Frame, JointVector, RobotModel};
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{KnotError, SegmentKind, Trajectory};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{KnotError, SegmentKind, Trajectory};
 
 /// The longest step between two points \[s\].
 const LONGEST_S: f64 = 0.1;

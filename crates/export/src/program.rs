@@ -5,7 +5,7 @@ use crate::dialect::ReadError;
 use crate::maker_joints::Joint3;
 use crate::rapid::{Rapid, text_of_latin_1};
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use platewash_workcell::tool::Tool;
 use std::fmt::{self, Debug};
 

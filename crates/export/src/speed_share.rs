@@ -2,7 +2,7 @@
 
 use crate::dialect::Points;
 use crate::reading::Reading;
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 
 /// Shares are rounded to steps of one over this number.
 const STEPS: f64 = 1e6;

@@ -179,7 +179,7 @@ fn exports_a_table_with_its_explanation() {
     let [table, about] = <[_; 2]>::try_from(Csv.write(&program(&plan, &ARM, vec![still, then], 0.5))).unwrap();
     assert_eq!((table.name.as_str(), about.name.as_str()), ("small.csv", "small.txt"));
     assert!(Csv.is_in(&table) && !Csv.is_in(&about));
-    let trajectory = platewash_workcell::csv::HEADER;
+    let trajectory = platewash_motion::csv::HEADER;
     assert!(
         !Csv.is_in(&file("trajectory.csv", trajectory)),
         "a table of another kind"

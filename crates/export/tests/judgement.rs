@@ -3,8 +3,8 @@
 use platewash_export::judgement::{CORNER_SCALES, ProgramMotion, motions};
 use platewash_export::program::Place;
 use platewash_export::reading::{ReadPoint, Reading, SegmentShape};
+use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_workcell::fixtures::kitchen_tool;
 use proptest::prelude::*;
 
 fn reading(steps: &[(f64, [f64; 6], Option<f64>)], interpolation: SegmentShape) -> Reading {

@@ -1,17 +1,18 @@
 //! Programs for arms whose controller counts axis 3 together with axis 2: asked for, written, read back and judged.
 
 use crate::linkage::urdf;
+use platewash_bodies::job::WashJob;
 use platewash_certificate::{Certified, certify};
 use platewash_export::dialect::by_name;
 use platewash_export::program::ProgramFile;
 use platewash_export::{CompareError, ExportError, ExportSettings, ExportedProgram, Joint3, Refusal, compare, export};
+use platewash_fixtures::kitchen_terms;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_motion::plan::Plan;
 use platewash_planner::{Watch, plan, recover};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::kitchen_terms;
-use platewash_workcell::job::{Planner, WashJob};
-use platewash_workcell::plan::Plan;
+use platewash_workcell::job::Planner;
 use platewash_workcell::plate::Plate;
 use std::sync::Arc;
 

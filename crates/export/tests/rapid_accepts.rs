@@ -3,10 +3,10 @@
 use platewash_export::Refusal;
 use platewash_export::dialect::Dialect;
 use platewash_export::rapid::Rapid;
+use platewash_fixtures::kitchen_terms;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
-use platewash_workcell::fixtures::kitchen_terms;
 use platewash_workcell::tool::ToolMass;
 
 fn refused(change: impl Fn(&mut ToolMass)) -> String {

@@ -4,8 +4,8 @@ use crate::rapid::{every, kitchen, program, rapid};
 use platewash_export::Joint3;
 use platewash_export::program::Point;
 use platewash_export::reading::{Reading, SegmentShape};
+use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::{JointVector, Pose};
-use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::tool::{Tool, ToolMass};
 use proptest::prelude::*;
 

@@ -6,10 +6,10 @@ use platewash_export::program::{Point, Program, ProgramFile};
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::ros2::write::LEAD_IN_S;
 use platewash_export::{ExportSettings, Joint3, ProgramComparison, compare, export};
+use platewash_fixtures as fixtures;
 use platewash_kinematics::RobotModel;
+use platewash_motion::plan::Plan;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures;
-use platewash_workcell::plan::Plan;
 use proptest::prelude::*;
 use std::sync::LazyLock;
 

@@ -7,8 +7,8 @@ use platewash_export::dialect::{Dialect, ReadError};
 use platewash_export::program::Point;
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::urscript::UrScript;
+use platewash_fixtures::{kitchen_plates, kitchen_terms};
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::fixtures::{kitchen_plates, kitchen_terms};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 

@@ -2,19 +2,20 @@
 
 use crate::programs::{program, ur5};
 use nalgebra::Vector3;
+use platewash_bodies::job::WashJob;
 use platewash_certificate::certify;
 use platewash_export::csv::Csv;
 use platewash_export::dialect::{Dialect, Points};
 use platewash_export::program::Point;
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::urscript::UrScript;
+use platewash_fixtures::kitchen_terms;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::Trajectory;
 use platewash_planner::plan;
-use platewash_workcell::fixtures::kitchen_terms;
-use platewash_workcell::job::{Planner, WashJob};
-use platewash_workcell::plan::Plan;
+use platewash_workcell::job::Planner;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::Trajectory;
 use std::sync::Arc;
 
 /// One plate behind the arm's start, washed.

@@ -3,15 +3,15 @@
 use crate::settings::SettingError;
 use crate::tracking::TrackingError;
 use crate::work::WorkError;
+use platewash_bodies::clearance::ClearanceError;
+use platewash_bodies::coverage::CoverageError;
+use platewash_bodies::job::JobError;
 use platewash_kinematics::ik::IkSettingsError;
 use platewash_kinematics::irb120::EmbeddedModelError;
+use platewash_motion::plan::PlanFileError;
 use platewash_simulator::ControlError;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::clearance::ClearanceError;
-use platewash_workcell::coverage::CoverageError;
-use platewash_workcell::job::JobError;
 use platewash_workcell::layout::LayoutError;
-use platewash_workcell::plan::PlanFileError;
 use platewash_workcell::verdict::Infeasibility;
 
 /// Reason that the paper's program could not be carried out; one variant per stage. A run that does not wash is no error. The messages

@@ -3,11 +3,13 @@
 use crate::error::PaperError;
 use crate::part::PaperPart;
 use crate::settings::PaperSettings;
+use platewash_bodies::assembly;
+use platewash_bodies::job::WashJob;
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::job::{JobTerms, Limits, Overlap, Planner, Requirements, WashJob};
+use platewash_motion::plan::{Plan, PlanFileError};
+use platewash_workcell::job::{JobTerms, Limits, Overlap, Planner, Requirements};
 use platewash_workcell::json::JsonError;
 use platewash_workcell::layout::Layout;
-use platewash_workcell::plan::{Plan, PlanFileError};
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, PlantSettings, SimulationSettings};
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::workcell::Workcell;
@@ -45,7 +47,7 @@ impl PaperJob {
     /// # Errors
     /// [`PaperError::Clearance`] for an arm with a shape that is none.
     pub fn of_part(part: PaperPart, arm: Arc<RobotModel>, layout: Layout, seed: u64) -> Result<Self, PaperError> {
-        let workcell = Workcell::on_floor(&arm, Tool::from(StraightTool::default()))?;
+        let workcell = assembly::workcell_on_floor(&arm, Tool::from(StraightTool::default()))?;
         Ok(Self {
             name: format!("paper-{}", part.name()),
             arm,

@@ -6,10 +6,10 @@ use crate::tool_path::ToolPath;
 use crate::tracking::{self, Step};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkSolver;
+use platewash_motion::plan::{Knots, Plan, PlanFileError, PlanParts, Provenance};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_simulator::control;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::{Knots, Plan, PlanFileError, PlanParts, Provenance};
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 
 /// A job planned and followed, before it is judged.
 #[derive(Debug, Clone)]

@@ -7,9 +7,9 @@ use crate::cubic;
 use crate::order::order;
 use crate::settings::PaperSettings;
 use nalgebra::Vector3;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::arc;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::SegmentKind;
 
 /// A stretch of the tool path.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,11 @@
 //! The motions of the paper's own cells, knot by knot, to the last bit.
 
+use platewash_bodies::job::WashJob;
 use platewash_kinematics::RobotModel;
+use platewash_motion::plan::{Plan, Process};
+use platewash_motion::trajectory::Trajectory;
 use platewash_paper::{PaperJob, PaperPart, PaperRun, PaperSettings, run};
-use platewash_workcell::job::{Planner, WashJob};
-use platewash_workcell::plan::{Plan, Process};
-use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::job::Planner;
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 

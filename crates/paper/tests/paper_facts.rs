@@ -1,9 +1,9 @@
 //! `reproduce` against an earlier, independent measurement of the paper's program (another inverse kinematics, another
 //! collision library, the real arm's meshes). Its half-widths are of 95 % intervals.
 
+use platewash_fixtures::is_thorough;
 use platewash_paper::reproduce::{ReproduceSettings, Reproduction, reproduce};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::is_thorough;
 
 /// Dead-end rates in percent: key, earlier value, its 95 % half-width (binomial with 1500 runs where not stated).
 const DEAD_ENDS: [(&str, f64, f64); 6] = [

@@ -1,6 +1,7 @@
 //! When a run counts as washed, and what breaks it: one good job and single changes of it.
 
 use nalgebra::UnitQuaternion;
+use platewash_bodies::job::{End, JobError};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::cubic::Interpolation;
 use platewash_paper::report::{PaperFinding, ViolationKind};
@@ -8,7 +9,7 @@ use platewash_paper::settings::IkSeed;
 use platewash_paper::tracking::TrackingError;
 use platewash_paper::{PaperError, PaperJob, PaperPart, PaperReport, WorkError, run};
 use platewash_simulator::ControlError;
-use platewash_workcell::job::{End, JobError};
+use platewash_workcell::job::TermsError;
 use platewash_workcell::layout::{Layout, base_footprint, check_explicit};
 use platewash_workcell::simulation::ControlLawName;
 use platewash_workcell::tool::{StraightTool, Tool};
@@ -55,7 +56,7 @@ fn with_tool(job: &mut PaperJob, length_m: f64) {
         ..StraightTool::default()
     });
     let (tool, obstacles) = (&job.workcell.tool, &job.workcell.obstacles);
-    job.workcell.exclusions = platewash_workcell::clearance::exclusions(&job.arm, tool, obstacles).unwrap();
+    job.workcell.exclusions = platewash_bodies::clearance::exclusions(&job.arm, tool, obstacles).unwrap();
 }
 
 fn judged(change: impl FnOnce(&mut PaperJob)) -> PaperReport {
@@ -211,7 +212,7 @@ fn rejects_unusable_jobs() {
         ),
         (
             |j| j.layout.plates.clear(),
-            |e| matches!(e, PaperError::Job(JobError::PlateCount { found: 0 })),
+            |e| matches!(e, PaperError::Job(JobError::Terms(TermsError::PlateCount { found: 0 }))),
         ),
         (
             |j| j.workcell.arm.name = "other".to_owned(),

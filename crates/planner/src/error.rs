@@ -6,14 +6,14 @@ use crate::pattern::Shortfall;
 use crate::suggest::NearPair;
 use crate::timing::TimingError;
 use crate::transit::{ClearanceShortfall, LiftLineError, TransitError};
+use platewash_bodies::clearance::ClearanceError;
+use platewash_bodies::job::{End, JobError, PlateOverlap};
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::{IkPathError, IkSettingsError};
+use platewash_motion::plan::PlanFileError;
+use platewash_motion::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::clearance::ClearanceError;
-use platewash_workcell::job::{End, JobError, PlateOverlap};
 use platewash_workcell::layout::LayoutError;
-use platewash_workcell::plan::PlanFileError;
-use platewash_workcell::trajectory::{KnotError, SegmentKind};
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, plate_name, printable};
 

@@ -1,5 +1,5 @@
-//! Plans the washing of plates: from a [`WashJob`](platewash_workcell::job::WashJob) to a
-//! [`Plan`](platewash_workcell::plan::Plan), from home to home, before anything moves.
+//! Plans the washing of plates: from a [`WashJob`](platewash_bodies::job::WashJob) to a
+//! [`Plan`](platewash_motion::plan::Plan), from home to home, before anything moves.
 //!
 //! job → order → per plate: wash path, configurations, timing → transits → one motion. Nothing here judges the result: that is
 //! the certificate's, which uses none of it.

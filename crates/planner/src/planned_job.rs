@@ -7,7 +7,7 @@ use crate::redundancy::TiltChoice;
 use crate::transit::TransitKind;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::decimals_down;
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use platewash_workcell::wash_path::WashCurve;
 use serde::Serialize;
 use std::fmt;

@@ -2,12 +2,13 @@
 
 use crate::SOON;
 use crate::jobs::{job, on};
+use platewash_bodies::job::{End, WashJob};
+use platewash_fixtures::{kitchen, kitchen_plate};
 use platewash_planner::{
     Activity, InfeasibleReport, OutOfRange, PlaceSearch, PlanError, Watch, check, draw_washable_layout, plan, plan_with,
 };
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{End, Planner, WashJob};
+use platewash_workcell::job::Planner;
 use platewash_workcell::layout::{Layout, LayoutError, LayoutSource};
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::verdict::{Infeasibility, Verdict};

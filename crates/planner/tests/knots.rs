@@ -1,12 +1,13 @@
 //! The motions of the shipped jobs, knot by knot: to the last bit, as `tests/golden/knots.json` states them.
 
+use platewash_bodies::job::WashJob;
+use platewash_fixtures::{kitchen, kitchen_plates, kitchen_terms, workcell};
 use platewash_kinematics::RobotModel;
+use platewash_motion::plan::Knots;
 use platewash_planner::{Watch, draw_washable_layout, plan, plan_with};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{kitchen, kitchen_plates, kitchen_terms, workcell};
-use platewash_workcell::job::{JobTerms, Planner, WashJob};
+use platewash_workcell::job::{JobTerms, Planner};
 use platewash_workcell::layout::{self, PlateGeometry, Region, SampleRequest, Spacing};
-use platewash_workcell::plan::Knots;
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::random;
 use platewash_workcell::surface::Surface;

@@ -2,14 +2,15 @@
 
 use crate::SOON;
 use crate::jobs::{job, on};
+use platewash_bodies::job::{PlateOverlap, WashJob};
+use platewash_fixtures::{kitchen, kitchen_plate};
 use platewash_planner::{
     Activity, Chance, MapArea, MapPatch, OutOfRange, PlaceSearch, PlanError, SEARCHED_M, UnwashablePlate, Watch, check,
     nearest_place, other_unwashable_plates, plan, plan_here, plan_with, plate_outlooks, unwashable_plates,
     washable_map,
 };
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{OrderRule, Overlap, Planner, PlateOverlap, WashJob};
+use platewash_workcell::job::{OrderRule, Overlap, Planner};
 use platewash_workcell::random;
 use rand::RngExt;
 use std::sync::Mutex;

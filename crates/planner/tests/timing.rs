@@ -1,10 +1,10 @@
 //! The whole of the timing: limits, optimality, structure, and bad input.
 
 use crate::timing_fixture::wash;
+use platewash_fixtures::{is_thorough, kitchen_tool};
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
 use platewash_planner::joint_path::{Ends, JointPath};
 use platewash_planner::timing::{Limit, MotionLimits, PATH_ERROR_RAD, TimedPath, TimingError, TipLimits, time_optimal};
-use platewash_workcell::fixtures::{is_thorough, kitchen_tool};
 use proptest::prelude::*;
 
 /// The IRB 120 and the tip of a tool 150 mm long.

@@ -8,11 +8,11 @@
 //! knots are the path's.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_planner::joint_path::{Ends, JointPath};
 use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
-use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::WashCurve;
 use serde_json::{Value, json};

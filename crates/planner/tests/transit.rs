@@ -2,6 +2,8 @@
 
 use crate::redundancy::turns;
 use nalgebra::Vector3;
+use platewash_bodies::clearance::{ClearanceModel, PairClearance};
+use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_planner::scene::{Contact, Scene, Stretch, Surroundings, TiltPolicy};
@@ -11,8 +13,6 @@ use platewash_planner::transit::{
 };
 use platewash_workcell::arc::Arc;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::{ClearanceModel, PairClearance};
-use platewash_workcell::fixtures::{kitchen_tool, workcell};
 use platewash_workcell::job::ReachBorders;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::random;

@@ -65,7 +65,7 @@ pub fn files(result: &LastResult, question: &FileQuestion) -> Result<Vec<FileLin
     Ok(vec![FileLine { name, text: text? }])
 }
 
-fn plan(result: &LastResult) -> Result<&platewash_workcell::plan::Plan, String> {
+fn plan(result: &LastResult) -> Result<&platewash_motion::plan::Plan, String> {
     result.plan.as_deref().ok_or_else(|| result.headline.clone())
 }
 

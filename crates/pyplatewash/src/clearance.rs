@@ -12,9 +12,11 @@ use crate::value::to_record;
 use crate::work::{STRETCH, alone, released};
 use nalgebra::Point3;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn};
+use platewash::bodies::assembly;
+use platewash::bodies::job::JobError;
 use platewash::workcell::tool::StraightTool;
 use platewash::workcell::words::count_with_noun;
-use platewash::{ClearanceModel, Failure, JobTerms, JointVector, PairClearance, Pose, RobotModel, Tool, Workcell};
+use platewash::{ClearanceModel, Failure, JobTerms, JointVector, PairClearance, Pose, RobotModel, Tool};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple, PyType};
 use rayon::prelude::*;
@@ -112,7 +114,7 @@ impl ClearanceObject {
             None => Tool::from(StraightTool::default()),
         };
         let inner = alone(py, || {
-            let workcell = Workcell::on_floor(&model, held)?;
+            let workcell = assembly::workcell_on_floor(&model, held)?;
             ClearanceModel::new(&model, &workcell, &plates)
         })?;
         let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
@@ -133,7 +135,7 @@ impl ClearanceObject {
         let py = job.py();
         let (arm, terms, job) = terms_of(job)?;
         let made = alone(py, || -> Result<_, Failure> {
-            terms.validate()?;
+            terms.validate().map_err(JobError::from)?;
             let model = ClearanceModel::new(&arm, &terms.workcell, &terms.plates)?;
             let workcell = &terms.workcell;
             Ok((model, (!workcell.is_in_base_frame()).then_some(workcell.mount)))

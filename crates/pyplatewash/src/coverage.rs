@@ -4,7 +4,7 @@ use crate::argument::{self, ANY_COUNT};
 use crate::arrays::{self, line};
 use crate::errors;
 use crate::work::patiently;
-use platewash::workcell::coverage::{CoverageError, RasterCell, coverage, raster};
+use platewash::bodies::coverage::{CoverageError, RasterCell, coverage, raster};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;

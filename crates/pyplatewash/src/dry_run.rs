@@ -3,8 +3,8 @@
 use crate::errors;
 use crate::work::patiently;
 use platewash::certificate::{CertifyError, certify_with};
+use platewash::motion::dry_run::{DryRunError, check_paths, dry_run_job};
 use platewash::planner::{PlanError, Watch, plan_in_order};
-use platewash::workcell::dry_run::{DryRunError, check_paths, dry_run_job};
 use platewash::{CancelToken, Failure, Plan, RobotModel};
 use pyo3::prelude::*;
 use std::sync::Arc;

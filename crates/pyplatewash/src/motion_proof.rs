@@ -9,9 +9,9 @@ use crate::tool::ToolFields;
 use crate::trajectory::MANY_TIMES;
 use crate::value::{from_mapping, to_record};
 use crate::work::patiently;
+use platewash::bodies::assembly;
 use platewash::export::trajectory::{Interpolation, JointPoints, PointsError};
 use platewash::scenario::ObstacleText;
-use platewash::workcell::workcell::Workcell;
 use platewash::{Failure, JointVector, Pose, ProveError};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyMapping, PyString, PyTuple};
@@ -90,7 +90,7 @@ pub fn prove_motion<'py>(
     let motion = points.motion(&arm, choice);
     let motion = motion.map_err(|error| errors::input(py, argument_of(&error), &error.to_string()))?;
     let judged = patiently(py, move |cancel| -> Result<_, Failure> {
-        let mut cell = Workcell::without_tool(&arm, mount, Vec::new())?;
+        let mut cell = assembly::workcell_without_tool(&arm, mount, Vec::new())?;
         if let Some(tool) = tool {
             cell.tool = tool;
         }

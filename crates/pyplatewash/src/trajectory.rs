@@ -4,7 +4,7 @@ use crate::arrays::{self, Count, ExpectedShape, MANY_JOINTS, Numbers};
 use crate::work::released;
 use crate::{argument, errors};
 use numpy::PyArrayDyn;
-use platewash::workcell::trajectory::{JointState, KnotError, SegmentExtremes};
+use platewash::motion::trajectory::{JointState, KnotError, SegmentExtremes};
 use platewash::{JointVector, Trajectory};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};

@@ -1,7 +1,7 @@
 //! Reason that a body that a section states could not be made.
 
+use platewash_bodies::clearance::SolidError;
 use platewash_kinematics::urdf::MeshError;
-use platewash_workcell::clearance::SolidError;
 use platewash_workcell::words::printable;
 use std::fmt;
 

@@ -9,10 +9,10 @@ use crate::error::{Problem, ScenarioError};
 use crate::resolve::surroundings::LEAST_EXCESS_M;
 use crate::units::{MeshAs, Note};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use platewash_bodies::clearance::{SolidParts, excess_m, solid_parts};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::trig::sin_cos;
-use platewash_workcell::clearance::{SolidParts, excess_m, solid_parts};
 use platewash_workcell::words::{quoted, shortened};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 

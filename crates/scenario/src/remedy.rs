@@ -7,13 +7,13 @@
 
 use crate::failure::home_key;
 use crate::scenario::Scenario;
+use platewash_bodies::job::{End, JobError};
 use platewash_certificate::{Certificate, Requirement, prove_with};
 use platewash_kinematics::RobotModel;
 use platewash_planner::scene::Hindrance;
 use platewash_planner::transit::TransitError;
 use platewash_planner::{ContactPromise, PlanError, Watch, plan_unexplained};
 use platewash_workcell::cancel::{Cancelled, system_clock};
-use platewash_workcell::job::{End, JobError};
 use platewash_workcell::layout::LayoutError;
 use rayon::prelude::*;
 use serde::Serialize;

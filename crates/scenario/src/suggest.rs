@@ -7,14 +7,15 @@ use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::obstacle::HeldPlates;
 use crate::sections::robot::ReducedClearanceSection;
+use platewash_bodies::clearance::TouchingPairs;
+use platewash_bodies::job::{JobError, WashJob};
 use platewash_kinematics::RobotModel;
 use platewash_planner::suggest::{
     NearPair, SuggestedHome, SuggestedRegion, near_pairs, place_in_front, suggest_home, suggest_region, suggest_sector,
 };
 use platewash_planner::{PlanError, Watch};
 use platewash_workcell::cancel::system_clock;
-use platewash_workcell::clearance::TouchingPairs;
-use platewash_workcell::job::{JobError, WashJob};
+use platewash_workcell::job::TermsError;
 use platewash_workcell::plate::Plate;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -57,7 +58,7 @@ impl Scenario {
         };
         let job = self.with_one_plate(arm, plate_m)?;
         let [plate, ..] = job.terms().plates[..] else {
-            return Err(JobError::PlateCount { found: 0 }.into());
+            return Err(JobError::from(TermsError::PlateCount { found: 0 }).into());
         };
         let home = suggest_home(arm, job.terms(), watch.cancel)?;
         let cancel = &watch.cancel.within(map_time, system_clock);

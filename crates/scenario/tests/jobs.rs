@@ -1,11 +1,11 @@
 //! Jobs of shipped scenarios, and homes that are suggested where none is stated.
 
+use platewash_fixtures as fixtures;
 use platewash_paper::PaperSettings;
 use platewash_planner::Watch;
 use platewash_planner::suggest::suggest_home;
 use platewash_scenario::{Note, Scenario};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures;
 use std::time::Duration;
 
 #[test]

@@ -2,9 +2,9 @@
 
 use crate::live::{LiveRun, Row};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_motion::plan::Plan;
 use platewash_simulator::simulate::Sample;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::Plan;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -110,9 +110,9 @@ fn wait(start: Instant, t_s: f64, token: &CancelToken) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use platewash_fixtures::kitchen;
     use platewash_planner::plan;
     use platewash_simulator::{SimulationReport, simulate};
-    use platewash_workcell::fixtures::kitchen;
 
     /// All rows that a run sends of samples, fed without waiting.
     fn rows(plan: &Plan, arm: &RobotModel, samples: &[Sample]) -> Vec<Row> {

@@ -10,14 +10,14 @@
 //! 30 rad/s and 50 % at 60 rad/s.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use platewash_fixtures::{kitchen_plate, kitchen_terms};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{JointVector, RobotModel, trig};
+use platewash_motion::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_simulator::simulate::PlateVerdict;
 use platewash_simulator::{DynamicsModel, SimulationReport, simulate};
-use platewash_workcell::fixtures::{kitchen_plate, kitchen_terms};
-use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
 use platewash_workcell::simulation::ControlLawName;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use std::f64::consts::{PI, TAU};
 
 const RADIUS_M: f64 = 0.12;

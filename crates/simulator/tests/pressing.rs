@@ -1,11 +1,11 @@
 //! A washing whose plates push back.
 
 use crate::two_plates::{judged, planned};
+use platewash_fixtures::kitchen_contact;
+use platewash_motion::csv::RecordedMotion;
+use platewash_motion::plan::Plan;
 use platewash_simulator::simulate::{Cause, Pressing, table};
 use platewash_simulator::{ControlError, SimulationError, SimulationReport, simulate};
-use platewash_workcell::csv::RecordedMotion;
-use platewash_workcell::fixtures::kitchen_contact;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{ControlLawName, FoamContact, Integrator, SimulationSettings};
 
 fn foam(stiffness_pa: f64) -> Option<FoamContact> {

@@ -2,16 +2,16 @@
 
 use crate::two_plates::{judged, planned, under};
 use platewash_kinematics::JointVector;
+use platewash_motion::plan::{Knots, Plan};
+use platewash_motion::trajectory::Trajectory;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_simulator::simulate::{Cause, PayloadVerdict, PlateVerdict, SimulationVerdict};
 use platewash_simulator::{
     ControlError, Execution, SimulationError, SimulationReport, simulate, simulate_watched, simulate_with, tune,
 };
 use platewash_workcell::cancel::{CancelToken, Cancelled};
-use platewash_workcell::job::JobError;
-use platewash_workcell::plan::{Knots, Plan};
+use platewash_workcell::job::TermsError;
 use platewash_workcell::simulation::{ControlLawName, Integrator, SimulationSettings};
-use platewash_workcell::trajectory::Trajectory;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 
 #[test]
 fn computed_torque_covers_as_much_as_planned() {
@@ -283,7 +283,7 @@ fn the_csv_has_the_plans_columns_and_torque() {
     let (execution, _) = judged(&under(ControlLawName::ComputedTorque, 30.0));
     let text = simulate::table(&execution, plan, robot, 0.1).unwrap().to_string();
     let header = text.lines().next().unwrap();
-    assert!(header.starts_with(platewash_workcell::csv::HEADER) && header.ends_with("tau6_n_m"));
+    assert!(header.starts_with(platewash_motion::csv::HEADER) && header.ends_with("tau6_n_m"));
     let columns = header.split(',').count();
     assert!(text.lines().all(|line| line.split(',').count() == columns));
     let times: Vec<f64> = text
@@ -459,6 +459,6 @@ fn plans_and_settings_that_make_no_sense_are_refused() {
     assert!(refusal(plan, &paper).to_string().contains("180"), "the limit is named");
     assert!(matches!(
         with(&|p| p.job.workcell.mount.translation.z = f64::NAN),
-        SimulationError::Job(JobError::Mount)
+        SimulationError::Job(TermsError::Mount)
     ));
 }

@@ -4,18 +4,18 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use nalgebra::Vector3;
 use platewash_certificate::{Certificate, Requirement, prove};
+use platewash_fixtures::{contact_kitchen, kitchen, kitchen_tool};
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_motion::csv::RecordedMotion;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_simulator::{Execution, SimulationReport, simulate};
 use platewash_viewer::View;
 use platewash_viewer::view::{ExecutedMotion, ViewError, ViewExtras};
-use platewash_workcell::csv::RecordedMotion;
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::fixtures::{contact_kitchen, kitchen, kitchen_tool};
 use platewash_workcell::layout::TaskRegion;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Foot;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::trajectory::SegmentKind;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -131,7 +131,7 @@ fn the_clearance_over_time_is_that_of_the_certificate() {
     assert!(pairs.iter().all(|body| (*body as usize) < names.len()));
     // While it washes, the sponge on its plate is no pair that counts.
     for (at, pair) in times.iter().zip(pairs.chunks_exact(2)) {
-        let on = |s: &&platewash_workcell::trajectory::PlanSegment| s.t_start_s < *at && *at < s.t_end_s;
+        let on = |s: &&platewash_motion::trajectory::PlanSegment| s.t_start_s < *at && *at < s.t_end_s;
         let segment = KITCHEN.plan.segments.iter().find(on);
         if let Some(segment) = segment.filter(|s| s.kind == SegmentKind::Wash) {
             let named: BTreeSet<_> = pair
@@ -277,7 +277,7 @@ fn the_document_shows_unswept_area() {
         panic!()
     };
     (settings.closing_ring, settings.turns) = (Some(false), Some(2.0));
-    let job = platewash_workcell::job::WashJob::new(job.shared_arm(), terms).unwrap();
+    let job = platewash_bodies::job::WashJob::new(job.shared_arm(), terms).unwrap();
     let plan = platewash_planner::plan(&job).unwrap().plan;
     let settings = &plan.job.simulation;
     let execution = simulate(&plan, job.arm(), settings).unwrap();

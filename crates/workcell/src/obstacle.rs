@@ -62,8 +62,9 @@ impl ObstacleShape {
 const LEVEL: f64 = 1e-9;
 const SAME_HEIGHT_M: f64 = 1e-9;
 
-/// True if a plane with a normal through a point is level at height 0.
-pub(crate) fn is_ground_plane(normal: &Vector3<f64>, point: &Vector3<f64>) -> bool {
+/// True if a plane with a unit normal through a point \[m\] is level at height 0, with its normal up: the ground under an arm at the origin.
+#[must_use]
+pub fn is_ground_plane(normal: &Vector3<f64>, point: &Vector3<f64>) -> bool {
     normal.z > 0.0 && normal.xy().norm() <= LEVEL && normal.dot(point).abs() <= SAME_HEIGHT_M
 }
 

@@ -158,7 +158,7 @@ pub struct PlantSettings {
     pub contact: Option<FoamContact>,
 }
 
-/// Contact of a sponge with plates as the elastic foundation of [`crate::contact`]. Both values are assumptions.
+/// Contact of a sponge with plates as the elastic foundation that `platewash-bodies` computes with. Both values are assumptions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FoamContact {

@@ -398,7 +398,7 @@ impl Rings {
     }
 
     /// Returns ℓ, ℓ′ and ℓ″ at θ.
-    pub(crate) fn arc(&self, outer_m: f64, theta: f64) -> [f64; 3] {
+    fn arc(&self, outer_m: f64, theta: f64) -> [f64; 3] {
         let pitch_m = self.pitch_m(outer_m);
         let Some(Stage {
             k,
@@ -426,7 +426,7 @@ impl Rings {
     }
 
     /// Upper bounds on |ℓ′| and |ℓ″| between two θ.
-    pub(crate) fn greatest_rates(&self, outer_m: f64, [from, to]: [f64; 2]) -> [f64; 2] {
+    fn greatest_rates(&self, outer_m: f64, [from, to]: [f64; 2]) -> [f64; 2] {
         let (pitch_m, mut start, mut rates) = (self.pitch_m(outer_m).abs(), 0.0, [0.0_f64; 2]);
         for [ring, blend] in (0..self.blends()).map(|k| self.lengths(k)) {
             let (begins, ends) = (start + ring, start + ring + blend);

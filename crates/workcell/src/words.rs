@@ -21,13 +21,6 @@ pub fn count_with_noun(count: usize, noun: &str) -> String {
     format!("{count} {noun}{ending}")
 }
 
-/// Adds the shortest decimal that reads back as a finite number, whole numbers without a point; very small and large ones have an exponent.
-pub(crate) fn push_shortest(text: &mut String, number: f64) {
-    let mut buffer = zmij::Buffer::new();
-    let digits = buffer.format_finite(number);
-    text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
-}
-
 /// A part of some things: `0 of 1 plate`, `1 of 4 plates`.
 #[must_use]
 pub fn part_of(part: usize, count: usize, noun: &str) -> String {

@@ -3,11 +3,10 @@
 //! An arm in its workcell is mounted at any pose, among obstacles. The workcell can be converted to the frame of the arm's base.
 //!
 //! All computations with an arm are in the frame of its base. A caller with data in the world frame converts it first:
-//! [`Workcell::seen_from_base`], [`crate::job::JobTerms::seen_from_base`], [`crate::plan::Plan::seen_from_base`].
+//! [`Workcell::seen_from_base`], [`crate::job::JobTerms::seen_from_base`], and the same of a plan.
 
 pub use crate::obstacle::{Obstacle, ObstacleShape};
 
-use crate::clearance::{self, ClearanceError};
 use crate::pose;
 use crate::tool::Tool;
 use crate::words::quoted;
@@ -134,49 +133,6 @@ impl ArmId {
 }
 
 impl Workcell {
-    /// Returns the workcell of an arm mounted at `T_world_base`, with its tool, among obstacles in the world frame.
-    ///
-    /// # Errors
-    /// [`ClearanceError`] for an arm with an invalid shape.
-    pub fn new(robot: &RobotModel, tool: Tool, mount: Pose, obstacles: Vec<Obstacle>) -> Result<Self, ClearanceError> {
-        let mut workcell = Self {
-            mount,
-            arm: ArmId::of(robot),
-            tool,
-            obstacles,
-            exclusions: Vec::new(),
-            reduced_clearances: Vec::new(),
-        };
-        workcell.exclusions = workcell.own_exclusions(robot)?;
-        Ok(workcell)
-    }
-
-    /// Returns the workcell of a bare arm mounted at `T_world_base`, among obstacles in the world frame. The links behind joint 6 are all that
-    /// it carries.
-    ///
-    /// # Errors
-    /// As [`Workcell::new`].
-    pub fn without_tool(robot: &RobotModel, mount: Pose, obstacles: Vec<Obstacle>) -> Result<Self, ClearanceError> {
-        Self::new(robot, Tool::none(robot), mount, obstacles)
-    }
-
-    /// Returns the workcell of an arm that stands on the floor at the world's origin, with its tool.
-    ///
-    /// # Errors
-    /// As [`Workcell::new`].
-    pub fn on_floor(robot: &RobotModel, tool: Tool) -> Result<Self, ClearanceError> {
-        Self::new(robot, tool, Pose::identity(), vec![Obstacle::floor()])
-    }
-
-    /// Returns the pairs that need not keep clear because of the arm, the tool and the obstacles ([`clearance::exclusions`]), independently
-    /// of the stated exclusions.
-    ///
-    /// # Errors
-    /// [`ClearanceError`] for an invalid shape.
-    pub fn own_exclusions(&self, robot: &RobotModel) -> Result<Vec<Exclusion>, ClearanceError> {
-        clearance::exclusions(robot, &self.tool, &self.obstacles_from_base())
-    }
-
     /// Returns the workcell in the frame of the arm's base, with the arm mounted at the origin.
     #[must_use]
     pub fn seen_from_base(&self) -> Cow<'_, Self> {

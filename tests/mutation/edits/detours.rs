@@ -5,7 +5,7 @@ use crate::mutation::edits::knots::split;
 use crate::mutation::edits::time::scale;
 use crate::mutation::edits::{knot_at, middle, nth, retime};
 use platewash::Plan;
-use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
+use platewash::motion::trajectory::SegmentKind::{self, Approach, Depart, Return, Transit, Wash};
 
 /// How much slower the plan is made first, so that no speed and no acceleration matters.
 const SLOWER: f64 = 5.0;

@@ -2,8 +2,8 @@
 
 use crate::mutation::edit::{Edits, ExpectedResult, Kind, good};
 use platewash::Plan;
+use platewash::bodies::clearance;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
-use platewash::workcell::clearance;
 use platewash::workcell::workcell::{Exclusion, ExclusionReason};
 
 pub fn add(edits: &mut Edits) {

@@ -5,7 +5,7 @@ use crate::mutation::edits::{middle, nth, some_knot, within};
 use crate::mutation::sampler::pieces;
 use platewash::Plan;
 use platewash::certificate::Requirement::{HomeToHome, RestAtWashEnds, Segments};
-use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Return, Transit, Wash};
+use platewash::motion::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Return, Transit, Wash};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 

@@ -15,7 +15,7 @@ mod wash_paths;
 
 use crate::mutation::edit::{Edit, Edits};
 use platewash::Plan;
-use platewash::workcell::trajectory::SegmentKind;
+use platewash::motion::trajectory::SegmentKind;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use std::ops::Range;

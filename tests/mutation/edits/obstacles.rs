@@ -6,7 +6,7 @@ use crate::mutation::edits::{middle, nth, within};
 use nalgebra::Vector3;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::kinematics::geometry::Shape;
-use platewash::workcell::trajectory::SegmentKind::{Depart, Return, Transit, Wash};
+use platewash::motion::trajectory::SegmentKind::{Depart, Return, Transit, Wash};
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose};
 

@@ -5,8 +5,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use platewash::certificate::Requirement::{
     ContactHeight, EveryPlateOnce, LineDeviation, PathDeviation, Plates, PlatesApart, Reach, Segments, Swept, WashPaths,
 };
+use platewash::motion::trajectory::SegmentKind::Depart;
 use platewash::workcell::job::Overlap;
-use platewash::workcell::trajectory::SegmentKind::Depart;
 use platewash::{Plan, Plate, Surface};
 
 pub fn add(edits: &mut Edits) {

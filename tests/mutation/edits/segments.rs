@@ -6,7 +6,7 @@ use platewash::Plan;
 use platewash::certificate::Requirement::{
     EveryPlateOnce, LineDeviation, PathDeviation, RestAtWashEnds, Segments, WashPaths,
 };
-use platewash::workcell::trajectory::SegmentKind::{Approach, Retreat, Transit, Wash};
+use platewash::motion::trajectory::SegmentKind::{Approach, Retreat, Transit, Wash};
 
 pub fn add(edits: &mut Edits) {
     list(edits);

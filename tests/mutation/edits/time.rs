@@ -4,7 +4,7 @@ use crate::mutation::edit::{Edits, ExpectedResult, Kind};
 use crate::mutation::edits::{middle, nth, retime, within};
 use platewash::Plan;
 use platewash::certificate::Requirement::{JointAcceleration, WashSpeed};
-use platewash::workcell::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};
+use platewash::motion::trajectory::SegmentKind::{self, Approach, Depart, Retreat, Transit, Wash};
 use std::ops::Range;
 
 pub fn add(edits: &mut Edits) {

@@ -18,7 +18,7 @@ use crate::mutation::sampler::clearance::Distances;
 use crate::mutation::sampler::motion::{Arm, Moment, Piece};
 use crate::mutation::sampler::paths::Curve;
 use platewash::certificate::Requirement;
-use platewash::workcell::trajectory::SegmentKind;
+use platewash::motion::trajectory::SegmentKind;
 use platewash::{Plan, RobotModel};
 
 /// Distance of the tip from its wash path and from a plate's normal that every certified plan keeps \[m\].

@@ -5,8 +5,8 @@ use crate::mutation::sampler::paths;
 use nalgebra::Vector3;
 use platewash::certificate::Requirement;
 use platewash::kinematics::Frame;
-use platewash::workcell::plan::Knots;
-use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash::motion::plan::Knots;
+use platewash::motion::trajectory::{PlanSegment, SegmentKind};
 use platewash::{JointVector, Plan, RobotModel, Tool, ToolFrame};
 
 /// Motion between two neighbouring knots.

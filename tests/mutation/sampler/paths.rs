@@ -2,7 +2,7 @@
 
 use crate::mutation::sampler::motion::Piece;
 use nalgebra::Vector3;
-use platewash::workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash::motion::trajectory::{PlanSegment, SegmentKind};
 use platewash::workcell::wash_path::WashPath;
 use platewash::{Plan, Plate};
 use std::f64::consts::{PI, TAU};

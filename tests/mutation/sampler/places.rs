@@ -8,8 +8,8 @@ use crate::mutation::sampler::{LINE_M, PATH_M};
 use nalgebra::{Point3, Vector3};
 use platewash::certificate::Requirement;
 use platewash::kinematics::geometry::Shape;
+use platewash::motion::trajectory::SegmentKind;
 use platewash::workcell::job::Overlap;
-use platewash::workcell::trajectory::SegmentKind;
 use platewash::workcell::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Plate};
 

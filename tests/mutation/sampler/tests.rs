@@ -6,7 +6,7 @@ use crate::mutation::sampler::paths::Curve;
 use crate::mutation::sampler::places;
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash::Plate;
-use platewash::workcell::trajectory::SegmentKind;
+use platewash::motion::trajectory::SegmentKind;
 use std::f64::consts::PI;
 
 /// The curve of the first wash, on a plate that is turned by 1 rad, and points along it, as the planner evaluates them.

@@ -9,7 +9,7 @@
 use nalgebra::Vector6;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_simulator::{DynamicsModel, Plant, PlantState, simulate};
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use platewash_workcell::simulation::Integrator;
 use serde::Deserialize;
 use std::error::Error;

@@ -13,7 +13,7 @@ use platewash_kinematics::JointVector;
 use platewash_planner::PlanError;
 use platewash_problems::transits::{AloneTransit, transits_alone};
 use platewash_problems::walls::{WALL, walled};
-use platewash_workcell::job::WashJob;
+use platewash_bodies::job::WashJob;
 use serde_json::{Value, json};
 use std::error::Error;
 

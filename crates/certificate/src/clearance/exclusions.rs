@@ -6,8 +6,8 @@ use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Discrepancy, Status};
 use crate::report::requirement::Requirement;
 use crate::subject::Subject;
+use platewash_bodies::clearance::{self, ClearanceError, ClearanceModel};
 use platewash_kinematics::{AXES, RobotModel};
-use platewash_workcell::clearance::{self, ClearanceError, ClearanceModel};
 use platewash_workcell::job::NEARER_M;
 use platewash_workcell::words::{millimetres, pair_text, plate_name};
 use platewash_workcell::workcell::{Exclusion, ReducedClearance, Workcell, is_pair};
@@ -183,7 +183,7 @@ fn exclusion_text(exclusion: &Exclusion) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use platewash_workcell::fixtures::kitchen;
+    use platewash_fixtures::kitchen;
     use platewash_workcell::job::JobTerms;
     use platewash_workcell::workcell::ExclusionReason;
 

@@ -6,9 +6,9 @@
 
 use crate::clearance::poses::ArmPoses;
 use crate::motion::timeline::{Interval, Timeline};
+use platewash_bodies::clearance::ClearanceModel;
+use platewash_bodies::clearance::far::MovingPart;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::clearance::far::MovingPart;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

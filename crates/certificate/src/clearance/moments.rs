@@ -5,9 +5,9 @@ use crate::clearance::pairs::may_touch;
 use crate::error::ProveError;
 use crate::statements::wash_paths;
 use crate::subject::Subject;
+use platewash_bodies::clearance::{ClearanceModel, NearestBodies};
 use platewash_kinematics::{JointVector, RobotModel};
-use platewash_workcell::clearance::{ClearanceModel, NearestBodies};
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use platewash_workcell::workcell::Workcell;
 
 /// The pairs of bodies that count in each segment of a plan: all but those that follow from the arm and its SRDF, those that the job

@@ -86,7 +86,7 @@ impl<'a> ArmPoses<'a> {
 mod tests {
     use super::*;
     use crate::motion::piece::Piece;
-    use platewash_workcell::piecewise::MotionPiece;
+    use platewash_motion::piecewise::MotionPiece;
     use proptest::prelude::*;
 
     proptest! {

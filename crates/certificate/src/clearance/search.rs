@@ -1,16 +1,16 @@
 //! Clearance of one pair of bodies over stretches of time: branch and bound, the least bound first.
 //!
 //! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
-//! from its ends by what the parts can accelerate, and jump in speed ([`platewash_workcell::clearance::motion`]). The interval with the least bound is
+//! from its ends by what the parts can accelerate, and jump in speed ([`platewash_bodies::clearance::motion`]). The interval with the least bound is
 //! halved until that is good enough: the limit kept and the least distance found nearly reached. A body of many parts is looked at as a
 //! whole: from the shape that holds all of them, and where that is too near, part by part, the nearest first, until one is too near or all
 //! others are far enough.
 
 use crate::clearance::poses::ArmPoses;
 use crate::motion::timeline::{Interval, Timeline};
+use platewash_bodies::clearance::ITERATIVE_ERROR_M;
+use platewash_bodies::clearance::motion::{Mover, PartDistance, PartPair, PartPairs};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::ITERATIVE_ERROR_M;
-use platewash_workcell::clearance::motion::{Mover, PartDistance, PartPair, PartPairs};
 use platewash_workcell::ranked::Ranked;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -363,10 +363,10 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
     use crate::motion::piece::Piece;
+    use platewash_bodies::clearance::ClearanceModel;
+    use platewash_fixtures::{kitchen_plate, kitchen_tool, workcell};
     use platewash_kinematics::{JointVector, RobotModel};
-    use platewash_workcell::clearance::ClearanceModel;
-    use platewash_workcell::fixtures::{kitchen_plate, kitchen_tool, workcell};
-    use platewash_workcell::piecewise::MotionPiece;
+    use platewash_motion::piecewise::MotionPiece;
     use proptest::prelude::*;
 
     const STEP_S: f64 = 0.008;

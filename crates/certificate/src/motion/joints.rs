@@ -122,7 +122,7 @@ mod tests {
     use platewash_kinematics::JointVector;
 
     fn limits() -> JointLimits {
-        let job = platewash_workcell::fixtures::kitchen();
+        let job = platewash_fixtures::kitchen();
         JointLimits::new(
             job.arm(),
             JointVector::from(job.terms().limits.joint_acceleration_rad_s2),

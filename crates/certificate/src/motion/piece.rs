@@ -27,9 +27,9 @@
 //! ≤ 36 M δ/h, so that 48 M δ holds. For a quintic the same sum over 6c₃u, 12c₄u² and 20c₅u³ is less than 4096 M δ.
 
 use platewash_kinematics::{AXES, JointVector};
-use platewash_workcell::piecewise::MotionPiece;
-use platewash_workcell::plan::Knots;
-use platewash_workcell::trajectory::{KnotError, Trajectory};
+use platewash_motion::piecewise::MotionPiece;
+use platewash_motion::plan::Knots;
+use platewash_motion::trajectory::{KnotError, Trajectory};
 
 /// `q(u) = Σ cₖuᵏ` for u in [0, length]; c₄ and c₅ are 0 for a cubic.
 #[derive(Debug, Clone)]

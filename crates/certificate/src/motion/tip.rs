@@ -3,7 +3,7 @@
 //! With p(q) the tip's position and J its Jacobian, v = J q̇ and
 //! a = J q̈ + Σ_j q̇_j (2 ω_j − q̇_j z_j) × J_j, ω_j = Σ_{i ≤ j} q̇_i z_i; the tool turns with ω = ω_6, ω̇ = Σ_j q̈_j z_j + q̇_j ω_j × z_j.
 //! For a vector f of time, ‖f(t)‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ on [a, b], h = b − a. The bounds of the derivatives of
-//! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`platewash_workcell::clearance::lever`]; a cubic has no fourth
+//! p(q(t)) follow from the chain rule (Faà di Bruno) with the levers of [`platewash_bodies::clearance::lever`]; a cubic has no fourth
 //! derivative.
 //!
 //! Many requirements look at the same moments: the ends of the pieces and the middles of their parts. Each is computed when it is first
@@ -11,9 +11,9 @@
 
 use crate::motion::piece::Piece;
 use nalgebra::Vector3;
+use platewash_bodies::clearance::lever::{self, Levers};
 use platewash_kinematics::{AXES, Axes, Frame, JointVector, RobotModel};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::lever::{self, Levers};
 use platewash_workcell::tool::Tool;
 use std::sync::OnceLock;
 
@@ -320,7 +320,7 @@ mod tests {
             q in vector(1.5), step in vector(0.2), v in [vector(2.0), vector(2.0)], share in 0.05..0.95f64,
         ) {
             let robot = RobotModel::irb120().unwrap();
-            let (tool, cancel) = (platewash_workcell::fixtures::kitchen_tool(), CancelToken::new());
+            let (tool, cancel) = (platewash_fixtures::kitchen_tool(), CancelToken::new());
             let arm = Arm::new(&robot, &tool, &cancel);
             let piece = Piece::new([0.0, 0.2], [q, q + step], v);
             let (u, h) = (0.2 * share, 1e-5);

@@ -13,8 +13,8 @@ use crate::washing::contact::tighter;
 use crate::washing::face::{Face, Pass, sine_of_tilt};
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{asin, sin};
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::job::PATH_TOLERANCE_M;
-use platewash_workcell::trajectory::SegmentKind;
 
 /// Gap allowed between a bound of the tip's speed or acceleration and the worst value found, as a part of the limit.
 const RESOLUTION: f64 = 2e-3;

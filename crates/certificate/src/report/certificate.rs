@@ -9,9 +9,9 @@ use crate::report::verdict_basis::VerdictBasis;
 use crate::washing::contact::PlateContact;
 use crate::washing::coverage::PlateCoverage;
 use nalgebra::Point3;
+use platewash_bodies::coverage::reaches;
 use platewash_kinematics::Pose;
-use platewash_workcell::coverage::reaches;
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

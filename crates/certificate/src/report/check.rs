@@ -1,8 +1,8 @@
 //! Checks of requirements, with their results.
 
 use crate::report::requirement::Requirement;
-use platewash_workcell::coverage::reaches;
-use platewash_workcell::trajectory::SegmentKind;
+use platewash_bodies::coverage::reaches;
+use platewash_motion::trajectory::SegmentKind;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 

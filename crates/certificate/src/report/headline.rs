@@ -9,9 +9,9 @@ use crate::report::requirement::Requirement;
 use crate::report::words::{number, rounded_bound};
 use crate::washing::contact::PlateContact;
 use platewash_kinematics::words::distinct_decimals;
+use platewash_motion::plan::Plan;
 use platewash_workcell::dry_run;
 use platewash_workcell::job::{ContactRequirements, Limits, PlanKind, RETREAT_M_S, Requirements};
-use platewash_workcell::plan::Plan;
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name};
 
 /// Number of broken requirements that are shown with their numbers.

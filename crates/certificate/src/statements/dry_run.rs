@@ -12,7 +12,7 @@ use crate::statements::plates;
 use crate::subject::Subject;
 use crate::washing::face::PLACE_M;
 use nalgebra::Vector3;
-use platewash_workcell::clearance::ClearanceError;
+use platewash_bodies::clearance::ClearanceError;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;

@@ -10,10 +10,13 @@ use crate::subject::Subject;
 use crate::washing::face::PLACE_M;
 use crate::washing::reach;
 use nalgebra::Vector3;
+use platewash_bodies::clearance::{ClearanceError, FixedBody};
+use platewash_bodies::job::PlateOverlap;
+use platewash_bodies::job::overlaps_of_fixed_bodies;
+use platewash_bodies::job::overlaps_of_plates;
 use platewash_kinematics::Pose;
-use platewash_workcell::clearance::{ClearanceError, FixedBody};
-use platewash_workcell::job::{Overlap, PlateOverlap};
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
+use platewash_workcell::job::Overlap;
 use platewash_workcell::words::{millimetres, plate_name, printable};
 use platewash_workcell::workcell::{ArmId, ObstacleShape};
 
@@ -144,7 +147,7 @@ fn quoted(text: &str) -> String {
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
 pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
-    let overlaps = subject.job.plate_overlaps(subject.robot);
+    let overlaps = overlaps_of_plates(subject.job, subject.robot);
     let mut wrong: Vec<_> = overlaps.iter().map(discrepancy).collect();
     let obstacles = &subject.job.workcell.obstacles;
     let is_floor = |name: &str| {
@@ -153,7 +156,7 @@ pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceErro
             .any(|o| o.name == name && o.shape == ObstacleShape::HalfSpace)
     };
     let is_plate = |name: &String| (0..subject.plates().len()).any(|plate| *name == plate_name(plate));
-    let mut reaching = subject.job.standing_overlaps(subject.robot)?;
+    let mut reaching = overlaps_of_fixed_bodies(subject.job, subject.robot)?;
     reaching.retain(|found| match &found.body {
         FixedBody::Obstacle(name) => !(is_floor(name) && is_plate(&found.other)),
         FixedBody::Parts(_) | FixedBody::Plate(_) => true,

@@ -11,9 +11,9 @@ use crate::motion::piece::Piece;
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
 use platewash_kinematics::JointVector;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::job::RetreatLine;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::{count_with_noun, plate_name};
 use std::ops::Range;
 

@@ -7,8 +7,8 @@
 
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::{MOST_PASSES, PlanKind, Statement, StatementRule};
-use platewash_workcell::plan::Plan;
 use platewash_workcell::wash_path::{
     LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TRIM_RAD, MOST_TURNS, WashPath,
 };

@@ -22,12 +22,13 @@ use crate::washing::face::{Face, norm};
 use crate::washing::instants::Instants;
 use crate::washing::reach::ReachedNeighbour;
 use crate::washing::shares::{Fineness, shares};
+use platewash_bodies::contact::Foundation;
+use platewash_bodies::coverage::coverage;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::contact::{ContactThresholds, Foundation};
-use platewash_workcell::coverage::coverage;
+use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::job::PATH_TOLERANCE_M;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::SegmentKind;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -259,7 +259,7 @@ mod tests {
         fn heights_and_tilts_are_those_of_a_level_face(
             x in -0.5..0.5f64, y in -0.5..0.5f64, z in -0.1..0.3f64, lean in 0.01..1.4f64, way in -3.0..3.0f64, yaw in -3.0..3.0f64,
         ) {
-            let mut plate = platewash_workcell::fixtures::kitchen_plate([0.2, -0.1]);
+            let mut plate = platewash_fixtures::kitchen_plate([0.2, -0.1]);
             plate.pose.rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
             let (face, point) = (Face::of(&plate), Vector3::new(x, y, z));
             let axis = Vector3::new(lean.sin() * way.cos(), lean.sin() * way.sin(), -lean.cos());

@@ -19,9 +19,9 @@ use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
 use crate::washing::face::Face;
 use nalgebra::Vector3;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M, Recovery};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::wash_path::{BLEND_RAD, WashCurve, WashPath};
 use std::f64::consts::TAU;
 

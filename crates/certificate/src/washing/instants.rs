@@ -14,7 +14,7 @@
 use crate::motion::tip::{self, Arm, Derivatives, Stretch, TipPiece};
 use crate::motion::tip_limits;
 use crate::washing::shares::Sags;
-use platewash_workcell::contact::{Drift, Foundation, Moment, SpongePose};
+use platewash_bodies::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 
 /// Greatest distance of the tip between neighbouring moments on a disc, and below on other faces \[m\].

@@ -37,12 +37,12 @@ use crate::washing::contact::tighter;
 use crate::washing::face::Face;
 use crate::washing::instants;
 use nalgebra::Vector3;
+use platewash_bodies::contact::{Bends, Columns, Foundation, SpongeState, TouchRegion};
 use platewash_kinematics::trig::acos;
-use platewash_workcell::contact::{Bends, Columns, Foundation, SpongeState, TouchRegion};
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::job::{LINE_TOLERANCE_M, Recovery};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Sponge;
-use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::{millimetres, plate_name};
 
 /// Gap allowed between the bound of the speed and the greatest speed found, as a part of the limit.

@@ -20,7 +20,7 @@
 
 use crate::washing::instants::Instants;
 use crate::washing::turning_frame::TurningFrame;
-use platewash_workcell::contact::{
+use platewash_bodies::contact::{
     Bends, Columns, Foundation, HolderVolumes, Level, Moment, PlateLoad, Press, SpongeState,
 };
 use platewash_workcell::plate::Plate;

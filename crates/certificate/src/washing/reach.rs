@@ -19,9 +19,9 @@ use crate::subject::Subject;
 use crate::washing::coverage::{PlateCoverage, Polyline, Wash};
 use crate::washing::face::{Face, PLACE_M, norm};
 use platewash_kinematics::trig::cos;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::{millimetres, plate_name};
 use serde::{Deserialize, Serialize};
 

@@ -25,8 +25,8 @@
 use crate::motion::tip;
 use crate::washing::instants::Instants;
 use nalgebra::{Vector3, Vector5};
+use platewash_bodies::contact::{Drift, Moment};
 use platewash_kinematics::trig::{atan2, sin_cos};
-use platewash_workcell::contact::{Drift, Moment};
 use platewash_workcell::plate::Plate;
 
 /// Distance from the plate's axis below which the frame turns more slowly than the sponge goes round \[m\].
@@ -188,10 +188,10 @@ mod tests {
     use crate::motion::piece::Piece;
     use crate::motion::tip::Arm;
     use nalgebra::Rotation3;
+    use platewash_bodies::contact::Foundation;
+    use platewash_fixtures::{kitchen_plate, kitchen_tool};
     use platewash_kinematics::{JointVector, RobotModel};
     use platewash_workcell::cancel::CancelToken;
-    use platewash_workcell::contact::Foundation;
-    use platewash_workcell::fixtures::{kitchen_plate, kitchen_tool};
     use proptest::prelude::*;
 
     const FOUNDATION: Foundation = Foundation {

@@ -10,12 +10,12 @@ use crate::{
 };
 use nalgebra::{Translation3, UnitQuaternion};
 use platewash_certificate::{Certified, Requirement, certify};
+use platewash_fixtures as fixtures;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_motion::plan::Plan;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures;
 use platewash_workcell::job::ContactRequirements;
-use platewash_workcell::plan::Plan;
 use std::sync::OnceLock;
 
 fn arm() -> RobotModel {

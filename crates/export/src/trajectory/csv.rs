@@ -8,7 +8,7 @@ use crate::program::ProgramFile;
 use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::csv::{MAX_ROWS, STATE};
+use platewash_motion::csv::{MAX_ROWS, STATE};
 use platewash_workcell::number_table::{self, NumberTable, Row, TableError, TableShape};
 use platewash_workcell::words::{quoted, shortened};
 use std::borrow::Cow;

@@ -19,8 +19,8 @@ use crate::program::ProgramFile;
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::piecewise::{MotionPiece, PiecewiseMotion};
-use platewash_workcell::trajectory::KnotError;
+use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
+use platewash_motion::trajectory::KnotError;
 use platewash_workcell::words::quoted;
 use std::f64::consts::{PI, TAU};
 

@@ -3,8 +3,8 @@
 use super::PlateReport;
 use crate::cubic::Interpolation;
 use crate::run::PaperRun;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::layout;
-use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter};
 

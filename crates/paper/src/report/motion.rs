@@ -2,10 +2,10 @@
 
 use crate::run::PaperRun;
 use crate::tracking::Step;
+use platewash_bodies::clearance::{ClearanceModel, PairClearance, is_clear};
 use platewash_kinematics::JointVector;
+use platewash_motion::trajectory::{SegmentExtremes, SegmentKind, Trajectory};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
-use platewash_workcell::clearance::{ClearanceModel, PairClearance, is_clear};
-use platewash_workcell::trajectory::{SegmentExtremes, SegmentKind, Trajectory};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

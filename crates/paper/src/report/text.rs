@@ -1,8 +1,8 @@
 //! The report as a person reads it.
 
 use super::{ClosestApproach, MotionReport, PaperReport, UnreachedWaypoint, Violation, ViolationKind};
+use platewash_bodies::coverage::Coverage;
 use platewash_kinematics::words::{angles_told_apart, distinct_decimals, rounded};
-use platewash_workcell::coverage::Coverage;
 use platewash_workcell::words::{plate_name, plate_number, quoted};
 use std::fmt::{self, Display, Formatter};
 

@@ -4,10 +4,10 @@ use super::motion::{ClosestApproach, Nearness, nearest};
 use crate::run::PaperRun;
 use crate::tracking::{IkOutcome, Step, tracking_errors};
 use nalgebra::Vector3;
+use platewash_bodies::coverage::{Coverage, CoverageError, coverage};
 use platewash_kinematics::ik::IkCause;
-use platewash_workcell::coverage::{Coverage, CoverageError, coverage};
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::SegmentKind;
 use serde::Serialize;
 
 /// Cell size \[m\], fine enough that the proven error of a plate's coverage is about a tenth of a percent.

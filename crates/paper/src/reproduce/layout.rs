@@ -6,15 +6,15 @@ use crate::part::PaperPart;
 use crate::run::{PaperRun, run};
 use crate::tool_path::Segment;
 use crate::tracking::Step;
+use platewash_bodies::clearance::ClearanceModel;
+use platewash_bodies::coverage::{Coverage, CoverageError, coverage};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::ik::IkSolver;
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::coverage::{Coverage, CoverageError, coverage};
+use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::layout::Finding;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::random;
 use platewash_workcell::tool::tool_down;
-use platewash_workcell::trajectory::SegmentKind;
 use rand::Rng;
 use std::collections::BTreeMap;
 

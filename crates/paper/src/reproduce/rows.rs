@@ -5,7 +5,7 @@ use super::layout::{SPONGES_MM, Sample, by_sponge};
 use super::statistics::{Estimate, batch_means, percentile, root_mean_square};
 use crate::part::PaperPart;
 use crate::tool_path::ToolPath;
-use platewash_workcell::coverage::{Coverage, CoverageError};
+use platewash_bodies::coverage::{Coverage, CoverageError};
 use platewash_workcell::plate::Plate;
 
 /// Shares in each region: key, words, the value that the paper takes for granted \[%\].

@@ -7,7 +7,7 @@ use crate::scene::{AxisRule, TiltPolicy};
 use crate::timing::TipLimits;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Moment, SpongePose};
+use platewash_bodies::contact::{Moment, SpongePose};
 use platewash_workcell::job::{PatternName, PlannerSettings};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{

@@ -1,9 +1,10 @@
 //! Patterns are chosen as the settings leave them open, and the arm then presses as is promised.
 
 use crate::pattern::*;
+use platewash_bodies::job::WashJob;
+use platewash_fixtures::{contact_kitchen, kitchen};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{contact_kitchen, kitchen};
-use platewash_workcell::job::{PatternName, WashJob};
+use platewash_workcell::job::PatternName;
 use platewash_workcell::surface::SHIPPED_PROFILES;
 
 fn disc() -> Surface {
@@ -169,7 +170,7 @@ fn the_kitchen_keeps_its_promises_of_contact() {
     let pressed = |job: &WashJob| {
         let plan = &planned.plan;
         let clearance =
-            platewash_workcell::clearance::ClearanceModel::new(job.arm(), &job.terms().workcell, &job.terms().plates)
+            platewash_bodies::clearance::ClearanceModel::new(job.arm(), &job.terms().workcell, &job.terms().plates)
                 .unwrap();
         let tool = &job.terms().workcell.tool;
         let reach = job.terms().planner_settings().unwrap().reach;
@@ -177,7 +178,7 @@ fn the_kitchen_keeps_its_promises_of_contact() {
         let knots = &plan.knots;
         plan.segments
             .iter()
-            .filter(|s| s.kind == platewash_workcell::trajectory::SegmentKind::Wash)
+            .filter(|s| s.kind == platewash_motion::trajectory::SegmentKind::Wash)
             .all(|segment| {
                 let plate = &job.terms().plates[segment.plate];
                 let during = |t: &f64| (segment.t_start_s..=segment.t_end_s).contains(t);

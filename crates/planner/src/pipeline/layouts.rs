@@ -5,8 +5,9 @@ use crate::pipeline::phases::check_apart;
 use crate::pipeline::shared::Pipeline;
 use crate::redundancy::RedundancyError;
 use crate::watch::{Activity, Watch};
+use platewash_bodies::job::{JobError, WashJob};
 use platewash_kinematics::RobotModel;
-use platewash_workcell::job::{JobError, JobTerms, WashJob};
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::layout::{Layout, LayoutError};
 use std::sync::Arc;
 

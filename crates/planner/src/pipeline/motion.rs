@@ -11,8 +11,8 @@ use crate::trig::{asin, sin};
 use crate::watch::Activity;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_motion::trajectory::{KnotError, PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::random;
-use platewash_workcell::trajectory::{KnotError, PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::WashPath;
 
 /// The whole motion in time.

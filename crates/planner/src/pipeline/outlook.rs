@@ -6,8 +6,8 @@ use crate::pipeline::shared::Pipeline;
 use crate::redundancy::{Chance, Task, chance};
 use crate::scene::Scene;
 use crate::watch::Watch;
+use platewash_bodies::job::WashJob;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::job::WashJob;
 use rayon::prelude::*;
 
 /// The chance of each plate to be washed, by its index: each by itself, from home, along the wash path that planning would take.

@@ -9,11 +9,14 @@ use crate::pipeline::visit::Visit;
 use crate::planned_job::{PlannedJob, TransitSummary, VisitSummary};
 use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
+use platewash_bodies::job::WashJob;
+use platewash_bodies::job::check_standing;
+use platewash_bodies::job::overlaps_of_plates;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_motion::plan::{Knots, Plan, PlanParts, Provenance};
+use platewash_motion::trajectory::Trajectory;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{JobTerms, Overlap, WashJob};
-use platewash_workcell::plan::{Knots, Plan, PlanParts, Provenance};
-use platewash_workcell::trajectory::Trajectory;
+use platewash_workcell::job::{JobTerms, Overlap};
 use platewash_workcell::wash_path::WashPath;
 
 /// Factors on the reserve of tilt, for motions that use up more of it.
@@ -164,7 +167,7 @@ pub fn check(arm: &RobotModel, terms: &JobTerms) -> Result<(), PlanError> {
     let cancel = CancelToken::new();
     let watch = Watch::silent(&cancel);
     let seen = &*terms.seen_from_base();
-    terms.check_standing(arm)?;
+    check_standing(terms, arm)?;
     check_apart(arm, terms)?;
     Pipeline::new(arm, (seen, &terms.workcell.mount), &seen.plates, &watch)?.check_homes()
 }
@@ -174,7 +177,7 @@ pub(crate) fn check_apart(arm: &RobotModel, terms: &JobTerms) -> Result<(), Plan
     if terms.requirements.overlap == Overlap::Report {
         return Ok(());
     }
-    match terms.plate_overlaps(arm) {
+    match overlaps_of_plates(terms, arm) {
         none if none.is_empty() => Ok(()),
         overlaps => Err(PlanError::Overlap(overlaps)),
     }

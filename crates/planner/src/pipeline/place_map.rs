@@ -5,7 +5,7 @@ use crate::pipeline::places::with_moved_plate;
 use crate::washable_map::{IN_A_PATCH, Levels, MapArea, MapPatch, Square};
 use crate::watch::Watch;
 use nalgebra::Vector2;
-use platewash_workcell::job::WashJob;
+use platewash_bodies::job::WashJob;
 
 /// Maps the places at which a plate could be washed, with the others in place: squares of an area, coarse ones first, sent in
 /// patches.

@@ -9,10 +9,10 @@ use crate::scene::Scene;
 use crate::transit::LiftLine;
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector2;
+use platewash_bodies::clearance::standing_overlaps;
+use platewash_bodies::job::WashJob;
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::clearance::standing_overlaps;
-use platewash_workcell::job::WashJob;
 use platewash_workcell::wash_path::WashPath;
 use rayon::prelude::*;
 
@@ -170,8 +170,8 @@ mod tests {
     use crate::redundancy::places::Chance;
     use crate::washable_map::MapArea;
     use crate::washable_map::MapPatch;
+    use platewash_fixtures::{kitchen, kitchen_plate};
     use platewash_workcell::cancel::CancelToken;
-    use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 
     /// Each answer is that of a trial of its own, made for this place alone.
     #[test]

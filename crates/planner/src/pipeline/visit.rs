@@ -10,9 +10,9 @@ use crate::timing::{self, TimedPath};
 use crate::transit::LiftLine;
 use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
+use platewash_bodies::contact::{Columns, SpongePose};
 use platewash_kinematics::Pose;
 use platewash_kinematics::rotation::RigidTransform;
-use platewash_workcell::contact::{Columns, SpongePose};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
 

@@ -14,9 +14,9 @@ use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector3;
+use platewash_bodies::job::WashJob;
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::job::WashJob;
 use platewash_workcell::wash_path::WashPath;
 use rayon::prelude::*;
 

@@ -20,13 +20,14 @@ use crate::pipeline::shared::Pipeline;
 use crate::recovery::retreat::{Start, Way};
 use crate::transit::{self, LiftLine, Transit};
 use crate::watch::{Activity, Watch};
+use platewash_bodies::clearance::PairClearance;
+use platewash_bodies::job::{JobError, WashJob};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{JointVector, LimitViolation, RobotModel};
-use platewash_workcell::clearance::PairClearance;
-use platewash_workcell::job::{NEARER_M, Recovery, RecoveryPart, RetreatLine, WashJob};
-use platewash_workcell::plan::{Knots, Plan, PlanParts, Process, Provenance};
+use platewash_motion::plan::{Knots, Plan, PlanParts, Process, Provenance};
+use platewash_motion::trajectory::SegmentKind;
+use platewash_workcell::job::{NEARER_M, Recovery, RecoveryPart, RetreatLine};
 use platewash_workcell::random;
-use platewash_workcell::trajectory::SegmentKind;
 use platewash_workcell::words::{plate_name, printable};
 use platewash_workcell::workcell::ReducedClearance;
 use std::sync::Arc;
@@ -220,7 +221,7 @@ fn motion_home(plan: &Plan, start: &Start<'_>, way: Option<Way>, transit: &Trans
     };
     let near = near_pairs(&start.near, plan.job.requirements.clearance_m);
     let terms = recovery.terms(&plan.job, start.at, near);
-    terms.validate()?;
+    terms.validate().map_err(JobError::from)?;
     let parts = PlanParts {
         provenance: Provenance::of(&format!("{}-home", plan.provenance.scenario)),
         order: Vec::new(),

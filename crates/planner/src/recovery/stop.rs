@@ -2,8 +2,8 @@
 
 use crate::recovery::RecoveryError;
 use platewash_kinematics::JointVector;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::words::plate_name;
 use serde::Serialize;
 use std::fmt;

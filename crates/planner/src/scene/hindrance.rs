@@ -1,10 +1,10 @@
 //! Hindrances of the arm at a contact point: the filters of a configuration, one per variant.
 
+use platewash_bodies::clearance::PairClearance;
 use platewash_kinematics::LimitViolation;
 use platewash_kinematics::ik::analytic::{AnalyticError, OutOfReach, Rejection};
 use platewash_kinematics::ik::{IkCause, IkError};
 use platewash_kinematics::words::{distinct_decimals, nonzero_decimals};
-use platewash_workcell::clearance::PairClearance;
 use serde::Serialize;
 use std::fmt;
 

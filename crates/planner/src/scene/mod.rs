@@ -13,11 +13,11 @@ pub use crate::scene::tilt_policy::TiltPolicy;
 
 use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Point3, Vector3};
+use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::ik::{IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
-use platewash_workcell::clearance::{ClearanceModel, PairClearance};
 use platewash_workcell::job::ReachBorders;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;

@@ -6,8 +6,8 @@ use crate::trig::sin_cos;
 use crate::washable_map::{Levels, MapArea, Square};
 use crate::watch::Watch;
 use nalgebra::Vector3;
+use platewash_bodies::job::WashJob;
 use platewash_kinematics::{Pose, RobotModel};
-use platewash_workcell::job::WashJob;
 use platewash_workcell::tool::Tool;
 
 /// Finest squares across the radius of the map.

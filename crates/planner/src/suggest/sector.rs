@@ -7,7 +7,7 @@ use crate::suggest::region::Sector;
 use crate::trig::{atan2, sin_cos};
 use crate::washable_map::MapArea;
 use crate::watch::Watch;
-use platewash_workcell::job::WashJob;
+use platewash_bodies::job::WashJob;
 use std::ops::Range;
 
 /// Steps along a ray, across the reach.

@@ -68,7 +68,7 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use platewash_workcell::trajectory::Trajectory;
+    use platewash_motion::trajectory::Trajectory;
     use proptest::prelude::*;
 
     fn vector() -> impl Strategy<Value = JointVector> {

@@ -28,7 +28,7 @@ use crate::timing::grid::Grid;
 use crate::timing::rounds::Rounds;
 use crate::timing::tip_model::TipModel;
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
-use platewash_workcell::trajectory::{KnotError, Trajectory};
+use platewash_motion::trajectory::{KnotError, Trajectory};
 
 /// The fastest motion along `path`, from rest to rest, within `limits`; `tip` is the point on `robot` that the limits of
 /// the tip are for (unused without them).

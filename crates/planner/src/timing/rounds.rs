@@ -15,7 +15,7 @@ use crate::timing::hermite::Piece;
 use crate::timing::interval::{Interval, LinearProgram};
 use crate::timing::{MotionLimits, SlowStretch, TimedPath, TimingError};
 use platewash_kinematics::{AXES, JointVector};
-use platewash_workcell::trajectory::Trajectory;
+use platewash_motion::trajectory::Trajectory;
 
 /// The shortest piece of a motion \[s\]: in less, the rounding of positions and times would show in accelerations.
 pub const SHORTEST_PIECE_S: f64 = 1e-4;

@@ -145,7 +145,7 @@ fn levers(robot: &RobotModel, tip: &Frame) -> [f64; AXES] {
 mod tests {
     use super::*;
 
-    use platewash_workcell::fixtures::kitchen_tool;
+    use platewash_fixtures::kitchen_tool;
     use proptest::prelude::*;
 
     /// The IRB 120 and the tip of a tool 150 mm long.

@@ -1,9 +1,9 @@
 //! Two bodies nearer than a transit may bring them.
 
 use crate::scene::{Stretch, Surroundings};
+use platewash_bodies::clearance::PairClearance;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::distinct_decimals;
-use platewash_workcell::clearance::PairClearance;
 use std::fmt;
 
 /// Two bodies nearer than a transit may bring them.

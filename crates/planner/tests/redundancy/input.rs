@@ -1,10 +1,10 @@
 //! Input that makes no sense or is extreme, and plates that lie near each other.
 
 use super::world::{HOME, RADIUS_M, check, curve, path, plate_at, within};
+use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::JointVector;
 use platewash_planner::OutOfRange;
 use platewash_planner::redundancy::{RedundancyError, Task};
-use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 

@@ -6,12 +6,12 @@ pub mod turns;
 pub mod world;
 
 use nalgebra::{UnitQuaternion, Vector2};
+use platewash_bodies::clearance::PairClearance;
+use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::JointVector;
 use platewash_planner::redundancy::places::{MOST_CHECKS, nearest_washable};
 use platewash_planner::redundancy::{self, MOST_DEAD_ENDS, RedundancyError};
 use platewash_planner::scene;
-use platewash_workcell::clearance::PairClearance;
-use platewash_workcell::fixtures::kitchen_tool;
 use platewash_workcell::wash_path::WashCurve;
 use proptest::prelude::*;
 use world::{RADIUS_M, check, curve, elsewhere, path, plate_at, straight, within};

@@ -1,13 +1,13 @@
 //! Arms of other makers: branches in closed form or searched for, and the conclusion where none is found.
 
 use super::world::{World, check, curve, path, with_arm};
+use platewash_bodies::clearance::ClearanceModel;
+use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::redundancy::washing;
 use platewash_planner::scene::TILT_RESERVE_RAD;
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::fixtures::{kitchen_tool, workcell};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashCurve;
 

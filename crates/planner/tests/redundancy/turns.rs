@@ -1,11 +1,11 @@
 //! Joints that turn many times.
 
 use super::world::{HOME, RADIUS_M, curve, path, plate_at, with_arm};
+use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_planner::redundancy::{is_blocked, washing};
-use platewash_workcell::fixtures::kitchen_tool;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

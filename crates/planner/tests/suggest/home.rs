@@ -1,13 +1,14 @@
 //! Homes over the plates, clear of everything, from which jobs are planned.
 
 use nalgebra::Vector3;
+use platewash_bodies::job::WashJob;
+use platewash_fixtures::{kitchen, kitchen_plate};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_planner::suggest::{SuggestedHome, suggest_home};
 use platewash_planner::{PlanError, plan};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{kitchen, kitchen_plate};
-use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 

@@ -1,9 +1,9 @@
 //! The suggested region and its sector.
 
+use platewash_fixtures::{kitchen, kitchen_plate};
 use platewash_planner::suggest::suggest_region;
 use platewash_planner::{Watch, plan_here};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 
 /// Planning washes plates in the sector: four places on its border and one within.
 #[test]

@@ -1,9 +1,9 @@
 //! The suggested sector alone.
 
+use platewash_fixtures::{kitchen, kitchen_plate};
 use platewash_planner::suggest::{Sector, suggest_sector};
 use platewash_planner::{Watch, plan_here};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::fixtures::{kitchen, kitchen_plate};
 
 /// Planning washes plates on the corners of the sector and in its middle.
 #[test]

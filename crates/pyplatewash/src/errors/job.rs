@@ -2,13 +2,14 @@
 
 use crate::arrays;
 use crate::errors::{Field, FileKind, SystemWord, any, input, keyed, named, raise, simulation, system_file};
+use platewash::bodies::job::JobError;
+use platewash::motion::dry_run::DryRunError;
 use platewash::paper::PaperError;
 use platewash::paper::tracking::TrackingError;
 use platewash::planner::transit::TransitError;
 use platewash::planner::{RecoveryError, UnwashablePlate};
 use platewash::scenario::Problem;
-use platewash::workcell::dry_run::DryRunError;
-use platewash::workcell::job::JobError;
+use platewash::workcell::job::TermsError;
 use platewash::workcell::layout::LayoutError;
 use platewash::workcell::words::plate_name;
 use platewash::workcell::workcell::ArmId;
@@ -134,8 +135,8 @@ fn job(py: Python<'_>, error: &JobError, message: &str) -> PyErr {
             staged(py, "job", message, fields)
         }
         JobError::Clearance(_) => staged(py, "clearance", message, Vec::new()),
-        JobError::PlateCount { .. } | JobError::NoPlate { .. } => keyed(py, "plates", message),
-        JobError::Obstacle { .. } | JobError::Standing(_) => keyed(py, "obstacle", message),
+        JobError::Terms(TermsError::PlateCount { .. } | TermsError::NoPlate { .. }) => keyed(py, "plates", message),
+        JobError::Terms(TermsError::Obstacle { .. }) | JobError::Standing(_) => keyed(py, "obstacle", message),
         _ => keyed(py, "job", message),
     }
 }

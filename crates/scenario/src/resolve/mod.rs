@@ -28,6 +28,9 @@ use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::robot::ReducedClearanceSection;
 use crate::sections::wash::{PAPER_RADIUS_M, PAPER_TURNS};
+use platewash_bodies::assembly;
+use platewash_bodies::job::check_standing;
+use platewash_bodies::job::{End, JobError, WashJob};
 use platewash_kinematics::urdf::{FixedJoints, MeshSource};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_paper::order::PaperOrder;
@@ -37,9 +40,7 @@ use platewash_planner::Watch;
 use platewash_planner::suggest::suggest_home;
 use platewash_workcell::arc::Arc as ArcRoundBase;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::{
-    End, JobError, JobTerms, Limits, OrderRule, Planner, PlannerSettings, ReachBorders, Requirements, WashJob,
-};
+use platewash_workcell::job::{JobTerms, Limits, OrderRule, Planner, PlannerSettings, ReachBorders, Requirements};
 use platewash_workcell::layout::{Finding, Layout};
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::{Sponge, Tool};
@@ -239,7 +240,7 @@ impl Scenario {
         };
         if start.is_none() {
             // A body in an impossible place leaves no home either, and is the better reason.
-            terms.check_standing(arm)?;
+            check_standing(&terms, arm)?;
             let found = suggest_home(arm, &terms, &CancelToken::new())?.q_rad();
             terms.home_rad = [found, end.unwrap_or(found)];
         }
@@ -285,7 +286,7 @@ impl Scenario {
         self.check_mount(arm)?;
         let tool = self.tool_on(arm)?;
         let obstacles = self.obstacles(arm, &tool, plates)?;
-        let mut workcell = Workcell::new(arm, tool, self.robot.mount(arm), obstacles)?;
+        let mut workcell = assembly::workcell(arm, tool, self.robot.mount(arm), obstacles)?;
         workcell.reduced_clearances = self.reduced_clearances()?;
         Ok(workcell)
     }

@@ -4,9 +4,9 @@ use crate::body_error::BodyFault;
 use crate::cache::Cache;
 use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
 use nalgebra::Point3;
+use platewash_bodies::clearance::{SolidError, SolidParts, excess_m, solid_parts};
 use platewash_kinematics::fingerprint::sha256_hex;
 use platewash_kinematics::urdf::{MeshSource, MeshSplitter};
-use platewash_workcell::clearance::{SolidError, SolidParts, excess_m, solid_parts};
 use std::path::Path;
 use std::sync::Arc;
 

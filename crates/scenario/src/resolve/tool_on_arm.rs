@@ -6,11 +6,11 @@ use crate::failure::Failure;
 use crate::scenario::Scenario;
 use crate::sections::body_shape::{SectionShape, pose};
 use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, HandleName, ToolBodySection, tool_keys};
+use platewash_bodies::clearance::SolidParts;
+use platewash_bodies::tool_chain::{Handle, ToolChain, ToolError};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::geometry::Shape;
-use platewash_workcell::clearance::SolidParts;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::tool_chain::{Handle, ToolChain, ToolError};
 use std::path::Path;
 
 /// Greatest reach of a mesh of the tool from its origin \[m\], like other bodies by the ranges of their sizes.

@@ -6,11 +6,11 @@ use crate::error::{Problem, conflict};
 use crate::keys::key::Domain::{Number, Text, Triple, Word};
 use crate::keys::key::{Key, key};
 use crate::sections::body_shape::{StatedShape, pose, with_shape_keys};
+use platewash_bodies::tool_chain::{ChainBody, ToolError};
 use platewash_keys::Section;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_workcell::tool::StraightTool;
-use platewash_workcell::tool_chain::{ChainBody, ToolError};
 use serde::{Deserialize, Serialize};
 
 /// Stiffness of a sponge where contact is promised and none is stated \[kPa\]: an assumption, after the firmness of upholstery foams

@@ -5,8 +5,8 @@
 use crate::dynamics::DynamicsModel;
 use crate::plant::PlantState;
 use platewash_kinematics::{JointLimits, JointVector};
+use platewash_motion::trajectory::JointState;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, FeedForward};
-use platewash_workcell::trajectory::JointState;
 
 /// Commanded states at a sample and at the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@
 //!
 //! | strain | pressure |
 //! | --- | --- |
-//! | 0 to 0.6 | E ε: the elastic foundation of [`platewash_workcell::contact`], on which the certificate rests |
+//! | 0 to 0.6 | E ε: the elastic foundation of [`platewash_bodies::contact`], on which the certificate rests |
 //! | 0.6 to 1 | E (0.6 + 20 (ε − 0.6)): the foam bottoms out. The factor of 20 on the stiffness there is an assumption |
 //! | 1 to 2 | the rest of the energy fades smoothly: the holder would be in the plate, which no real one is |
 //!

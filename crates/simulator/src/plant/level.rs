@@ -7,7 +7,7 @@
 
 use crate::plant::foam::{DENSE_STRAIN, Foam, FoamLoad, Wrench, rim_within, share_within};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{Columns, SpongePose};
+use platewash_bodies::contact::{Columns, SpongePose};
 use std::f64::consts::PI;
 
 /// The columns of a sponge, for flat faces.

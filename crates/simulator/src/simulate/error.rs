@@ -3,11 +3,11 @@
 use crate::control::ControlError;
 use crate::dynamics::DynamicsError;
 use crate::simulate::amount::{MAX_SAMPLES, MAX_STEPS, highest_rate, shortest_period};
+use platewash_bodies::coverage::CoverageError;
 use platewash_kinematics::words::rounded_up;
+use platewash_motion::trajectory::KnotError;
 use platewash_workcell::cancel::Cancelled;
-use platewash_workcell::coverage::CoverageError;
-use platewash_workcell::job::JobError;
-use platewash_workcell::trajectory::KnotError;
+use platewash_workcell::job::TermsError;
 use platewash_workcell::words::{count_with_noun, plate_name};
 
 /// Significant digits of a rate that is suggested.
@@ -27,7 +27,7 @@ pub enum SimulationError {
     },
     /// The plan's job is none.
     #[error("plan: {0}")]
-    Job(#[from] JobError),
+    Job(#[from] TermsError),
     /// The plan's knots are no motion.
     #[error("plan: {0}")]
     Knots(#[from] KnotError),

@@ -2,7 +2,7 @@
 
 use crate::simulate::execution::{Execution, Sample};
 use platewash_kinematics::{AXES, Frame, JointVector, RobotModel};
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use serde::Serialize;
 
 /// Effort of a joint's motor.

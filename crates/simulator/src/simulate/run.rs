@@ -14,10 +14,10 @@ use crate::simulate::schedule::Schedule;
 use nalgebra::Vector3;
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{JointState, SegmentKind, Trajectory};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::{PlantSettings, SimulationSettings};
-use platewash_workcell::trajectory::{JointState, SegmentKind, Trajectory};
 
 /// Significant digits of a rate in messages.
 const RATE_DIGITS: usize = 6;

@@ -1,8 +1,8 @@
 //! Segments of a plan in time.
 
 use crate::simulate::error::SimulationError;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 
 /// Largest excess of a sampling time over a segment's end that still counts as within it, as a part of the sampling period:
 /// rounding.

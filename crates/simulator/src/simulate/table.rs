@@ -2,8 +2,8 @@
 
 use crate::simulate::execution::Execution;
 use platewash_kinematics::RobotModel;
-use platewash_workcell::csv::{self, CsvError};
-use platewash_workcell::plan::Plan;
+use platewash_motion::csv::{self, CsvError};
+use platewash_motion::plan::Plan;
 use std::fmt;
 
 /// Columns in the header behind the plan's ([`csv::HEADER`]); [`csv::FORCE`] follows where force on the sponge was simulated.

@@ -11,15 +11,15 @@ use crate::simulate::error::SimulationError;
 use crate::simulate::execution::{Execution, Sample};
 use crate::simulate::pressing::{Judge, Pressing};
 use nalgebra::Vector3;
+use platewash_bodies::coverage::{Coverage, CoverageError, coverage_of_strokes, reaches};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_workcell::coverage::{Coverage, CoverageError, coverage_of_strokes, reaches};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::job::Treatment;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::simulation::SimulationSettings;
 use platewash_workcell::tool::{Tool, Touch};
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -9,8 +9,8 @@ use super::subject::{Subject, Track, first_of, per_cent, short};
 use super::svg::{BAD, Drawing, EXECUTED, GOOD, GREY, LINE, MIDDLE, Rect, SMALL, WORDS, fill, fitted, stroke, width};
 use crate::view::PressedRule;
 use crate::view::coverage::proved_share;
-use platewash_workcell::coverage::reaches;
-use platewash_workcell::trajectory::PlanSegment;
+use platewash_bodies::coverage::reaches;
+use platewash_motion::trajectory::PlanSegment;
 use platewash_workcell::words::plate_name;
 
 /// Greatest number of plates in one figure: with the planned motion alone, and with the executed one besides.

@@ -1,6 +1,6 @@
 //! Why a figure cannot be drawn.
 
-use platewash_workcell::trajectory::KnotError;
+use platewash_motion::trajectory::KnotError;
 use platewash_workcell::words::plate_name;
 
 /// Reason that a figure cannot be drawn.

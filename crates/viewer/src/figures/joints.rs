@@ -8,7 +8,7 @@ use super::svg::{
 };
 use platewash_certificate::ClearanceRule;
 use platewash_kinematics::AXES;
-use platewash_workcell::trajectory::{JointState, SegmentKind};
+use platewash_motion::trajectory::{JointState, SegmentKind};
 use platewash_workcell::words::plate_name;
 use rayon::prelude::*;
 

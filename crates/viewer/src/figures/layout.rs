@@ -15,11 +15,11 @@ use crate::view::tips::Tip;
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
+use platewash_motion::trajectory::SegmentKind;
 use platewash_simulator::SimulationReport;
 use platewash_workcell::job::Treatment;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::trajectory::SegmentKind;
 
 /// Ways that are nearer to each other look like one \[m\].
 const APART_M: f64 = 1e-3;

@@ -9,11 +9,11 @@ use nalgebra::Vector3;
 use platewash_certificate::Certificate;
 use platewash_kinematics::words::percent;
 use platewash_kinematics::{Axes, JointVector, Pose, RobotModel};
+use platewash_motion::plan::{Plan, Process};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_simulator::{Execution, SimulationReport};
 use platewash_workcell::layout::TaskRegion;
-use platewash_workcell::plan::{Plan, Process};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use platewash_workcell::words::quoted;
 

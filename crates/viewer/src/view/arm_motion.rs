@@ -3,11 +3,11 @@
 use super::clearance::{Clearance, even_times};
 use super::{Arm, Certificate, Check, Heading, Motion, Numbers, Surroundings, View, ViewError};
 use nalgebra::Vector6;
+use platewash_bodies::clearance::ClearanceModel;
 use platewash_certificate::{self as proved, Status};
 use platewash_kinematics::{AXES, RobotModel};
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::piecewise::PiecewiseMotion;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_motion::piecewise::PiecewiseMotion;
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::printable;
 use platewash_workcell::workcell::{Exclusion, Workcell};
 

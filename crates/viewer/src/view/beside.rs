@@ -6,8 +6,8 @@ use super::execution::{ExecutedMotion, Execution};
 use super::numbers::Numbers;
 use super::tips::Tips;
 use platewash_kinematics::RobotModel;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::SegmentKind;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::SegmentKind;
 use serde::Serialize;
 use ts_rs::TS;
 

@@ -2,11 +2,11 @@
 
 use super::numbers::Numbers;
 use nalgebra::{Point3, Vector3};
+use platewash_bodies::clearance::NearestBodies;
 use platewash_certificate::{self as proved, ClearanceRule, Requirement};
 use platewash_kinematics::{Pose, RobotModel};
-use platewash_workcell::clearance::NearestBodies;
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::Trajectory;
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::Trajectory;
 use rayon::prelude::*;
 use serde::Serialize;
 use ts_rs::TS;

@@ -10,7 +10,7 @@ use super::raster::{Disc, Marks, Raster};
 use super::thinned;
 use super::tips::{Tip, washes};
 use platewash_certificate as proved;
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};
 use rayon::prelude::*;

@@ -7,7 +7,7 @@ use super::numbers::Numbers;
 use super::raster::Raster;
 use platewash_certificate as proved;
 use platewash_kinematics::RobotModel;
-use platewash_workcell::plan::Plan;
+use platewash_motion::plan::Plan;
 use serde::Serialize;
 use ts_rs::TS;
 

@@ -1,8 +1,8 @@
 //! Why there is nothing to show.
 
 use platewash_certificate::ProveError;
-use platewash_workcell::job::JobError;
-use platewash_workcell::trajectory::KnotError;
+use platewash_motion::trajectory::KnotError;
+use platewash_workcell::job::TermsError;
 
 /// Reason that there is nothing to show.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum ViewError {
     NoMotion,
     /// A job with which nothing can be computed.
     #[error(transparent)]
-    Job(#[from] JobError),
+    Job(#[from] TermsError),
     /// A plan that cannot be judged, so that no dose is proved.
     #[error(transparent)]
     Dose(#[from] ProveError),

@@ -7,11 +7,11 @@ use super::thinned;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;
+use platewash_motion::csv::{RecordedMotion, RecordedSample};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::Trajectory;
 use platewash_simulator::{self as simulator, SimulationReport};
-use platewash_workcell::csv::{RecordedMotion, RecordedSample};
-use platewash_workcell::plan::Plan;
 use platewash_workcell::simulation::ControlLawName;
-use platewash_workcell::trajectory::Trajectory;
 use serde::Serialize;
 use ts_rs::TS;
 

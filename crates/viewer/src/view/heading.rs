@@ -1,8 +1,9 @@
 //! Heading of a page.
 
+use platewash_bodies::job::WashJob;
+use platewash_motion::plan::{Plan, Process};
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::job::{JobTerms, Treatment, WashJob};
-use platewash_workcell::plan::{Plan, Process};
+use platewash_workcell::job::{JobTerms, Treatment};
 use serde::Serialize;
 use ts_rs::TS;
 

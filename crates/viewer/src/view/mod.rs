@@ -52,14 +52,15 @@ pub use plates::{Plate, WashPath};
 pub use pressed::PressedRule;
 pub use raster::Marks;
 
+use platewash_bodies::job::WashJob;
 use platewash_certificate as proved;
 use platewash_kinematics::{AXES, JointVector, Pose, RobotModel};
-use platewash_workcell::job::{JobTerms, WashJob};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{PlanSegment, Trajectory};
+use platewash_workcell::job::JobTerms;
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::obstacle::Obstacle;
-use platewash_workcell::plan::Plan;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::trajectory::{PlanSegment, Trajectory};
 use serde::Serialize;
 use tips::Tips;
 use ts_rs::TS;

@@ -3,8 +3,8 @@
 use super::numbers::Numbers;
 use super::tips::{Tips, washes};
 use nalgebra::Vector3;
+use platewash_motion::plan::Plan;
 use platewash_workcell::job::{JobTerms, Relief};
-use platewash_workcell::plan::Plan;
 use platewash_workcell::plate;
 use platewash_workcell::wash_path::{self, WashCurve};
 use platewash_workcell::words::plate_name;

@@ -1,12 +1,13 @@
 //! Area of a plate that the foam presses, over time: sampled for display, not the proof.
 //!
-//! The sponge is the elastic foundation of [`platewash_workcell::contact`]. A place of the face counts as long as the foam over it is
+//! The sponge is the elastic foundation of [`platewash_bodies::contact`]. A place of the face counts as long as the foam over it is
 //! compressed as required, for every height of the plate within the stated error; between two moments by the lines through both.
 
 use super::raster::Raster;
 use super::tips::Tip;
 use nalgebra::Vector3;
-use platewash_workcell::contact::{ContactSampler, ContactThresholds, Foundation, Moment, SpongePose};
+use platewash_bodies::contact::{ContactSampler, Foundation, Moment, SpongePose};
+use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::job::{JobTerms, Treatment};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Tool, Touch};

@@ -209,7 +209,7 @@ fn within(off: [f64; 2], way: [f64; 2], radius_m: f64) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use platewash_workcell::coverage::coverage;
+    use platewash_bodies::coverage::coverage;
     use proptest::prelude::*;
 
     fn disc(t_s: f64, at: [f64; 2], radius_m: f64) -> Disc {

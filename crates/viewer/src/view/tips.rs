@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_workcell::plan::Plan;
-use platewash_workcell::trajectory::{SegmentKind, Trajectory};
+use platewash_motion::plan::Plan;
+use platewash_motion::trajectory::{SegmentKind, Trajectory};
 
 /// Largest motion of the tip between two moments, except for very fast ones \[m\].
 const STEP_M: f64 = 4e-3;

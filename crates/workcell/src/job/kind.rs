@@ -3,7 +3,7 @@
 //! A statement that a kind of plan has no use for is refused: whatever rests on it would rest on nothing.
 
 use crate::dry_run::DryRun;
-use crate::job::error::JobError;
+use crate::job::error::TermsError;
 use crate::job::recovery::Recovery;
 use crate::job::terms::JobTerms;
 use std::fmt;
@@ -156,8 +156,8 @@ impl Statement {
 /// certificate.
 ///
 /// # Errors
-/// [`JobError::Statement`] with the first fault.
-pub(crate) fn check(job: &JobTerms) -> Result<(), JobError> {
+/// [`TermsError::Statement`] with the first fault.
+pub(crate) fn check(job: &JobTerms) -> Result<(), TermsError> {
     let kind = PlanKind::of(job);
     for statement in Statement::ALL {
         let is_needed = match (kind.rule(statement), statement.is_made(job)) {
@@ -165,7 +165,7 @@ pub(crate) fn check(job: &JobTerms) -> Result<(), JobError> {
             (StatementRule::Refused, Some(true)) => false,
             _ => continue,
         };
-        return Err(JobError::Statement {
+        return Err(TermsError::Statement {
             kind,
             path: statement.path(),
             is_needed,

@@ -3,8 +3,7 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | a job with its arm | `wash_job` |
-//! | everything about a job but the arm; the job in the frame of the base | `terms` |
+//! | the terms: everything about a job but the arm; in the frame of the base | `terms` |
 //! | kinds of plans, and the statements that each may make | `kind` |
 //! | requirements and limits | `requirements` |
 //! | what is left to do after a stop | `recovery` |
@@ -19,16 +18,14 @@ mod recovery;
 mod requirements;
 mod soil;
 mod terms;
-mod wash_job;
 
-pub use crate::job::error::{End, JobError};
+pub use crate::job::error::TermsError;
 pub use crate::job::kind::{PlanKind, Statement, StatementRule};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
 pub use crate::job::recovery::{NEARER_M, RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
 pub use crate::job::requirements::{
-    ContactRequirements, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap, PATH_TOLERANCE_M,
-    PatternName, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
+    ContactRequirements, ContactThresholds, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap,
+    PATH_TOLERANCE_M, PatternName, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
 };
 pub use crate::job::soil::{MOST_PASSES, Soil};
-pub use crate::job::terms::{JobTerms, MAX_SEED, PlateOverlap, check_workcell};
-pub use crate::job::wash_job::WashJob;
+pub use crate::job::terms::{JobTerms, MAX_SEED, check_workcell};

@@ -4,7 +4,7 @@
 //! and are not washed.
 
 use crate::dry_run::is_hash;
-use crate::job::error::JobError;
+use crate::job::error::TermsError;
 use crate::job::requirements::{Planner, Requirements};
 use crate::job::terms::{JobTerms, within};
 use crate::plate::GREATEST_M;
@@ -130,8 +130,8 @@ impl Recovery {
     }
 
     /// Checks that the statement fits the job.
-    pub(crate) fn validate(&self, job: &JobTerms) -> Result<(), JobError> {
-        let refused = |fault| Err(JobError::Recovery { fault });
+    pub(crate) fn validate(&self, job: &JobTerms) -> Result<(), TermsError> {
+        let refused = |fault| Err(TermsError::Recovery { fault });
         let count = job.plates.len();
         if !is_hash(&self.parent) {
             return refused("parent must be the hash of a plan, 64 digits of lower-case hexadecimal");

@@ -5,7 +5,6 @@
 //! Settings of the planner. They are part of the job and its hash, and are not judged.
 
 use crate::arc::Arc as ArcRoundBase;
-use crate::contact::ContactThresholds;
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -123,6 +122,19 @@ pub struct ContactRequirements {
     pub dose_pa_m: f64,
     /// Least share of the face with that dose.
     pub dose_share: f64,
+}
+
+/// Amounts wanted at a place of a plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactThresholds {
+    /// Least compression of the foam that counts as contact \[m\].
+    pub compression_m: f64,
+    /// Height error of a plate along its axis \[m\].
+    pub height_error_m: f64,
+    /// Least time in contact \[s\].
+    pub time_s: f64,
+    /// Least dose ∫ p dl in contact, for the least stiffness \[Pa·m\].
+    pub dose_pa_m: f64,
 }
 
 impl ContactRequirements {

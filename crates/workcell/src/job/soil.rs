@@ -1,6 +1,6 @@
 //! Kinds of soil: the washing that each needs.
 
-use crate::job::error::JobError;
+use crate::job::error::TermsError;
 use crate::job::requirements::ContactRequirements;
 use crate::job::terms::{JobTerms, within};
 use crate::plate::Plate;
@@ -40,8 +40,8 @@ impl Soil {
     /// Checks that what the soil asks for makes sense.
     ///
     /// # Errors
-    /// [`JobError::Number`]
-    pub fn validate(&self) -> Result<(), JobError> {
+    /// [`TermsError::Number`]
+    pub fn validate(&self) -> Result<(), TermsError> {
         if let Some(dose) = self.dose_pa_m {
             within("soils.dose_pa_m", dose, [0.0, 1e9])?;
         }
@@ -52,7 +52,7 @@ impl Soil {
             within("soils.speed_m_s", speed, [1e-6, 10.0])?;
         }
         match self.force_n {
-            Some([least, most]) if !(least >= 0.0 && least < most && most <= 1e6) => Err(JobError::Number {
+            Some([least, most]) if !(least >= 0.0 && least < most && most <= 1e6) => Err(TermsError::Number {
                 name: "soils.force_n",
                 expected: "[least, greatest] with least < greatest, from 0 to 1e6 N".to_owned(),
                 found: least,
@@ -151,14 +151,14 @@ impl JobTerms {
     }
 
     /// Checks the soils, and that every plate's terms name one that there is.
-    pub(crate) fn check_soils(&self) -> Result<(), JobError> {
+    pub(crate) fn check_soils(&self) -> Result<(), TermsError> {
         self.soils.iter().try_for_each(Soil::validate)?;
         let names_one = |index: Option<usize>, of: usize| index.is_none_or(|index| index < of);
         let lost = |plate: &Plate| {
             !names_one(plate.terms.soil, self.soils.len()) || !names_one(plate.terms.measured, self.measured.len())
         };
         match self.plates.iter().position(lost) {
-            Some(plate) => Err(JobError::NoPlate { plate }),
+            Some(plate) => Err(TermsError::NoPlate { plate }),
             None => Ok(()),
         }
     }

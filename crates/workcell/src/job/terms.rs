@@ -1,12 +1,9 @@
 //! The terms of a job: everything about it but the arm itself.
 //!
 //! The frame of a job can be changed to that of the arm's base.
-//!
-//! Overlaps of plates with each other and with the arm's base are found here.
 
-use crate::clearance::{ClearanceError, FixedOverlap, gap_of_plates, standing_overlaps, still_pairs};
 use crate::dry_run::DryRun;
-use crate::job::error::JobError;
+use crate::job::error::TermsError;
 use crate::job::kind::{self, PlanKind, Statement, StatementRule};
 use crate::job::measured_shape::MeasuredShape;
 use crate::job::recovery::Recovery;
@@ -14,18 +11,15 @@ use crate::job::requirements::{
     FixtureTerms, HolderTerms, Limits, Planner, PlannerSettings, Requirements, RingTerms, Treatment,
 };
 use crate::job::soil::Soil;
-use crate::layout::{MAX_PLATES, base_footprint};
+use crate::layout::MAX_PLATES;
 use crate::plate::{GREATEST_M, LEAST_PLATE_M, Plate};
 use crate::pose;
 use crate::simulation::SimulationSettings;
-use crate::words::plate_name;
 use crate::workcell::{MOST_BODIES, Workcell};
-use platewash_kinematics::words::nonzero_decimals;
-use platewash_kinematics::{JointVector, Pose, RobotModel};
+use platewash_kinematics::{JointVector, Pose};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
-use std::fmt;
 
 /// Largest seed. Up to here every whole number is a distinct JSON number (RFC 8785 writes them all as doubles), so that no two seeds have
 /// the same text in a plan file.
@@ -154,39 +148,11 @@ impl JobTerms {
         self.requirements.wash_acceleration_m_s2.min(anywhere)
     }
 
-    /// Finds obstacles that reach into plates or the base of the arm, and plates that reach into the base: see [`standing_overlaps`].
-    ///
-    /// # Errors
-    /// [`ClearanceError`] for an invalid shape.
-    pub fn standing_overlaps(&self, arm: &RobotModel) -> Result<Vec<FixedOverlap>, ClearanceError> {
-        let seen = self.seen_from_base();
-        standing_overlaps(arm, &seen.workcell, &seen.plates, seen.dry_run.as_ref())
-    }
-
-    /// Checks that the bodies can be where they are at all: that none of those that stand overlap, and that the moving ones whose distance no
-    /// joint changes keep the required clearance.
-    ///
-    /// # Errors
-    /// [`JobError::Standing`], [`JobError::StillNear`]; [`ClearanceError`] for an invalid shape.
-    pub fn check_standing(&self, arm: &RobotModel) -> Result<(), JobError> {
-        let overlaps = self.standing_overlaps(arm)?;
-        if !overlaps.is_empty() {
-            return Err(JobError::Standing(overlaps));
-        }
-        let required_m = self.requirements.clearance_m;
-        let mut pairs = still_pairs(arm, &self.workcell)?;
-        pairs.retain(|still| !still.is_clear(required_m));
-        if pairs.is_empty() {
-            return Ok(());
-        }
-        Err(JobError::StillNear { pairs, required_m })
-    }
-
     /// Checks that the terms can be computed with. NaN and infinity are refused.
     ///
     /// # Errors
-    /// [`JobError`] with the first error.
-    pub fn validate(&self) -> Result<(), JobError> {
+    /// [`TermsError`] with the first error.
+    pub fn validate(&self) -> Result<(), TermsError> {
         let wanted = &self.requirements;
         within("requirements.coverage", wanted.coverage, [0.0, 1.0])?;
         within("requirements.clearance_m", wanted.clearance_m, [0.0, 1.0])?;
@@ -204,7 +170,7 @@ impl JobTerms {
             within("home_rad", *joint, [-1e3, 1e3])?;
         }
         if self.seed > MAX_SEED {
-            return Err(JobError::Seed { found: self.seed });
+            return Err(TermsError::Seed { found: self.seed });
         }
         self.check_tool()?;
         check_workcell(&self.workcell, self.plates.len())?;
@@ -213,7 +179,7 @@ impl JobTerms {
             positive(name, by_m)?;
             if by_m >= wanted.clearance_m {
                 let expected = format!("below requirements.clearance_m, {}", wanted.clearance_m);
-                return Err(JobError::Number {
+                return Err(TermsError::Number {
                     name,
                     expected,
                     found: by_m,
@@ -228,15 +194,15 @@ impl JobTerms {
         self.check_soils()?;
         let count = self.plates.len();
         if !(1..=MAX_PLATES).contains(&count) {
-            return Err(JobError::PlateCount { found: count });
+            return Err(TermsError::PlateCount { found: count });
         }
         match self.plates.iter().position(|plate| !plate.is_sound()) {
-            Some(plate) => Err(JobError::NoPlate { plate }),
+            Some(plate) => Err(TermsError::NoPlate { plate }),
             None => Ok(()),
         }
     }
 
-    fn check_tool(&self) -> Result<(), JobError> {
+    fn check_tool(&self) -> Result<(), TermsError> {
         let tool = &self.workcell.tool;
         for (name, size) in [
             ("workcell.tool.sponge.radius_m", tool.sponge.radius_m),
@@ -263,7 +229,7 @@ impl JobTerms {
         Ok(())
     }
 
-    fn check_contact(&self) -> Result<(), JobError> {
+    fn check_contact(&self) -> Result<(), TermsError> {
         let (wanted, sponge) = (&self.requirements, &self.workcell.tool.sponge);
         for (name, speed) in [
             ("requirements.landing_m_s", wanted.landing_m_s),
@@ -280,7 +246,7 @@ impl JobTerms {
         }
         let Some(contact) = &wanted.contact else { return Ok(()) };
         if sponge.stiffness_pa.is_none() {
-            return Err(JobError::NoStiffness);
+            return Err(TermsError::NoStiffness);
         }
         within(
             "requirements.contact.compression_m",
@@ -307,7 +273,7 @@ impl JobTerms {
         within("requirements.contact.dose_pa_m", contact.dose_pa_m, [0.0, 1e9])
     }
 
-    fn check_holder(&self) -> Result<(), JobError> {
+    fn check_holder(&self) -> Result<(), TermsError> {
         let Some(holder) = &self.requirements.holder else {
             return Ok(());
         };
@@ -327,7 +293,7 @@ impl JobTerms {
             _ => "",
         };
         if !fault.is_empty() {
-            return Err(JobError::Holder(fault));
+            return Err(TermsError::Holder(fault));
         }
         within("requirements.holder.sponge_friction", sponge_friction, [0.0, 10.0])?;
         within(
@@ -344,7 +310,7 @@ impl JobTerms {
             if self.plates.iter().any(has_back) {
                 let fault =
                     "is a ring, and both faces of a plate are washed: it would stand on one of them; state a fixture";
-                return Err(JobError::Holder(fault));
+                return Err(TermsError::Holder(fault));
             }
             within("requirements.holder.ring.friction", friction, [0.0, 10.0])?;
             // No wider than any plate, nor than the foot of one that has a foot.
@@ -355,14 +321,14 @@ impl JobTerms {
         Ok(())
     }
 
-    fn check_dry_run(&self) -> Result<(), JobError> {
+    fn check_dry_run(&self) -> Result<(), TermsError> {
         let Some(dry_run) = &self.dry_run else { return Ok(()) };
         let (name, found) = ("dry_run.height_m", dry_run.height_m);
         positive(name, found)?;
         within(name, found, [0.0, GREATEST_M])?;
         match (&self.planner, dry_run.names_a_hash()) {
-            (Planner::Paper(_), _) => Err(JobError::PaperDryRun),
-            (_, false) => Err(JobError::Parent),
+            (Planner::Paper(_), _) => Err(TermsError::PaperDryRun),
+            (_, false) => Err(TermsError::Parent),
             _ => Ok(()),
         }
     }
@@ -371,39 +337,39 @@ impl JobTerms {
 /// Checks that the mount, the bodies and the obstacles of a workcell with `plates` plates are valid.
 ///
 /// # Errors
-/// [`JobError`] with the first error.
-pub fn check_workcell(workcell: &Workcell, plates: usize) -> Result<(), JobError> {
+/// [`TermsError`] with the first error.
+pub fn check_workcell(workcell: &Workcell, plates: usize) -> Result<(), TermsError> {
     let is_near = |pose: &Pose| pose.translation.vector.iter().all(|at| at.abs() <= GREATEST_M);
     if !(pose::is_sound(&workcell.mount) && is_near(&workcell.mount)) {
-        return Err(JobError::Mount);
+        return Err(TermsError::Mount);
     }
     let found = workcell.bodies();
     if found > MOST_BODIES {
-        return Err(JobError::TooManyBodies { found });
+        return Err(TermsError::TooManyBodies { found });
     }
     for obstacle in &workcell.obstacles {
         if let Some(fault) = obstacle.fault(plates) {
             let name = obstacle.name.clone();
-            return Err(JobError::Obstacle { name, fault });
+            return Err(TermsError::Obstacle { name, fault });
         }
     }
     Ok(())
 }
 
-pub(crate) fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), JobError> {
+pub(crate) fn within(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), TermsError> {
     if (least..=most).contains(&found) {
         return Ok(());
     }
     let expected = format!("from {least} to {most}");
-    Err(JobError::Number { name, expected, found })
+    Err(TermsError::Number { name, expected, found })
 }
 
-fn positive(name: &'static str, found: f64) -> Result<(), JobError> {
+fn positive(name: &'static str, found: f64) -> Result<(), TermsError> {
     if found > 0.0 && found.is_finite() {
         return Ok(());
     }
     let expected = "finite and above 0".to_owned();
-    Err(JobError::Number { name, expected, found })
+    Err(TermsError::Number { name, expected, found })
 }
 
 impl JobTerms {
@@ -422,52 +388,5 @@ impl JobTerms {
             plates: self.plates.iter().map(|plate| plate.seen_from(&to_base)).collect(),
             ..self.clone()
         })
-    }
-}
-
-/// Greatest overlap of plates that counts as touching: the rounding of positions \[m\].
-const PLACE_M: f64 = 1e-9;
-
-/// Overlap of a plate with another one or with the base.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlateOverlap {
-    /// Index of the plate.
-    pub plate: usize,
-    /// Index of the other plate; `None` for the arm's base.
-    pub other: Option<usize>,
-    /// Distance by which they would have to be moved apart \[m\].
-    pub by_m: f64,
-}
-
-impl JobTerms {
-    /// Finds the plates that lie over the base's footprint, then those that overlap another one: all the cases that
-    /// [`Overlap::Fail`](crate::job::Overlap::Fail) forbids. Plates that stand at an angle and reach into the base are found by
-    /// [`JobTerms::standing_overlaps`].
-    #[must_use]
-    pub fn plate_overlaps(&self, arm: &RobotModel) -> Vec<PlateOverlap> {
-        let seen = self.seen_from_base();
-        let (plates, base) = (&seen.plates, base_footprint(arm));
-        let shares = |plate: usize, other: Option<usize>, gap_m: f64| {
-            let by_m = -gap_m;
-            (by_m > PLACE_M).then_some(PlateOverlap { plate, other, by_m })
-        };
-        let over_base = |(i, plate)| base.gap_m(plate).and_then(|gap_m| shares(i, None, gap_m));
-        let mut found: Vec<_> = plates.iter().enumerate().filter_map(over_base).collect();
-        for (a, first) in plates.iter().enumerate() {
-            for (b, second) in plates.iter().enumerate().skip(a + 1) {
-                found.extend(shares(a, Some(b), gap_of_plates(arm, first, second)));
-            }
-        }
-        found
-    }
-}
-
-impl fmt::Display for PlateOverlap {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (plate, mm) = (plate_name(self.plate), nonzero_decimals(1e3 * self.by_m, 1));
-        match self.other {
-            Some(other) => write!(f, "{plate} and {} overlap by {mm} mm", plate_name(other)),
-            None => write!(f, "{plate} overlaps the robot's base by {mm} mm"),
-        }
     }
 }

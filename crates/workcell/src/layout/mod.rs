@@ -13,7 +13,7 @@
 
 mod error;
 mod findings;
-pub(crate) mod free_cells;
+mod free_cells;
 mod outline;
 mod packing;
 mod region;
@@ -287,7 +287,7 @@ impl PlateGeometry {
     }
 
     /// Returns plates of this geometry at the centres `[x, y]` \[m\], base frame.
-    pub(crate) fn plates(&self, centres: &[[f64; 2]]) -> Vec<Plate> {
+    fn plates(&self, centres: &[[f64; 2]]) -> Vec<Plate> {
         let at = |&[x, y]: &[f64; 2]| Plate {
             surface: self.surface,
             thickness_m: self.thickness_m,

@@ -99,7 +99,7 @@ impl QuadCell {
     }
 
     /// Square of the least distance from `p` to a point of the rectangle.
-    pub(crate) fn nearest_squared(&self, p: [f64; 2]) -> f64 {
+    fn nearest_squared(&self, p: [f64; 2]) -> f64 {
         let dx = ((self.middle[0] - p[0]).abs() - self.half[0]).max(0.0);
         let dy = ((self.middle[1] - p[1]).abs() - self.half[1]).max(0.0);
         dx * dx + dy * dy

@@ -221,13 +221,13 @@ fn unit<R: Rng + ?Sized>(rng: &mut R) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Space<'a> {
     pub(crate) area: &'a Area,
-    pub(crate) base_radius_squared: f64,
+    base_radius_squared: f64,
     pub(crate) discs: &'a Discs,
 }
 
 impl Space<'_> {
     /// True if a point is in the region and strictly outside of every disc.
-    pub(crate) fn is_free(&self, p: [f64; 2]) -> bool {
+    fn is_free(&self, p: [f64; 2]) -> bool {
         p[0] * p[0] + p[1] * p[1] > self.base_radius_squared
             && !self.discs.any_near(p, |[x, y], radius_squared| {
                 let (dx, dy) = (p[0] - x, p[1] - y);

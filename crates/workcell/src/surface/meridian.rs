@@ -282,7 +282,8 @@ impl Meridian {
     }
 
     /// Same as [`Self::at_radius`], with the index of the piece found last as a guess: any number at first.
-    pub(crate) fn at_radius_near(&self, radius_m: f64, piece: &mut usize) -> MeridianPoint {
+    #[must_use]
+    pub fn at_radius_near(&self, radius_m: f64, piece: &mut usize) -> MeridianPoint {
         let mut at = (*piece).min(self.count);
         while at > 0 && self.starts[at].0.radius_m > radius_m {
             at -= 1;

@@ -2,7 +2,7 @@
 
 use super::RingLoad;
 use nalgebra::{Vector2, Vector3};
-use platewash_workcell::fixtures::is_thorough;
+use platewash_fixtures::is_thorough;
 use platewash_workcell::job::RingTerms;
 use platewash_workcell::random::stream;
 use rand::RngExt;

@@ -4,7 +4,8 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use crate::washing::shares::doses::{Polynomial, Sums};
 use crate::washing::shares::edges::{Edges, Gain, Touch};
-use platewash_workcell::contact::{Bundles, ContactThresholds, Foundation, Moment};
+use platewash_bodies::contact::{Bundles, Foundation, Moment};
+use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 

@@ -9,7 +9,7 @@
 use crate::washing::shares::Sags;
 use crate::washing::shares::edges::{Edges, Look};
 use nalgebra::{Vector2, Vector3};
-use platewash_workcell::coverage::area_of_rectangle_in_disc;
+use platewash_bodies::coverage::area_of_rectangle_in_disc;
 use platewash_workcell::surface::Surface;
 
 /// Cell of the face, with bounds over its patch.

@@ -21,7 +21,7 @@ use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window};
 use nalgebra::{Matrix3, Vector3, Vector4};
-use platewash_workcell::contact::{Foundation, Moment, SpongePose, at_least_0, both};
+use platewash_bodies::contact::{Foundation, Moment, SpongePose, at_least_0, both};
 use std::ops::{Add, Sub};
 
 /// Lower bounds of the factors of q at a moment: compression \[m\] and sliding speed \[m/s\].

@@ -18,7 +18,8 @@
 use crate::washing::shares::Sags;
 use crate::washing::shares::cell::{Cell, CellState, Lower};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
+use platewash_bodies::contact::{Foundation, Moment};
+use platewash_workcell::job::ContactThresholds;
 use std::ops::Range;
 
 /// Error of the formulas above due to rounding \[m\].

@@ -20,8 +20,9 @@ mod tests;
 use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
 use crate::washing::shares::cell::{Cell, Lower};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{ContactThresholds, Foundation, Moment};
-use platewash_workcell::coverage::{SMALLEST_CELL, reaches};
+use platewash_bodies::contact::{Foundation, Moment};
+use platewash_bodies::coverage::{SMALLEST_CELL, reaches};
+use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::surface::Surface;
 use std::ops::Range;
 

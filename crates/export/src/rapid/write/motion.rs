@@ -7,7 +7,7 @@ use crate::rapid::write::{PREFIX, RUNNING};
 use crate::rapid::zone_named;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
-use platewash_workcell::trajectory::{PlanSegment, SegmentKind};
+use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::{plate_name, plate_number};
 use std::collections::HashSet;
 

@@ -117,7 +117,7 @@ fn quaternion(rotation: &UnitQuaternion<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use platewash_workcell::fixtures::kitchen_tool;
+    use platewash_fixtures::kitchen_tool;
     use proptest::prelude::*;
 
     #[test]

@@ -1,9 +1,9 @@
 use super::*;
 use nalgebra::{Rotation3, UnitQuaternion};
+use platewash_fixtures::{contact_kitchen_terms, kitchen_plate};
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::dry_run::DryRun;
-use platewash_workcell::fixtures::{contact_kitchen_terms, kitchen_plate};
 use platewash_workcell::job::ContactRequirements;
 use platewash_workcell::surface::Surface;
 use proptest::prelude::*;
@@ -63,7 +63,7 @@ proptest! {
         let q = stretched(robot, JointVector::new(q.0, q.1, q.2, q.3, q.4, q.5), is_stretched);
         let mut terms = askew(robot);
         if !is_askew {
-            terms.workcell.tool = platewash_workcell::fixtures::contact_kitchen_tool();
+            terms.workcell.tool = platewash_fixtures::contact_kitchen_tool();
         }
         let surface = profile.map_or(Surface::Disc { radius_m: 0.145 }, |name| Surface::shipped(name).unwrap());
         let tip = robot.fk(&q).rigid(&terms.workcell.tool.tip_frame(robot));

@@ -2,8 +2,8 @@
 
 use crate::redundancy::tests::*;
 use crate::scene::Stance;
+use platewash_bodies::tool_chain::{Handle, ToolChain};
 use platewash_kinematics::Pose;
-use platewash_workcell::tool_chain::{Handle, ToolChain};
 
 /// Least distance of joint 5 from 0 \[rad\]: 3°.
 const WRIST_RAD: f64 = 0.0524;

@@ -18,13 +18,13 @@ use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width
 use crate::trig::sin_cos;
 use crate::{redundancy, scene};
 use nalgebra::Vector3;
+use platewash_bodies::clearance::ClearanceModel;
+use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::clearance::ClearanceModel;
-use platewash_workcell::fixtures::{kitchen_tool, workcell};
 use platewash_workcell::job::ReachBorders;
 use platewash_workcell::tool::{StraightTool, Tool};
 use platewash_workcell::wash_path::{WashCurve, WashPath};

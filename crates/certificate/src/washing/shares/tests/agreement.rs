@@ -6,7 +6,8 @@
 
 use crate::washing::shares::{Fineness, Sags, shares};
 use nalgebra::Vector3;
-use platewash_workcell::contact::{ContactSampler, ContactThresholds, Dwell, Foundation, Moment, SpongePose};
+use platewash_bodies::contact::{ContactSampler, Dwell, Foundation, Moment, SpongePose};
+use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::random::stream;
 use platewash_workcell::surface::{Knot, SHARPEST_M, Surface};
 use rand::RngExt;

@@ -4,7 +4,8 @@ use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
 use crate::washing::shares::cell::Cell;
 use crate::washing::shares::{Fineness, Sags, shares};
 use nalgebra::{Rotation3, Unit, Vector3};
-use platewash_workcell::contact::{ContactThresholds, Foundation, Moment, SpongePose};
+use platewash_bodies::contact::{Foundation, Moment, SpongePose};
+use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use proptest::prelude::*;
 

@@ -1,0 +1,430 @@
+//! Plan file: a job and a motion that does it, sealed with a hash. A verifier needs only the file and the arm.
+//!
+//! `reading.rs` reads it strictly: unknown, missing and repeated keys are refused, and sizes are bounded before anything is read.
+//!
+//! Formats and kinds of plan files.
+//!
+//! Errors of writing and reading plan files.
+
+mod knots;
+mod reading;
+
+use crate::trajectory::{KnotError, PlanSegment, Trajectory};
+use platewash_kinematics::words::is_hidden;
+use platewash_kinematics::{JointVector, sha256_hex};
+use platewash_workcell::job::{JobTerms, Planner};
+use platewash_workcell::json::{self, JsonError};
+use platewash_workcell::wash_path::WashPath;
+use platewash_workcell::words::{printable, quoted, without_mark};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+use ts_rs::TS;
+
+/// Plan file, `"format": "platewash-plan/2"`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// Format name, [`FORMAT`].
+    pub format: String,
+    /// SHA-256 over the canonical JSON (RFC 8785) of everything else, lower-case hexadecimal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hash: Option<String>,
+    /// Kind of the plan.
+    pub process: Process,
+    /// Job of the plan.
+    pub job: JobTerms,
+    /// Origin of the plan: stated, never judged.
+    pub provenance: Provenance,
+    /// Plate indices in the order of washing.
+    pub order: Vec<usize>,
+    /// Wash path of each plate, in the order of washing; empty for the paper's program.
+    pub wash_paths: Vec<WashPath>,
+    /// Segments in time order.
+    pub segments: Vec<PlanSegment>,
+    /// Motion: cubic Hermite pieces between knots.
+    pub knots: Knots,
+}
+
+/// Origin of a plan.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Version of the program that made the plan.
+    pub version: String,
+}
+
+impl Provenance {
+    /// Returns the provenance of a scenario planned by this version.
+    #[must_use]
+    pub fn of(scenario: &str) -> Self {
+        Self {
+            scenario: scenario.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
+/// Knots of a motion.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Knots {
+    /// Times \[s\].
+    pub t_s: Vec<f64>,
+    /// Positions \[rad\], one row per knot.
+    pub q_rad: Vec<JointVector>,
+    /// Speeds \[rad/s\], one row per knot.
+    pub qd_rad_s: Vec<JointVector>,
+}
+
+impl Knots {
+    /// Returns the motion through the knots.
+    ///
+    /// # Errors
+    /// [`KnotError`] with the first knot that does not fit.
+    pub fn motion(&self) -> Result<Trajectory, KnotError> {
+        Trajectory::from_knots(self.t_s.clone(), self.q_rad.clone(), self.qd_rad_s.clone())
+    }
+}
+
+impl From<&Trajectory> for Knots {
+    fn from(motion: &Trajectory) -> Self {
+        Self {
+            t_s: motion.times().to_vec(),
+            q_rad: motion.positions().to_vec(),
+            qd_rad_s: motion.speeds().to_vec(),
+        }
+    }
+}
+
+/// Contents of a plan besides its job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanParts {
+    /// Origin of the plan.
+    pub provenance: Provenance,
+    /// Plate indices in the order of washing.
+    pub order: Vec<usize>,
+    /// Wash path of each plate, in the order of washing.
+    pub wash_paths: Vec<WashPath>,
+    /// Segments in time order.
+    pub segments: Vec<PlanSegment>,
+    /// Knots of the motion.
+    pub knots: Knots,
+}
+
+impl Plan {
+    /// Seals the plan of a job.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn sealed(job: JobTerms, parts: PlanParts) -> Result<Self, PlanFileError> {
+        let mut plan = Self {
+            format: FORMAT.to_owned(),
+            hash: None,
+            process: Process::from(&job.planner),
+            job,
+            provenance: parts.provenance,
+            order: parts.order,
+            wash_paths: parts.wash_paths,
+            segments: parts.segments,
+            knots: parts.knots,
+        };
+        plan.hash = Some(plan.seal()?);
+        Ok(plan)
+    }
+
+    /// Returns the plan with its job in the frame of the arm's base ([`JobTerms::seen_from_base`]), for computations. The hash stays that
+    /// of the original plan.
+    #[must_use]
+    pub fn seen_from_base(&self) -> Cow<'_, Self> {
+        match self.job.seen_from_base() {
+            Cow::Borrowed(_) => Cow::Borrowed(self),
+            Cow::Owned(job) => Cow::Owned(Self { job, ..self.clone() }),
+        }
+    }
+
+    /// Returns the plan with the requirements that a proof of it judges ([`JobTerms::judged_requirements`]). The hash stays that of the
+    /// original plan.
+    #[must_use]
+    pub fn judged(&self) -> Cow<'_, Self> {
+        let requirements = self.job.judged_requirements();
+        if requirements == self.job.requirements {
+            return Cow::Borrowed(self);
+        }
+        let mut plan = self.clone();
+        plan.job.requirements = requirements;
+        Cow::Owned(plan)
+    }
+
+    /// Duration of the motion \[s\].
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.knots.t_s.last().copied().unwrap_or(0.0)
+    }
+
+    /// The wash path of a plate.
+    #[must_use]
+    pub fn wash_path_of(&self, plate: usize) -> Option<&WashPath> {
+        self.wash_paths.iter().find(|path| path.plate == plate)
+    }
+
+    /// Computes the hash of the contents.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`] for contents that cannot be read back, such as a number that is not finite.
+    pub fn seal(&self) -> Result<String, PlanFileError> {
+        let open = Self {
+            hash: None,
+            ..self.without_knots()
+        };
+        let text = serde_json_canonicalizer::to_string(&open).map_err(unwritable)?;
+        self.check_readable(&open, &text)?;
+        Ok(sha256_hex(self.with_knots(&text).as_bytes()))
+    }
+
+    /// Canonical JSON of a plan, with these knots in place of none. Almost all of a plan's text is numbers of the knots, which the general
+    /// writer takes long for.
+    fn with_knots(&self, text: &str) -> String {
+        text.replacen(NO_KNOTS, &knots::canonical(&self.knots), 1)
+    }
+
+    /// The plan without its knots.
+    fn without_knots(&self) -> Self {
+        Self {
+            format: self.format.clone(),
+            hash: self.hash.clone(),
+            process: self.process,
+            job: self.job.clone(),
+            provenance: self.provenance.clone(),
+            order: self.order.clone(),
+            wash_paths: self.wash_paths.clone(),
+            segments: self.segments.clone(),
+            knots: Knots::default(),
+        }
+    }
+
+    /// Refuses contents that would change when read back; `text` is that of the plan `around` the knots.
+    fn check_readable(&self, around: &Self, text: &str) -> Result<(), PlanFileError> {
+        let refuse = |detail: &str| {
+            let detail = detail.to_owned();
+            Err(PlanFileError::Unwritable { detail })
+        };
+        // Almost all numbers are here, and all of one kind.
+        let Knots { t_s, q_rad, qd_rad_s } = &self.knots;
+        let mut numbers = t_s.iter().chain(q_rad.iter().chain(qd_rad_s).flatten());
+        if !numbers.all(|number| number.is_finite()) {
+            return refuse("a number of the knots is not finite");
+        }
+        // A number that is not finite is written as `null`, and a whole number of more than 53 bits as its neighbour.
+        if serde_json::from_str::<Self>(text).map_err(unwritable)? != *around {
+            return refuse("a whole number is above 2^53 − 1, the largest that JSON says exactly");
+        }
+        Ok(())
+    }
+
+    /// True if the stored hash is that of the contents.
+    #[must_use]
+    pub fn is_sealed(&self) -> bool {
+        self.hash.is_some() && self.hash == self.seal().ok()
+    }
+
+    /// Returns the file's text: canonical JSON, one line.
+    ///
+    /// # Errors
+    /// [`PlanFileError::Unwritable`].
+    pub fn to_json(&self) -> Result<String, PlanFileError> {
+        let text = serde_json_canonicalizer::to_string(&self.without_knots()).map_err(unwritable)?;
+        Ok(self.with_knots(&text))
+    }
+
+    /// Reads the text of a plan file. Every key occurs once, none is unknown and none is missing, so that the plan read has the hash of the
+    /// file's contents. The hash is not checked here: see [`Plan::is_sealed`].
+    ///
+    /// # Errors
+    /// [`PlanFileError`] for anything but a plan of this format.
+    pub fn from_json(text: &str) -> Result<Self, PlanFileError> {
+        let text = without_mark(text);
+        reading::check_sizes(text)?;
+        let plan: Self = json::read(text).map_err(|error| other_format(text).unwrap_or_else(|| error.into()))?;
+        if plan.format != FORMAT {
+            return Err(refused(plan.format));
+        }
+        let planned = Process::from(&plan.job.planner);
+        if plan.process != planned {
+            let stated = plan.process;
+            return Err(PlanFileError::Process { stated, planned });
+        }
+        reading::check_contents(text, &plan.to_json()?, &plan)?;
+        plan.check_names()?;
+        Ok(plan)
+    }
+
+    /// Refuses names with control or direction characters.
+    fn check_names(&self) -> Result<(), PlanFileError> {
+        let world = &self.job.workcell;
+        let bodies = world
+            .tool
+            .bodies
+            .iter()
+            .map(|body| ("job.workcell.tool.bodies", &body.name));
+        let obstacles = world
+            .obstacles
+            .iter()
+            .map(|obstacle| ("job.workcell.obstacles", &obstacle.name));
+        let mount = world
+            .tool
+            .mounted_on
+            .iter()
+            .map(|link| ("job.workcell.tool.mounted_on", link));
+        let alone = [
+            ("provenance.scenario", &self.provenance.scenario),
+            ("job.workcell.arm.name", &world.arm.name),
+        ];
+        let fixed = world.arm.fixed.keys().map(|joint| ("job.workcell.arm.fixed", joint));
+        let mut all = alone
+            .into_iter()
+            .chain(fixed)
+            .chain(mount)
+            .chain(bodies)
+            .chain(obstacles);
+        match all.find(|(_, name)| name.contains(is_hidden)) {
+            None => Ok(()),
+            Some((key, name)) => Err(PlanFileError::HiddenCharacter {
+                key: key.to_owned(),
+                found: name.clone(),
+            }),
+        }
+    }
+}
+
+/// Key that identifies the format.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<String>,
+}
+
+/// Returns an error if a text that is no plan states another format.
+fn other_format(text: &str) -> Option<PlanFileError> {
+    let format = serde_json::from_str::<Head>(text).ok()?.format?;
+    (format != FORMAT).then(|| refused(format))
+}
+
+/// Returns the error for a plan of another format.
+fn refused(format: String) -> PlanFileError {
+    if format == BEFORE {
+        return PlanFileError::Before;
+    }
+    PlanFileError::Format { found: format }
+}
+
+fn unwritable(e: serde_json::Error) -> PlanFileError {
+    PlanFileError::Unwritable { detail: e.to_string() }
+}
+
+/// Text of a plan without knots, where those of others are.
+const NO_KNOTS: &str = r#"{"q_rad":[],"qd_rad_s":[],"t_s":[]}"#;
+
+/// Format that this version writes and reads.
+pub const FORMAT: &str = "platewash-plan/2";
+
+/// Format of the version before.
+const BEFORE: &str = "platewash-plan/1";
+
+/// Kind of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum Process {
+    /// A washing, planned as a whole from home to home. Certificates are about these.
+    Wash,
+    /// A run of the paper's program, waypoint after waypoint. It has no certificate.
+    Paper,
+}
+
+impl fmt::Display for Process {
+    /// Writes the name that files have.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
+
+impl From<&Planner> for Process {
+    fn from(planner: &Planner) -> Self {
+        match planner {
+            Planner::Wash(_) => Self::Wash,
+            Planner::Paper(_) => Self::Paper,
+        }
+    }
+}
+
+/// Reason that a plan file cannot be written or read.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanFileError {
+    /// A number in the plan is not finite; JSON cannot represent it.
+    #[error("plan cannot be written as JSON: {detail}")]
+    Unwritable {
+        /// Message of the serialiser.
+        detail: String,
+    },
+    /// The text is not a plan file.
+    #[error("not a plan file: {0}")]
+    Unreadable(#[from] JsonError),
+    /// There is a key that no plan has.
+    #[error("unknown key '{key}': a plan states what this program knows and nothing else")]
+    UnknownKey {
+        /// Path of the key, e.g. `wash_paths[2].extra`.
+        key: String,
+    },
+    /// A key is missing. Nothing is filled in, as the hash covers the file's contents.
+    #[error("'{key}' is missing: a plan states every value, defaults too; plan the scenario again")]
+    MissingKey {
+        /// Path of the key, e.g. `job.requirements.coverage`.
+        key: String,
+    },
+    /// A value would be read as another one.
+    #[error("'{key}' is {found}; expected {read}")]
+    Inexact {
+        /// Path of the value.
+        key: String,
+        /// Value in the file.
+        found: String,
+        /// Value as it is read.
+        read: String,
+    },
+    /// The file has the previous format.
+    #[error(
+        "this is a {BEFORE}: it carries a scenario, and this version reads {FORMAT}, which carries the resolved job; plan its \
+         scenario again (platewash plan)"
+    )]
+    Before,
+    /// Process and planner contradict each other.
+    #[error("process is \"{stated}\", and the job was planned as \"{planned}\"; a plan states one process")]
+    Process {
+        /// Process that the plan states.
+        stated: Process,
+        /// Process that its job implies.
+        planned: Process,
+    },
+    /// A list is longer than that of any job.
+    #[error("the plan is too large: {detail}")]
+    TooLarge {
+        /// Name of the list and its position.
+        detail: String,
+    },
+    /// A name has control or direction characters.
+    #[error("'{key}' is {}, a name with a control or direction character (escaped here): plan the scenario with another name", quoted(.found))]
+    HiddenCharacter {
+        /// Path of the name.
+        key: String,
+        /// Name found.
+        found: String,
+    },
+    /// The file has another format.
+    #[error("plan format must be \"{FORMAT}\"; found \"{}\"", printable(.found))]
+    Format {
+        /// Format found.
+        found: String,
+    },
+}
