@@ -19,8 +19,6 @@
 pub mod align;
 #[cfg(feature = "command")]
 pub mod cli;
-mod motion_proof;
-mod motion_stop;
 mod report;
 mod spirals;
 
@@ -34,6 +32,7 @@ pub use platewash_editor as editor;
 pub use platewash_export as export;
 pub use platewash_kinematics as kinematics;
 pub use platewash_motion as motion;
+pub use platewash_motion_proof as motion_proof;
 pub use platewash_paper as paper;
 pub use platewash_planner as planner;
 pub use platewash_scenario as scenario;
@@ -45,8 +44,8 @@ pub use platewash_viewer as viewer;
 pub use platewash_workcell as workcell;
 
 // The way through: a scenario states a job, a job is planned, a plan is proved and simulated.
-pub use motion_proof::{MotionReport, judged_motion, prove_motion};
 pub use platewash_certificate::{Certificate, Certified, Check, ProveError, Requirement, certify, prove};
+pub use platewash_motion_proof::{MotionReport, judged_motion, prove_motion};
 pub use platewash_planner::{PlanError, PlannedJob, plan};
 pub use platewash_scenario::{Failure, Scenario, ScenarioError};
 pub use platewash_simulator::{Execution, SimulationError, SimulationReport, SimulationVerdict, simulate, tune};

@@ -10,8 +10,8 @@
     missing_docs
 )]
 
-mod cells;
 mod align;
+mod cells;
 mod certified;
 mod dry_run;
 mod facade;

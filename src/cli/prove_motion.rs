@@ -10,10 +10,10 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueEnum};
 use platewash::bodies::assembly;
 use platewash::certificate::ProveError;
-use platewash::export::trajectory::{self, TrajectoryFile};
 use platewash::kinematics::AXES;
 use platewash::kinematics::urdf::FixedJoints;
 use platewash::kinematics::urdf::file::read_text;
+use platewash::motion_proof::{self, TrajectoryFile};
 use platewash::scenario::{MeshPlaces, Note, ObstacleText, OriginLink, RobotSection, load_arm_with_fixed};
 use platewash::viewer::page::html;
 use platewash::viewer::view::{ArmMotion, View};
@@ -76,11 +76,11 @@ enum Interpolation {
 
 impl ProveMotionArguments {
     /// The motion between two points, if it was chosen.
-    fn choice(&self) -> Option<trajectory::Interpolation> {
+    fn choice(&self) -> Option<motion_proof::Interpolation> {
         self.interpolation.map(|choice| match choice {
-            Interpolation::Linear => trajectory::Interpolation::Linear,
-            Interpolation::Cubic => trajectory::Interpolation::Cubic,
-            Interpolation::Quintic => trajectory::Interpolation::Quintic,
+            Interpolation::Linear => motion_proof::Interpolation::Linear,
+            Interpolation::Cubic => motion_proof::Interpolation::Cubic,
+            Interpolation::Quintic => motion_proof::Interpolation::Quintic,
         })
     }
 
@@ -258,7 +258,7 @@ pub fn run(options: &Options, arguments: &ProveMotionArguments) -> Result<ExitCo
     let path = &arguments.trajectory;
     let name = path.display().to_string();
     let text = read_text(path, MAX_BYTES).with_context(|| format!("{name}: cannot be read"))?;
-    let files = TrajectoryFile::read_all(&name, text, &arm, &fixed)?;
+    let files = TrajectoryFile::read_all(&name, &text, &arm, &fixed)?;
     let limits = arguments.acceleration_limits.map(JointVector::from);
     let judge = |file: &TrajectoryFile| -> Result<_> {
         let motion = file.motion(&arm, arguments.choice())?;

@@ -20,6 +20,7 @@ PYTHON = {
     "export": "Plan.export",
     "kinematics": None,
     "motion": "Trajectory",
+    "motion_proof": "prove_motion",
     "paper": None,
     "planner": None,
     "scenario": None,

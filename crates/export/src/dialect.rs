@@ -1,7 +1,6 @@
 //! A dialect, a language of robot programs, and all of them. Another one is one file, one fixture and one line here.
 
 use crate::csv::Csv;
-use crate::program::Place;
 use crate::program::Program;
 use crate::program::ProgramFile;
 use crate::rapid::Rapid;
@@ -10,6 +9,7 @@ use crate::refusal::Refusal;
 use crate::ros2::Ros2;
 use crate::urscript::UrScript;
 use platewash_kinematics::RobotModel;
+pub use platewash_motion_proof::ReadError;
 use platewash_workcell::job::JobTerms;
 use std::fmt::Debug;
 
@@ -66,23 +66,6 @@ pub enum Points {
     },
     /// All knots of the plan.
     Knots,
-}
-
-/// Reason that a text could not be interpreted.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {reason}")]
-pub struct ReadError {
-    /// The line.
-    pub place: Place,
-    /// Error in the line, and the text that was expected.
-    pub reason: String,
-}
-
-impl ReadError {
-    /// Makes the error of a line, counted from 1.
-    pub(crate) fn at(file: &str, line: usize, reason: impl Into<String>) -> Self {
-        Place::new(file, line).refused(reason)
-    }
 }
 
 /// All dialects.

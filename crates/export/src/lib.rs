@@ -26,7 +26,6 @@
 //! | all of it, one after the other; the reasons that a plan is not handed over | `export`, `refusal` |
 //! | a program that may have been changed since: its changes, and its share of the plan's speed | `compare`, `changes`, `speed_share` |
 //! | ROS 2 | `ros2` |
-//! | trajectories of any planner, to be judged alone | `trajectory` |
 
 mod changes;
 mod comment;
@@ -50,7 +49,6 @@ mod speed_share;
 #[allow(clippy::unwrap_used)]
 mod tests;
 mod tool_frame;
-pub mod trajectory;
 pub mod urscript;
 
 pub use crate::changes::Change;

@@ -1,13 +1,14 @@
 //! A program in no dialect, as it is handed over; text files of a program, and places in them.
 
 use crate::dialect::Dialect;
-use crate::dialect::ReadError;
 use crate::maker_joints::Joint3;
 use crate::rapid::{Rapid, text_of_latin_1};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::Plan;
+pub use platewash_motion_proof::Place;
+use platewash_motion_proof::ReadError;
 use platewash_workcell::tool::Tool;
-use std::fmt::{self, Debug};
+use std::fmt::Debug;
 
 /// A program to be written: points in time, and the notes that must accompany them.
 #[derive(Debug, Clone)]
@@ -119,34 +120,5 @@ impl ProgramFile {
                 Err(ReadError::at(name, line, reason))
             }
         }
-    }
-}
-
-/// A line of a file.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Place {
-    /// The file's name.
-    pub file: String,
-    /// The line, from 1.
-    pub line: usize,
-}
-
-impl Place {
-    /// A line of a file, counted from 1.
-    pub(crate) fn new(file: &str, line: usize) -> Self {
-        let file = file.to_owned();
-        Self { file, line }
-    }
-
-    /// The error of that line.
-    pub(crate) fn refused(&self, reason: impl Into<String>) -> ReadError {
-        let (place, reason) = (self.clone(), reason.into());
-        ReadError { place, reason }
-    }
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.file, self.line)
     }
 }

@@ -13,9 +13,6 @@ mod rapid_read;
 mod rapid_round_trip;
 mod ros2;
 mod ros2_refused;
-mod trajectory;
-mod trajectory_fields;
-mod trajectory_messages;
 mod urscript;
 mod whole_plan;
 

@@ -10,7 +10,7 @@ use crate::trajectory::MANY_TIMES;
 use crate::value::{from_mapping, to_record};
 use crate::work::patiently;
 use platewash::bodies::assembly;
-use platewash::export::trajectory::{Interpolation, JointPoints, PointsError};
+use platewash::motion_proof::{Interpolation, JointPoints, PointsError};
 use platewash::scenario::ObstacleText;
 use platewash::{Failure, JointVector, Pose, ProveError};
 use pyo3::prelude::*;

@@ -17,7 +17,7 @@
 //! | changing a text key by key | `draft` |
 //! | failures and refusals in the words of the keys | `failure`, `error`, `body_error` |
 //! | keys that would mend a job; a home and a region for an arm | `remedy`, `suggest` |
-//! | obstacles alone, or a tool alone; planning scenes of MoveIt | `obstacle_file`, `planning_scene` |
+//! | obstacles alone, or a tool alone | `obstacle_file` |
 
 mod body_error;
 mod cache;
@@ -29,7 +29,6 @@ mod load;
 mod lossy_path;
 pub mod measured;
 mod obstacle_file;
-mod planning_scene;
 mod remedy;
 mod resolve;
 mod scenario;

@@ -5,12 +5,13 @@ use crate::error::{Problem, ScenarioError, TextKind, conflict};
 use crate::failure::Failure;
 use crate::keys::line::{byte_of, line_at};
 use crate::load::check_table;
-use crate::planning_scene;
+use crate::resolve::surroundings::LEAST_EXCESS_M;
 use crate::scenario::Scenario;
 use crate::source::{MAX_BYTES, unread};
-use crate::units::Note;
+use crate::units::{MeshAs, Note};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::{Files, file};
+use platewash_motion_proof::scene;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::workcell::Obstacle;
 use std::path::{Path, PathBuf};
@@ -68,7 +69,10 @@ impl ObstacleText {
         meshes: &MeshPlaces,
     ) -> Result<Vec<Obstacle>, ScenarioError> {
         if is_scene(&self.name) {
-            let all = planning_scene::read(&self.name, &self.text).map_err(of_bodies)?;
+            let all = scene::read(&self.name, &self.text).map_err(|error| {
+                let detail = error.reason;
+                refused(&self.name, Some(error.place.line), Problem::Detail { detail })
+            })?;
             let nothing = Scenario::default();
             let taken = all.iter().find_map(|object| {
                 let (name, of) = (&object.name, nothing.owner(&object.name, arm, tool)?);
@@ -106,7 +110,15 @@ impl ObstacleText {
     #[must_use]
     pub fn notes_on_meshes(&self, meshes: &MeshPlaces) -> Vec<Note> {
         match is_scene(&self.name) {
-            true => planning_scene::notes_on_meshes(&self.text),
+            true => {
+                let note = |mesh: scene::MeshExcess| Note::LargerThanMesh {
+                    body: mesh.obstacle,
+                    by_m: mesh.by_m,
+                    as_what: MeshAs::Parts,
+                };
+                let all = scene::mesh_excesses(&self.text).into_iter();
+                all.filter(|mesh| mesh.by_m > LEAST_EXCESS_M).map(note).collect()
+            }
             false => self
                 .sections(&OBSTACLES, "", meshes)
                 .map_or_else(|_| Vec::new(), |(scenario, _)| scenario.notes_on_meshes()),

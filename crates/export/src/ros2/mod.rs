@@ -7,11 +7,9 @@
 //! | --- | --- |
 //! | contents of a message | here |
 //! | messages as YAML and JSON; times in them; the script that sends a goal | `write`, `play.py` |
-//! | numbers in messages | `number` |
-//! | YAML as a tree with lines; that as a reading | `node`; `read` |
+//! | numbers as they are written | `number` |
+//! | a message, as a tree of values, as a reading | `read`, `platewash_motion_proof::message` |
 
-pub(crate) mod language;
-pub(crate) mod node;
 pub(crate) mod number;
 pub(crate) mod read;
 pub mod write;
@@ -19,8 +17,8 @@ pub mod write;
 use crate::dialect::{Dialect, Points, ReadError, start_within_deg};
 use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
-use crate::ros2::language::Language;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_motion_proof::message::{Language, NS_PER_S};
 
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
 pub const TRAJECTORY_JSON: &str = "joint_trajectory.json";
@@ -92,7 +90,7 @@ impl Dialect for Ros2 {
         let mut start_within_deg = None;
         let is_sent = messages.iter().any(|file| file.name == SENT);
         for player in players {
-            let within_deg = write::check(player).map_err(|fault| read::refused(player, fault))?;
+            let within_deg = write::check(player).map_err(|fault| fault.in_file(&player.name))?;
             start_within_deg = is_sent.then_some(within_deg);
         }
         read::reading(&messages, arm).map(|reading| Reading {
@@ -147,7 +145,7 @@ const LEAST_PATH_RAD: f64 = 0.02;
 pub(crate) const GOAL_RAD: f64 = 0.01;
 
 /// Delay beyond the planned end at which the goal may still be reached \[ns\].
-pub(crate) const GOAL_TIME_NS: i64 = write::NS_PER_S;
+pub(crate) const GOAL_TIME_NS: i64 = NS_PER_S;
 
 /// Tolerances are whole multiples of one radian by this.
 const STEPS_PER_RAD: f64 = 1000.0;

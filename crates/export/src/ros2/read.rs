@@ -8,12 +8,13 @@ use crate::controller_settings::{Accepted, SettingList};
 use crate::dialect::ReadError;
 use crate::program::{Place, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
-use crate::ros2::language::Language;
-use crate::ros2::node::{self, Entry, Fault, Kind, Node};
-use crate::ros2::number::{self, ParsedNumber};
-use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, NS_PER_S, seconds_between};
+use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, seconds_between};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_workcell::words::{quoted, without_mark};
+use platewash_motion_proof::message::number;
+use platewash_motion_proof::message::{
+    Fault, Fields, Kind, NS_PER_S, Node, ParsedNumber, again, document, entries, list, parse_number, text,
+};
+use platewash_workcell::words::quoted;
 
 /// Greatest last speed that the controller takes for zero \[rad/s\].
 const AT_REST_RAD_S: f64 = f32::EPSILON as f64;
@@ -28,20 +29,15 @@ fn broken<T>(node: &Node<'_>, (rule, by): (&str, &str), found: impl AsRef<str>) 
     node.refused(format!("{} (rule {rule} of {by})", found.as_ref()))
 }
 
-/// A fault in a file, as a dialect states it.
-pub(crate) fn refused(file: &ProgramFile, Fault { line, reason }: Fault) -> ReadError {
-    ReadError::at(&file.name, line.max(1), reason)
-}
-
 /// Reads the files, which must all state the same motion.
 pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Reading, ReadError> {
     let mut first: Option<(&ProgramFile, Reading)> = None;
     for file in files {
-        let found = one(file, arm).map_err(|fault| refused(file, fault))?;
+        let found = one(file, arm).map_err(|fault| fault.in_file(&file.name))?;
         match &mut first {
             None => first = Some((file, found)),
             Some((other, expected)) => {
-                same(&other.name, expected, &found).map_err(|fault| refused(file, fault))?;
+                same(&other.name, expected, &found).map_err(|fault| fault.in_file(&file.name))?;
                 expected.settings.extend(found.settings);
             }
         }
@@ -51,30 +47,8 @@ pub(crate) fn reading(files: &[&ProgramFile], arm: &RobotModel) -> Result<Readin
         return Err(ReadError::at("joint_trajectory.yaml", 1, reason));
     };
     let speed_share = files.iter().find_map(|file| speed_share(&file.text)).transpose();
-    let speed_share = speed_share.map_err(|fault| refused(file, fault))?;
+    let speed_share = speed_share.map_err(|fault| fault.in_file(&file.name))?;
     Ok(Reading { speed_share, ..reading })
-}
-
-/// Reads a text as a tree, by the end of its file's name. `other` is the reason to refuse another name.
-fn document<'a>(name: &str, text: &'a str, other: &str) -> Result<Node<'a>, Fault> {
-    let text = without_mark(text);
-    node::read(text, language(name, text, other)?)
-}
-
-/// Reads a text of several documents as trees, by the end of its file's name. `other` is the reason to refuse another name.
-pub(crate) fn documents<'a>(name: &str, text: &'a str, other: &str) -> Result<Vec<Node<'a>>, Fault> {
-    let text = without_mark(text);
-    node::documents(text, language(name, text, other)?)
-}
-
-/// Language of a text by the end of its file's name; a text of JSON must be some.
-fn language(name: &str, text: &str, other: &str) -> Result<Language, Fault> {
-    let language = Language::of(name).ok_or_else(|| Fault::new(1, other))?;
-    if language == Language::Json && text.len() <= node::MAX_BYTES {
-        let json = serde_json::from_str::<serde::de::IgnoredAny>(text);
-        json.map_err(|e| Fault::new(e.line(), format!("not JSON: {e}")))?;
-    }
-    Ok(language)
 }
 
 /// Reads one file.
@@ -222,11 +196,6 @@ fn order(node: &Node<'_>, known: &[&str]) -> Result<[usize; AXES], Fault> {
     }))
 }
 
-/// The words on a joint that is named twice.
-pub(crate) fn again(name: &str) -> String {
-    format!("expected each joint once; found {} again", quoted(name))
-}
-
 fn unknown(name: &str, known: &[&str]) -> String {
     format!(
         "expected one of the arm's joints {}; found {}",
@@ -345,37 +314,6 @@ fn speed_share(text: &str) -> Option<Result<f64, Fault>> {
     })
 }
 
-/// A text: in quotes, or a word that no reader takes for anything else.
-pub(crate) fn text(node: &Node<'_>) -> Result<String, Fault> {
-    match &node.kind {
-        Kind::Quoted(text) => Ok(text.to_string()),
-        Kind::Plain(text) if is_word(text) => Ok(text.to_string()),
-        _ => node.unexpected("a text"),
-    }
-}
-
-fn is_word(text: &str) -> bool {
-    const OTHERS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
-    let named = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '/' | '.');
-    text.starts_with(|c: char| c.is_ascii_alphabetic())
-        && text.chars().all(named)
-        && !OTHERS.contains(&text.to_ascii_lowercase().as_str())
-}
-
-pub(crate) fn list<'n, 'a>(node: &'n Node<'a>) -> Result<&'n [Node<'a>], Fault> {
-    match &node.kind {
-        Kind::List(nodes) => Ok(nodes),
-        _ => node.unexpected("a list"),
-    }
-}
-
-pub(crate) fn parse_number(node: &Node<'_>) -> ParsedNumber {
-    match &node.kind {
-        Kind::Plain(text) | Kind::OfJson(text) => number::read(text),
-        _ => ParsedNumber::Nothing,
-    }
-}
-
 fn float(node: &Node<'_>) -> Result<f64, Fault> {
     let found = node.kind.message();
     let reason = match parse_number(node) {
@@ -390,43 +328,4 @@ fn float(node: &Node<'_>) -> Result<f64, Fault> {
         ParsedNumber::Nothing => format!("expected a float, finite and in decimals; found {found}"),
     };
     node.refused(reason)
-}
-
-pub(crate) fn entries<'n, 'a>(node: &'n Node<'a>, what: &str) -> Result<&'n [Entry<'a>], Fault> {
-    match &node.kind {
-        Kind::Table(entries) => Ok(entries),
-        _ => node.unexpected(what),
-    }
-}
-
-/// A table whose keys are known.
-pub(crate) struct Fields<'n, 'a> {
-    pub(crate) node: &'n Node<'a>,
-    what: &'static str,
-}
-
-impl<'n, 'a> Fields<'n, 'a> {
-    pub(crate) fn of(node: &'n Node<'a>, what: &'static str, known: &[&str]) -> Result<Self, Fault> {
-        let entries = entries(node, what)?;
-        match entries.iter().find(|entry| !known.contains(&entry.key.as_ref())) {
-            Some(entry) => {
-                let found = quoted(&Kind::Plain(entry.key.clone()).message());
-                let reason = format!("expected {what} with {}; found the key {found}", known.join(", "));
-                Fault::err(entry.line, reason)
-            }
-            None => Ok(Self { node, what }),
-        }
-    }
-
-    pub(crate) fn get(&self, key: &str) -> Option<&'n Node<'a>> {
-        self.node.get(key)
-    }
-
-    pub(crate) fn needed(&self, key: &str) -> Result<&'n Node<'a>, Fault> {
-        let missing = || {
-            self.node
-                .refused(format!("expected {} with {key}; it is missing", self.what))
-        };
-        self.get(key).map_or_else(missing, Ok)
-    }
 }

@@ -6,11 +6,10 @@
 
 use crate::dialect::START_WITHIN_DEG;
 use crate::program::{Program, ProgramFile};
-use crate::ros2::language::Language;
-use crate::ros2::node::Fault;
 use crate::ros2::number::{float, quoted};
 use crate::ros2::{GOAL_RAD, GOAL_TIME_NS, Message, MessagePoint};
 use platewash_kinematics::{AXES, JointVector};
+use platewash_motion_proof::message::{Fault, Language, NS_PER_S};
 use platewash_workcell::words::printable;
 
 /// Text before the share of the speed in the head of a YAML file.
@@ -171,9 +170,6 @@ pub(crate) fn check(file: &ProgramFile) -> Result<f64, Fault> {
     let reason = "expected the player as this version writes it; found another line: nothing is known of what it sends";
     Fault::err(line, reason)
 }
-
-/// Nanoseconds of a second.
-pub(crate) const NS_PER_S: i64 = 1_000_000_000;
 
 /// Time at which the first point is reached, where the plan begins \[s\]. A controller moves there from the arm's current
 /// position: a first point at 0 s would be a step.

@@ -1,13 +1,14 @@
 //! YAML as a tree with lines, strictly and within bounds: the part of the language that a message needs, and nothing else.
 
-use crate::ros2::language::Language;
+use crate::message::language::Language;
+use crate::place::ReadError;
 use platewash_workcell::words::{quoted, shortened};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Longest text that is read \[bytes\].
-pub(crate) const MAX_BYTES: usize = 1 << 25;
+pub const MAX_BYTES: usize = 1 << 25;
 
 /// Most values of a text, keys among them.
 const MAX_NODES: usize = 4_000_000;
@@ -20,15 +21,15 @@ const LONGEST: usize = 40;
 
 /// A value of a text.
 #[derive(Debug, Clone)]
-pub(crate) struct Node<'a> {
+pub struct Node<'a> {
     /// The line at which it begins, from 1.
-    pub(crate) line: usize,
-    pub(crate) kind: Kind<'a>,
+    pub line: usize,
+    pub kind: Kind<'a>,
 }
 
 /// Kind of a value.
 #[derive(Debug, Clone)]
-pub(crate) enum Kind<'a> {
+pub enum Kind<'a> {
     /// Value without quotes: a number, or a word.
     Plain(Cow<'a, str>),
     /// Value without quotes in a text that is also JSON: its numbers are those of JSON.
@@ -42,34 +43,43 @@ pub(crate) enum Kind<'a> {
 
 /// A key of a table, and its value.
 #[derive(Debug, Clone)]
-pub(crate) struct Entry<'a> {
-    pub(crate) key: Cow<'a, str>,
-    pub(crate) line: usize,
-    pub(crate) value: Node<'a>,
+pub struct Entry<'a> {
+    pub key: Cow<'a, str>,
+    pub line: usize,
+    pub value: Node<'a>,
 }
 
 /// A line, and its error.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
-    pub(crate) line: usize,
-    pub(crate) reason: String,
+pub struct Fault {
+    pub line: usize,
+    pub reason: String,
 }
 
 impl Fault {
-    pub(crate) fn new(line: usize, reason: impl Into<String>) -> Self {
+    pub fn new(line: usize, reason: impl Into<String>) -> Self {
         let reason = reason.into();
         Self { line, reason }
     }
 
+    /// Returns the fault as the error of a file.
+    #[must_use]
+    pub fn in_file(self, name: &str) -> ReadError {
+        ReadError::at(name, self.line.max(1), self.reason)
+    }
+
     /// Refuses a line.
-    pub(crate) fn err<T>(line: usize, reason: impl Into<String>) -> Result<T, Self> {
+    ///
+    /// # Errors
+    /// The fault, always.
+    pub fn err<T>(line: usize, reason: impl Into<String>) -> Result<T, Self> {
         Err(Self::new(line, reason))
     }
 }
 
 impl Kind<'_> {
     /// Message of the fault, in words.
-    pub(crate) fn message(&self) -> String {
+    pub fn message(&self) -> String {
         match self {
             Self::Plain(text) | Self::OfJson(text) => told(text),
             Self::Quoted(text) => format!("the text {}", quoted(&told(text))),
@@ -88,19 +98,19 @@ fn told(text: &str) -> String {
 
 impl<'a> Node<'a> {
     /// The value of a key, where it is a table that has it.
-    pub(crate) fn get(&self, key: &str) -> Option<&Self> {
+    pub fn get(&self, key: &str) -> Option<&Self> {
         let Kind::Table(entries) = &self.kind else { return None };
         let entry = entries.iter().find(|entry| entry.key == key);
         entry.map(|entry| &entry.value)
     }
 
     /// The fault of its line.
-    pub(crate) fn refused<T>(&self, reason: impl Into<String>) -> Result<T, Fault> {
+    pub fn refused<T>(&self, reason: impl Into<String>) -> Result<T, Fault> {
         Fault::err(self.line, reason)
     }
 
     /// The fault of a node that is something else than expected.
-    pub(crate) fn unexpected<T>(&self, expected: &str) -> Result<T, Fault> {
+    pub fn unexpected<T>(&self, expected: &str) -> Result<T, Fault> {
         self.refused(format!("expected {expected}; found {}", self.kind.message()))
     }
 
@@ -121,7 +131,7 @@ impl<'a> Node<'a> {
 }
 
 /// Reads a text of one document: no tags, no key twice in a table.
-pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
+pub fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
     let mut all = documents(text, language)?.into_iter();
     match (all.next(), all.next()) {
         (Some(root), None) => Ok(root),
@@ -131,7 +141,7 @@ pub(crate) fn read(text: &str, language: Language) -> Result<Node<'_>, Fault> {
 }
 
 /// Reads the documents of a text, but for empty ones.
-pub(crate) fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>, Fault> {
+pub fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>, Fault> {
     if text.len() > MAX_BYTES {
         let reason = format!("expected {MAX_BYTES} bytes at most; found {}", text.len());
         return Fault::err(1, reason);
@@ -169,7 +179,7 @@ pub(crate) fn documents(text: &str, language: Language) -> Result<Vec<Node<'_>>,
 
 /// Returns a text with every line that continues a list or table in brackets indented far. YAML 1.2 wants such a line farther in than the key
 /// before; YAML 1.1, in which ROS writes and reads messages, does not.
-pub(crate) fn with_indented_brackets(text: &str) -> String {
+pub fn with_indented_brackets(text: &str) -> String {
     const FAR: &str = "                                ";
     let mut out = String::with_capacity(text.len());
     let mut depth = 0_usize;

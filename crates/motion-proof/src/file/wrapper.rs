@@ -12,9 +12,7 @@
 //!
 //! What they state beside the trajectory is used, becomes a note, or is on the list of docs/prove-motion.md of what cannot matter.
 
-use crate::ros2::node::{Fault, Kind, Node};
-use crate::ros2::number::ParsedNumber;
-use crate::ros2::read::{Fields, entries, list, parse_number, text};
+use crate::message::{Fault, Fields, Kind, Node, ParsedNumber, entries, list, parse_number, text};
 use platewash_workcell::words::{count_with_noun, quoted};
 
 /// Code of success in `moveit_msgs/MoveItErrorCodes`.

@@ -2,7 +2,7 @@
 
 /// Notation of keys and lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Language {
+pub enum Language {
     /// YAML 1.1 and 1.2, with a head of comments.
     Yaml,
     /// JSON, which has no comments.
@@ -11,7 +11,7 @@ pub(crate) enum Language {
 
 impl Language {
     /// Language of a file, by its name.
-    pub(crate) fn of(name: &str) -> Option<Self> {
+    pub fn of(name: &str) -> Option<Self> {
         match name.rsplit_once('.')?.1.to_ascii_lowercase().as_str() {
             "yaml" | "yml" => Some(Self::Yaml),
             "json" => Some(Self::Json),

@@ -4,14 +4,15 @@
 //! Joints are matched by name. A stamp that is not zero becomes a note. Frame and number of a header, tolerances and efforts change nothing of
 //! the positions that are asked of the joints, and are not read.
 
-use crate::dialect::ReadError;
-use crate::program::ProgramFile;
-use crate::ros2::node::{Fault, Kind, Node, with_indented_brackets};
-use crate::ros2::number::ParsedNumber;
-use crate::ros2::read::{Fields, again, documents, list, parse_number, refused, text};
-use crate::ros2::write::NS_PER_S;
-use crate::trajectory::wrapper::{self, FoundTrajectory, RobotState, number};
-use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
+use crate::file::wrapper::{self, FoundTrajectory, RobotState, number};
+use crate::file::{check_fixed, check_fixed_names};
+use crate::message::{
+    Fault, Fields, Kind, NS_PER_S, Node, ParsedNumber, again, documents, list, parse_number, text,
+    with_indented_brackets,
+};
+use crate::place::ReadError;
+use crate::points::JointPoints;
+use crate::time::ExactTime;
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::words::rounded;
 use platewash_kinematics::{Joint, JointVector, RobotModel};
@@ -22,7 +23,8 @@ const SAME_START: f64 = 1e-4;
 
 /// Reads the trajectories of a file: the points of each, and the line of each point.
 pub(super) fn read_all(
-    file: &ProgramFile,
+    name: &str,
+    text: &str,
     arm: &RobotModel,
     fixed: &FixedJoints,
 ) -> Result<Vec<(JointPoints, Vec<usize>)>, ReadError> {
@@ -31,11 +33,11 @@ pub(super) fn read_all(
     let read = || {
         let mut all = Vec::new();
         let indented;
-        let roots = match documents(&file.name, &file.text, other) {
+        let roots = match documents(name, text, other) {
             // What YAML 1.1 alone reads, as ROS does; a text that neither reads is refused for what was found first.
             Err(fault) => {
-                indented = with_indented_brackets(&file.text);
-                documents(&file.name, &indented, other).map_err(|_| fault)?
+                indented = with_indented_brackets(text);
+                documents(name, &indented, other).map_err(|_| fault)?
             }
             roots => roots?,
         };
@@ -49,7 +51,7 @@ pub(super) fn read_all(
             false => Ok(all),
         }
     };
-    read().map_err(|fault| refused(file, fault))
+    read().map_err(|fault| fault.in_file(name))
 }
 
 /// Joints that a message may have.

@@ -5,9 +5,7 @@
 //! older files place the shapes in the frame of the scene. The line after the first object's name tells them apart. Numbers are metres;
 //! a pose is x y z and a quaternion x y z w.
 
-use crate::error::{Problem, ScenarioError};
-use crate::resolve::surroundings::LEAST_EXCESS_M;
-use crate::units::{MeshAs, Note};
+use crate::place::ReadError;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use platewash_bodies::clearance::{SolidParts, excess_m, solid_parts};
 use platewash_kinematics::Pose;
@@ -31,33 +29,40 @@ const MOST: usize = 1_000_000;
 /// Longest word that a message repeats, in characters.
 const LONGEST: usize = 40;
 
-/// Reads the obstacles of a scene, in its frame. Meshes become convex parts that enclose their surface, and a cone the hull of a prism around it.
+/// Reads the obstacles of a scene, in its frame. Meshes become convex parts that enclose their surface, and a cone the hull of a prism around
+/// it. `name` is that of the file, for messages.
 ///
 /// # Errors
-/// [`ScenarioError`] with the line.
-pub(crate) fn read(name: &str, text: &str) -> Result<Vec<Obstacle>, ScenarioError> {
+/// [`ReadError`] with the line.
+pub fn read(name: &str, text: &str) -> Result<Vec<Obstacle>, ReadError> {
     let mut reader = Reader::new(text);
     reader
         .scene()
-        .map_err(|detail| ScenarioError::new(name, Some(reader.line), Problem::Detail { detail }))
+        .map_err(|reason| ReadError::at(name, reader.line, reason))
 }
 
-/// Notes on convex parts that reach beyond the meshes of a scene; none for a scene that cannot be read.
-pub(crate) fn notes_on_meshes(text: &str) -> Vec<Note> {
+/// Distance by which the convex parts of an obstacle reach beyond its mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshExcess {
+    /// Name of the obstacle.
+    pub obstacle: String,
+    /// The distance \[m\].
+    pub by_m: f64,
+}
+
+/// Returns how far the convex parts of each mesh of a scene reach beyond it; none for a scene that cannot be read.
+#[must_use]
+pub fn mesh_excesses(text: &str) -> Vec<MeshExcess> {
     let mut reader = Reader::new(text);
     reader.keeps_meshes = true;
     if reader.scene().is_err() {
         return Vec::new();
     }
-    let note = |mesh: &SceneMesh| {
-        let by_m = excess_m(&mesh.triangles, &mesh.parts);
-        (by_m > LEAST_EXCESS_M).then(|| Note::LargerThanMesh {
-            body: mesh.name.clone(),
-            by_m,
-            as_what: MeshAs::Parts,
-        })
+    let excess = |mesh: SceneMesh| MeshExcess {
+        by_m: excess_m(&mesh.triangles, &mesh.parts),
+        obstacle: mesh.name,
     };
-    reader.meshes.iter().filter_map(note).collect()
+    reader.meshes.into_iter().map(excess).collect()
 }
 
 /// Mesh of a scene, and its convex parts.
@@ -410,24 +415,16 @@ mod tests {
     #[test]
     fn faults_name_the_line() {
         let cases = [
-            (
-                OLD.replace("0.4 0.6", "-0.4 0.6"),
-                "a.scene, line 5",
-                "above 0 m; found -0.4",
-            ),
-            (OLD.replace("0.4 0.6", "400 600"), "a.scene, line 5", "millimetres"),
-            (OLD.replace("box", "octree"), "a.scene, line 4", "\"octree\""),
-            (OLD.replace("0.05 0.8", "0.05 nan"), "a.scene, line 12", "\"nan\""),
-            (
-                OLD.replace("0 0 0 1\n1 0", "0 0 0 2\n1 0"),
-                "a.scene, line 19",
-                "length 2",
-            ),
-            (OLD.replace("* post", "* table top"), "a.scene, line 9", "twice"),
-            (OLD.replace("* post", "post"), "a.scene, line 9", "'* NAME'"),
+            (OLD.replace("0.4 0.6", "-0.4 0.6"), "a.scene:5", "above 0 m; found -0.4"),
+            (OLD.replace("0.4 0.6", "400 600"), "a.scene:5", "millimetres"),
+            (OLD.replace("box", "octree"), "a.scene:4", "\"octree\""),
+            (OLD.replace("0.05 0.8", "0.05 nan"), "a.scene:12", "\"nan\""),
+            (OLD.replace("0 0 0 1\n1 0", "0 0 0 2\n1 0"), "a.scene:19", "length 2"),
+            (OLD.replace("* post", "* table top"), "a.scene:9", "twice"),
+            (OLD.replace("* post", "post"), "a.scene:9", "'* NAME'"),
             (
                 OLD.replace("1 0 0 1\n.\n", ""),
-                "a.scene, line 20",
+                "a.scene:20",
                 "a colour, four numbers; the file ends",
             ),
         ];

@@ -1,9 +1,9 @@
 //! Trajectories of files: what is read, and what is refused with its line.
 
-use platewash_export::trajectory::{ExactTime, Interpolation, JointPoints, PointMotion, PointsError, TrajectoryFile};
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_motion_proof::{ExactTime, Interpolation, JointPoints, PointMotion, PointsError, TrajectoryFile};
 
 fn arm() -> RobotModel {
     RobotModel::irb120().unwrap()
@@ -15,7 +15,7 @@ fn read(name: &str, text: &str) -> Result<TrajectoryFile, String> {
 
 fn fixed(name: &str, text: &str, fixed: &[(&str, f64)]) -> Result<TrajectoryFile, String> {
     let fixed = fixed.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect();
-    TrajectoryFile::read(name, text.to_owned(), &arm(), &fixed).map_err(|e| e.to_string())
+    TrajectoryFile::read(name, text, &arm(), &fixed).map_err(|e| e.to_string())
 }
 
 fn motion(name: &str, text: &str) -> Result<PointMotion, String> {

@@ -3,9 +3,10 @@
 //! Positions are `q1_rad` to `q6_rad` in the arm's order, or columns with the names of its joints; `t_s`, speeds and accelerations may be left
 //! out. Other columns of this program's own tables are not read.
 
-use crate::dialect::ReadError;
-use crate::program::ProgramFile;
-use crate::trajectory::{ExactTime, JointPoints, check_fixed, check_fixed_names};
+use crate::file::{check_fixed, check_fixed_names};
+use crate::place::ReadError;
+use crate::points::JointPoints;
+use crate::time::ExactTime;
 use platewash_kinematics::urdf::FixedJoints;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_motion::csv::{MAX_ROWS, STATE};
@@ -25,11 +26,12 @@ const PLAN_TIME: [&str; 1] = ["plan_t_s"];
 
 /// Reads a table: the points, and the line of each.
 pub(super) fn read(
-    file: &ProgramFile,
+    name: &str,
+    text: &str,
     arm: &RobotModel,
     fixed: &FixedJoints,
 ) -> Result<(JointPoints, Vec<usize>), ReadError> {
-    let text = with_bare_header(&file.text);
+    let text = with_bare_header(text);
     let columns = Columns::of(&text, arm, fixed);
     let read = columns.table(&text).and_then(|table| {
         let is_there = |name: &str| table.places(&[name]).is_some();
@@ -41,7 +43,7 @@ pub(super) fn read(
         })?;
         columns.points(&table)
     });
-    read.map_err(|error| ReadError::at(&file.name, error.line, error.without_line()))
+    read.map_err(|error| ReadError::at(name, error.line, error.without_line()))
 }
 
 /// The text of a table with its header as a line of its own: NumPy writes the header behind a `#`, right before the first row of numbers.

@@ -1,8 +1,8 @@
 //! Every number and every name of a trajectory's file is used, named or refused, or it is on the list of what cannot matter.
 
-use platewash_export::trajectory::{PointMotion, TrajectoryFile};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::FixedJoints;
+use platewash_motion_proof::{PointMotion, TrajectoryFile};
 
 /// Keys whose numbers change nothing of the positions that are asked of the joints: docs/prove-motion.md lists them.
 const CANNOT_MATTER: [&str; 8] = [
@@ -18,8 +18,7 @@ const CANNOT_MATTER: [&str; 8] = [
 
 fn outcome(name: &str, text: &str) -> Result<PointMotion, String> {
     let arm = RobotModel::irb120().unwrap();
-    let file =
-        TrajectoryFile::read(name, text.to_owned(), &arm, &FixedJoints::new()).map_err(|error| error.to_string())?;
+    let file = TrajectoryFile::read(name, text, &arm, &FixedJoints::new()).map_err(|error| error.to_string())?;
     file.motion(&arm, None).map_err(|error| error.to_string())
 }
 

@@ -1,8 +1,8 @@
 //! Trajectories in the messages of planners, action clients and recorders.
 
-use platewash_export::trajectory::{Interpolation, PointMotion, TrajectoryFile};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::FixedJoints;
+use platewash_motion_proof::{Interpolation, PointMotion, TrajectoryFile};
 
 const NAMES: &str = "joint_names: [joint_1, joint_2, joint_3, joint_4, joint_5, joint_6]";
 
@@ -19,7 +19,7 @@ fn trajectory(indent: usize, to: f64) -> String {
 
 fn read_all(name: &str, text: &str) -> Result<Vec<PointMotion>, String> {
     let arm = RobotModel::irb120().unwrap();
-    let files = TrajectoryFile::read_all(name, text.to_owned(), &arm, &FixedJoints::new());
+    let files = TrajectoryFile::read_all(name, text, &arm, &FixedJoints::new());
     let files = files.map_err(|error| error.to_string())?;
     files
         .iter()
@@ -211,7 +211,7 @@ fn several_trajectories_are_read_in_order() {
         assert_eq!(ends, [1.3, 0.2]);
     }
     let arm = RobotModel::irb120().unwrap();
-    let one = TrajectoryFile::read("a.yaml", two, &arm, &FixedJoints::new()).unwrap_err();
+    let one = TrajectoryFile::read("a.yaml", &two, &arm, &FixedJoints::new()).unwrap_err();
     assert_eq!(
         one.to_string(),
         "a.yaml:8: expected one trajectory; found 2, the last of them here"
