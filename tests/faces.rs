@@ -3,8 +3,8 @@
 
 use platewash::motion::trajectory::SegmentKind;
 use platewash::scenario::SHIPPED;
-use platewash::workcell::job::PatternName;
 use platewash::workcell::random::stream;
+use platewash::workcell::wash_path::PatternName;
 use platewash::{Plan, RobotModel, Scenario, plan, prove};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -196,10 +196,10 @@ fn is_planned_as_pinned(seed: u64) -> bool {
         }
     };
     let path = &planned.plan.wash_paths[0];
-    assert_eq!(path.curve.rings.is_none(), is_spiral, "{name}, seed {seed}");
+    assert_eq!(path.curve.rings().is_none(), is_spiral, "{name}, seed {seed}");
     assert_eq!(path.curve.radius_m, radius_m, "{name}, seed {seed}");
     assert_eq!(path.cone_rad, tilt_deg.to_radians(), "{name}, seed {seed}");
-    match path.curve.rings {
+    match path.curve.rings() {
         Some(rings) => assert_eq!(rings.count as f64, turns + 1.0, "{name}, seed {seed}"),
         None => assert_eq!(
             (path.curve.turns, path.curve.closing_ring),

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._errors import PlatewashError
-from ._values import Floats, Plate, Rings, WashCurve
+from ._values import Floats, Plate
 
 #: Characters of a name that are told.
 LONGEST_NAME = 100
@@ -264,23 +264,7 @@ def wash_paths(of: _core.Plan) -> list[Floats]:
         # At rest in the world, without a tool: the program moves the flange.
         spans = [np.linspace(s.t_start_s, s.t_end_s, 200) for s in of.segments if s.kind == "wash"]
         return [of.robot.fk(of.trajectory.at(t_s)[0])[:, :2, 3] for t_s in spans]
-    paths: list[Floats] = []
-    for path in of.wash_paths if len(of.plates) <= MOST_PATHS else ():
-        curve, pose = path.curve, of.job.plates[path.plate].pose
-        rings = curve.get("rings")
-        shape = WashCurve(
-            radius_m=curve.radius_m,
-            turns=curve.turns,
-            start_angle_rad=curve.start_angle_rad,
-            closing_ring=curve.closing_ring,
-            trim_rad=curve.get("trim_rad", 0.0),
-            rings=None if rings is None else Rings(**rings),
-        )
-        points = shape.on(of.plates[path.plate], 1.5e-3)[1][:, :2]
-        w, _, _, z = pose.quaternion_wxyz
-        turn = np.array([[w * w - z * z, -2 * w * z], [2 * w * z, w * w - z * z]])
-        paths.append(points @ turn.T + np.array(pose.position_m[:2]))
-    return paths
+    return of._wash_curves(1.5e-3) if len(of.plates) <= MOST_PATHS else []
 
 
 def plate_name(index: int) -> str:

@@ -9,13 +9,12 @@ use platewash::certificate::Requirement::{
 };
 use platewash::certificate::{Certificate, Status, prove};
 use platewash::motion::trajectory::SegmentKind;
-use platewash::workcell::job::{
-    ContactRequirements, FixtureTerms, HolderTerms, PatternName, Planner, PlannerSettings, RingTerms,
-};
+use platewash::workcell::job::{ContactRequirements, FixtureTerms, HolderTerms, Planner, PlannerSettings, RingTerms};
 use platewash::workcell::plate::Foot;
 use platewash::workcell::simulation::FoamContact;
 use platewash::workcell::surface::Knot;
 use platewash::workcell::tool::Sponge;
+use platewash::workcell::wash_path::{PatternName, WashPattern};
 use platewash::workcell::wash_path::{Rings, WashCurve};
 use platewash::{Plan, RobotModel, Surface, plan};
 use rayon::prelude::*;
@@ -218,7 +217,7 @@ const KITCHEN: [Case; 74] = [
         sponge(p).pose.translation.z += 1e-5
     }),
     Case("wash_paths[].curve.rings", Breaks(&[PathDeviation]), |p| {
-        curve(p).rings = None
+        curve(p).pattern = WashPattern::Spiral
     }),
     Case("wash_paths[].curve.rings.count", Breaks(&[PathDeviation]), |p| {
         rings(p).count = 4
@@ -360,7 +359,10 @@ fn curve(plan: &mut Plan) -> &mut WashCurve {
 }
 
 fn rings(plan: &mut Plan) -> &mut Rings {
-    curve(plan).rings.as_mut().unwrap()
+    match &mut curve(plan).pattern {
+        WashPattern::Rings(rings) => rings,
+        WashPattern::Spiral => panic!("a spiral has no rings"),
+    }
 }
 
 fn settings(plan: &mut Plan) -> &mut PlannerSettings {

@@ -11,7 +11,7 @@ use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::tool_down;
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
@@ -61,7 +61,7 @@ fn wash_path(terms: &JobTerms, plate: usize) -> WashPath {
             start_angle_rad: trig::atan2(y, x),
             closing_ring: settings.closing_ring.unwrap(),
             trim_rad: 0.0,
-            rings: None,
+            pattern: WashPattern::Spiral,
         },
         lift_m: settings.lift_m,
         cone_rad: terms.tilt_max_rad(),

@@ -10,7 +10,7 @@ use platewash_planner::redundancy::{Task, Washing, washing};
 use platewash_planner::scene::Scene;
 use platewash_planner::timing::{self, MotionLimits, TipLimits};
 use platewash_scenario::Scenario;
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
 use std::error::Error;
 use std::hint::black_box;
 
@@ -141,7 +141,7 @@ pub fn wash_path(job: &WashJob, plate: usize) -> Result<WashPath, Box<dyn Error>
             start_angle_rad: 0.0,
             closing_ring: settings.closing_ring.unwrap_or(true),
             trim_rad: 0.0,
-            rings: None,
+            pattern: WashPattern::Spiral,
         },
         lift_m: settings.lift_m,
         cone_rad: terms.tilt_max_rad(),

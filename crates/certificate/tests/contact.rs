@@ -6,7 +6,7 @@ use platewash_certificate::{PlateContact, Requirement, Status, dose_times, prove
 use platewash_fixtures::is_thorough;
 use platewash_motion::plan::Plan;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::{Rings, WashCurve};
+use platewash_workcell::wash_path::{Rings, WashCurve, WashPattern};
 
 pub fn spiral(radius_m: f64, turns: f64) -> WashCurve {
     WashCurve {
@@ -15,7 +15,7 @@ pub fn spiral(radius_m: f64, turns: f64) -> WashCurve {
         start_angle_rad: 0.3,
         closing_ring: true,
         trim_rad: 0.0,
-        rings: None,
+        pattern: WashPattern::Spiral,
     }
 }
 
@@ -29,7 +29,7 @@ pub fn rings() -> WashCurve {
     };
     WashCurve {
         turns: rings.turns(),
-        rings: Some(rings),
+        pattern: WashPattern::Rings(rings),
         ..spiral(0.121, 2.0)
     }
 }

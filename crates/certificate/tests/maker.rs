@@ -10,7 +10,7 @@ use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::job::{ContactRequirements, JobTerms};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::{StraightTool, Tool, tool_down};
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
 use platewash_workcell::workcell::{Obstacle, ObstacleShape};
 use std::sync::OnceLock;
 
@@ -51,7 +51,7 @@ impl Recipe {
                 start_angle_rad: 0.3,
                 closing_ring: true,
                 trim_rad: 0.0,
-                rings: None,
+                pattern: WashPattern::Spiral,
             },
             order,
             lean: 0.0,

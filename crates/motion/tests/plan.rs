@@ -2,7 +2,7 @@ use platewash_fixtures::kitchen;
 use platewash_kinematics::JointVector;
 use platewash_motion::plan::*;
 use platewash_motion::trajectory::{PlanSegment, SegmentKind};
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
 
 fn plan() -> Plan {
     let job = kitchen();
@@ -18,7 +18,7 @@ fn plan() -> Plan {
                 start_angle_rad: 0.1,
                 closing_ring: true,
                 trim_rad: 0.0,
-                rings: None,
+                pattern: WashPattern::Spiral,
             },
             lift_m: 0.03,
             cone_rad: 0.25,

@@ -81,12 +81,7 @@ impl VisitSummary {
     /// The pattern in words: a spiral and its turns, or how many rings.
     #[must_use]
     pub fn pattern(&self) -> String {
-        match &self.curve.rings {
-            Some(rings) if rings.laps > 1 => format!("{} rings, each {} times", rings.count, rings.laps),
-            Some(rings) => format!("{} rings", rings.count),
-            None if self.curve.closing_ring => format!("spiral of {:.2} turns and a ring", self.curve.turns),
-            None => format!("spiral of {:.2} turns", self.curve.turns),
-        }
+        self.curve.words()
     }
 }
 

@@ -14,7 +14,7 @@ use platewash_kinematics::{Frame, JointVector, RobotModel};
 use platewash_planner::joint_path::{Ends, JointPath};
 use platewash_planner::timing::{MotionLimits, TipLimits, time_optimal};
 use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::WashCurve;
+use platewash_workcell::wash_path::{WashCurve, WashPattern};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -127,7 +127,7 @@ pub fn wash(robot: &RobotModel, tip: &Frame, chord_error_m: f64) -> JointPath {
         start_angle_rad: 0.3,
         closing_ring: true,
         trim_rad: 0.0,
-        rings: None,
+        pattern: WashPattern::Spiral,
     };
     let solver = IkSolver::new(robot, *tip, IkSettings::default()).unwrap();
     let down = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI);

@@ -11,7 +11,7 @@ use platewash::paper::cubic::{self, Interpolation};
 use platewash::workcell::arc::{self, Arc};
 use platewash::workcell::job::MOST_PASSES;
 use platewash::workcell::surface::Surface;
-use platewash::workcell::wash_path::{MOST_RINGS, MOST_TRIM_RAD, Rings, WashCurve};
+use platewash::workcell::wash_path::{LEAST_BLEND_RAD, MOST_RINGS, MOST_TRIM_RAD, Rings, WashCurve, WashPattern};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
 
@@ -88,14 +88,14 @@ pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
         start_angle_rad: number("start_angle_rad", [-1e3, 1e3])?,
         closing_ring: argument::field(whole, value, ("curve", "closing_ring"), argument::flag)?,
         trim_rad: number("trim_rad", [0.0, MOST_TRIM_RAD])?,
-        rings: rings?,
+        pattern: rings?.map_or(WashPattern::Spiral, WashPattern::Rings),
     };
-    match curve.rings {
-        Some(rings) if (rings.turns() - curve.turns).abs() > SAME_TURNS => {
+    match curve.pattern {
+        WashPattern::Rings(rings) if (rings.turns() - curve.turns).abs() > SAME_TURNS => {
             let problem = format!("must be those of its rings, {}; found {}", rings.turns(), curve.turns);
             Err(errors::input(value.py(), "curve.turns", &problem))
         }
-        Some(rings) if rings.inner_m >= curve.radius_m => {
+        WashPattern::Rings(rings) if rings.inner_m >= curve.radius_m => {
             let problem = format!(
                 "must be below curve.radius_m = {}; found {}",
                 curve.radius_m, rings.inner_m
@@ -120,7 +120,7 @@ pub fn rings_of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Rings> {
         })?,
         inner_m: number("inner_m", [0.0, LARGEST_M])?,
         lead_rad: number("lead_rad", [0.0, TAU])?,
-        blend_rad: number("blend_rad", [1e-3, TAU])?,
+        blend_rad: number("blend_rad", [LEAST_BLEND_RAD, TAU])?,
         laps: argument::field(whole, value, ("rings", "laps"), |name, laps| {
             argument::count(name, laps, [1, u64::from(MOST_PASSES)])
         })? as u32,

@@ -7,12 +7,14 @@ use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
 use crate::work::ask;
 use crate::{argument, arrays, dry_run, export, recovery};
+use numpy::PyArrayDyn;
 use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;
 use platewash::motion::csv::table as csv_table;
 use platewash::motion::plan::PlanFileError;
 use platewash::motion::trajectory::KnotError;
 use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
+use platewash::workcell::wash_path::WashPath;
 use platewash::workcell::words::quoted;
 use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
@@ -237,6 +239,22 @@ impl PlanObject {
     #[getter]
     fn wash_paths<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         records(py, &self.inner.wash_paths)
+    }
+
+    /// The wash paths from above, each of shape (N, 2), world frame [m], with chords that leave them by at most `chord_error_m`.
+    ///
+    /// Raises InputError for a path whose numbers are out of range, or whose plate is not there.
+    fn _wash_curves<'py>(&self, py: Python<'py>, chord_error_m: f64) -> PyResult<Vec<Bound<'py, PyArrayDyn<f64>>>> {
+        let curve = |path: &WashPath| {
+            let plate = self.inner.job.plates.get(path.plate).filter(|_| path.curve.is_sound());
+            let problem = "a path is on no plate, or one of its numbers is out of range";
+            let plate = plate.ok_or_else(|| errors::keyed(py, "wash_paths", problem))?;
+            let theta = path.curve.parameters(&plate.surface, chord_error_m);
+            let points = theta.iter().map(|theta| path.contact(plate, *theta).xy());
+            let points: Vec<f64> = points.flat_map(<[f64; 2]>::from).collect();
+            arrays::array(py, &[theta.len(), 2], &points)
+        };
+        self.inner.wash_paths.iter().map(curve).collect()
     }
 
     /// Duration of the motion [s].

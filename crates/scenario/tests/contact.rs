@@ -2,7 +2,8 @@
 
 use platewash_scenario::Scenario;
 use platewash_scenario::keys::KEYS;
-use platewash_workcell::job::{ContactRequirements, PatternName, Planner};
+use platewash_workcell::job::{ContactRequirements, Planner};
+use platewash_workcell::wash_path::PatternName;
 
 const REGION: &str = "layout.region = \"appendix\"\n";
 

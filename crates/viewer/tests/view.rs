@@ -16,6 +16,7 @@ use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plate::Foot;
 use platewash_workcell::surface::Surface;
+use platewash_workcell::wash_path::{Rings, WashPattern};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -483,6 +484,20 @@ fn rejects_invalid_plans_and_shows_unusual_ones() {
     assert!(shown(|plan| plan.segments.clear()).unwrap().clearance.is_some());
     assert_eq!(
         shown(|plan| plan.wash_paths[0].curve.turns = 1e12).unwrap().paths.len(),
+        3
+    );
+    const ENDLESS: Rings = Rings {
+        count: 3,
+        inner_m: 0.02,
+        lead_rad: 2.0,
+        blend_rad: 1.7,
+        laps: u32::MAX,
+    };
+    assert_eq!(
+        shown(|plan| plan.wash_paths[0].curve.pattern = WashPattern::Rings(ENDLESS))
+            .unwrap()
+            .paths
+            .len(),
         3
     );
     // As a run of the paper's program: what the tip does while it washes.

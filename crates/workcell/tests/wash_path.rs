@@ -16,7 +16,7 @@ fn spirals() -> impl Strategy<Value = WashCurve> {
             start_angle_rad,
             closing_ring,
             trim_rad,
-            rings: None,
+            pattern: WashPattern::Spiral,
         },
     )
 }
@@ -47,7 +47,7 @@ fn rings() -> impl Strategy<Value = WashCurve> {
                     start_angle_rad,
                     closing_ring: true,
                     trim_rad,
-                    rings: Some(rings),
+                    pattern: WashPattern::Rings(rings),
                 }
             },
         )
@@ -89,7 +89,7 @@ proptest! {
 
     #[test]
     fn the_length_grows_from_ring_to_ring(curve in rings()) {
-        let rings = curve.rings.unwrap();
+        let rings = curve.rings().unwrap();
         let steps = 3000;
         let at = |k: i32| curve.arc(curve.end() * f64::from(k) / f64::from(steps))[0];
         prop_assert_eq!(at(0), rings.inner_m);
@@ -166,10 +166,60 @@ fn the_kitchen_has_the_expected_pitch() {
         start_angle_rad: 0.0,
         closing_ring: true,
         trim_rad: 0.0,
-        rings: None,
+        pattern: WashPattern::Spiral,
     };
     let expected = TAU * 0.124 / (7.0 * std::f64::consts::PI - 0.5);
     assert!((curve.pitch_m() - expected).abs() < 1e-15);
     let outwards = curve.at(TAU).position.norm() - curve.at(0.0).position.norm();
     assert!((outwards - curve.pitch_m()).abs() < 1e-15);
+}
+
+/// A plan file of other programs may state any number; only curves with all of them in range are sampled.
+#[test]
+fn curves_with_a_number_out_of_range_are_not_sound() {
+    let rings = Rings {
+        count: 4,
+        inner_m: 0.02,
+        lead_rad: 2.0,
+        blend_rad: 1.7,
+        laps: 1,
+    };
+    let good = WashCurve {
+        radius_m: 0.12,
+        turns: rings.turns(),
+        start_angle_rad: 0.0,
+        closing_ring: true,
+        trim_rad: 0.0,
+        pattern: WashPattern::Rings(rings),
+    };
+    assert!(good.is_sound());
+    let ringed = |rings| WashCurve {
+        pattern: WashPattern::Rings(rings),
+        ..good
+    };
+    let bad = [
+        WashCurve {
+            radius_m: f64::NAN,
+            ..good
+        },
+        WashCurve { turns: 1e12, ..good },
+        WashCurve { trim_rad: -1.0, ..good },
+        ringed(Rings {
+            laps: u32::MAX,
+            ..rings
+        }),
+        ringed(Rings { laps: 0, ..rings }),
+        ringed(Rings {
+            count: usize::MAX,
+            ..rings
+        }),
+        ringed(Rings {
+            blend_rad: 0.0,
+            ..rings
+        }),
+        ringed(Rings { inner_m: 0.2, ..rings }),
+    ];
+    for curve in bad {
+        assert!(!curve.is_sound(), "{curve:?}");
+    }
 }

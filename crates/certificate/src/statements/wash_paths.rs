@@ -8,53 +8,25 @@
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
 use platewash_motion::plan::Plan;
-use platewash_workcell::job::{MOST_PASSES, PlanKind, Statement, StatementRule};
-use platewash_workcell::wash_path::{
-    LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_RINGS, MOST_TRIM_RAD, MOST_TURNS, WashPath,
-};
-use std::f64::consts::{PI, TAU};
+use platewash_workcell::job::{PlanKind, Statement, StatementRule};
+use platewash_workcell::wash_path::{CurveNumber, WashPath};
 
-/// Greatest outer radius of a path, and greatest lift \[m\].
+/// Greatest lift \[m\].
 const GREATEST_M: f64 = 10.0;
 
-/// Least angle of a blend between two rings \[rad\].
-const LEAST_BLEND_RAD: f64 = 1e-3;
-
-/// Number of a path: its name, its value, and the least and greatest that can be judged.
-type Number = (&'static str, f64, [f64; 2]);
-
-fn is_within((_, found, [least, most]): &Number) -> bool {
+fn is_within((_, found, [least, most]): &CurveNumber) -> bool {
     (least..=most).contains(&found)
 }
 
 /// Returns the numbers of a path with their ranges. The swept area grows with them, and so does the time of judging it.
-fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<Number> {
+fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<CurveNumber> {
     let curve = &path.curve;
-    // A spiral of mean radius R/2, and a ring.
-    let length_m = PI * curve.radius_m * (curve.turns + 2.0);
-    let mut numbers = Vec::from([
-        ("curve.radius_m", curve.radius_m, [LEAST_RADIUS_M, GREATEST_M]),
-        ("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS]),
-        ("curve.start_angle_rad", curve.start_angle_rad, [-TAU, TAU]),
-        ("curve.trim_rad", curve.trim_rad, [0.0, MOST_TRIM_RAD]),
-        ("length of the curve", length_m, [0.0, LONGEST_M]),
+    let mut numbers = curve.numbers().to_vec();
+    numbers.extend([
         ("lift_m", path.lift_m, [f64::MIN_POSITIVE, GREATEST_M]),
         ("cone_rad", path.cone_rad, [0.0, tilt_rad]),
     ]);
-    if let Some(rings) = &curve.rings {
-        let count = rings.count as f64;
-        // No ring is longer than the outermost.
-        let laps = f64::from(rings.laps);
-        let length_m = TAU * curve.radius_m * (laps * count + 1.0);
-        numbers.extend([
-            ("curve.rings.laps", laps, [1.0, f64::from(MOST_PASSES)]),
-            ("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
-            ("curve.rings.inner_m", rings.inner_m, [0.0, curve.radius_m]),
-            ("curve.rings.lead_rad", rings.lead_rad, [0.0, TAU]),
-            ("curve.rings.blend_rad", rings.blend_rad, [LEAST_BLEND_RAD, TAU]),
-            ("length of the rings", length_m, [0.0, 2.0 * LONGEST_M]),
-        ]);
-    }
+    numbers.extend(curve.pattern_numbers());
     numbers
 }
 

@@ -22,8 +22,7 @@ use nalgebra::Vector3;
 use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M, Recovery};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::wash_path::{BLEND_RAD, WashCurve, WashPath};
-use std::f64::consts::TAU;
+use platewash_workcell::wash_path::{WashCurve, WashPath};
 
 /// Gap allowed between the bound of a deviation and the worst deviation found, as a part of the tolerance.
 const RESOLUTION: f64 = 0.02;
@@ -215,21 +214,11 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// Bound of the second derivative by θ between two θ. Of a spiral on a disc: |r″| + r + 2 r′, of which r never falls, r′ is at most the
-    /// spiral's rate a, and r″ is 0 before the blend and at most 15/8 a / β in it. Of others: [`WashCurve::greatest_second`].
+    /// Bound of the second derivative by θ between two θ: [`WashCurve::greatest_second`].
     pub fn bend(&self, between: [f64; 2]) -> f64 {
         match self {
             Self::Line { .. } => 0.0,
-            Self::Wash { face, curve } if curve.rings.is_some() || !face.surface().is_flat() => {
-                curve.greatest_second(face.surface(), between)
-            }
-            Self::Wash { curve, .. } => {
-                let [_, theta] = between;
-                let rate = curve.pitch_m() / TAU;
-                let r = curve.at(theta).position.norm();
-                let blends = theta >= curve.spiral_end() - BLEND_RAD;
-                r + 2.0 * rate + if blends { 1.875 * rate / BLEND_RAD } else { 0.0 }
-            }
+            Self::Wash { face, curve } => curve.greatest_second(face.surface(), between),
         }
     }
 

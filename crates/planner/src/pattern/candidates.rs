@@ -8,163 +8,21 @@ use crate::timing::TipLimits;
 use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Moment, SpongePose};
-use platewash_workcell::job::{PatternName, PlannerSettings};
 use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::{
-    BLEND_RAD, LEAST_RADIUS_M, LEAST_TURNS, MOST_RINGS, MOST_TURNS, Rings, SurfacePoint, WashCurve,
-};
-use std::f64::consts::TAU;
-
-/// Distances of neighbouring windings that are tried, in sponge radii: two of them touch at 2.
-const PITCHES: [f64; 9] = [1.95, 1.8, 1.65, 1.5, 1.4, 1.3, 1.2, 1.0, 0.8];
-
-/// Distances of the outermost winding from the rim that are tried, in sponge radii.
-const INSETS: [f64; 6] = [0.95, 0.92, 0.85, 0.77, 0.7, 0.5];
-
-/// λ₀ and w₀ of blends \[rad\]: shorter ones are shorter ways, and longer times where joints reach their accelerations.
-const BLENDS: [[f64; 2]; 2] = [[2.0, 1.7], [1.8, 1.4]];
-
-/// ℓ of the innermost ring, relative to that of evenly spaced rings: farther out it lies nearer to the next ones.
-const INNER: [f64; 3] = [1.0, 1.08, 1.17];
-
-/// Trims of the closing ring that are tried \[rad\], the greatest first: the blend before it covers some of its beginning.
-pub(crate) const TRIMS_RAD: [f64; 3] = [0.55, 0.4, 0.2];
-
-/// Rings that are tried at most, where their number is not stated.
-const MOST_TRIED: usize = 40;
-
-/// Pitches of denser curves, for doses that the usual ones do not give.
-const DENSE_PITCHES: [f64; 3] = [0.65, 0.5, 0.35];
-
-/// Density with which a curve covers a face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Density {
-    /// Density for a usual job.
-    Usual,
-    /// Denser than that.
-    Dense,
-}
+use platewash_workcell::wash_path::{CandidateRequest, Density, PatternName, SurfacePoint, WashCurve};
 
 /// Lists all curves of a density that the settings leave open, with the greatest trim; at least one of the usual density.
-pub(crate) fn candidates(
-    settings: &PlannerSettings,
-    surface: &Surface,
-    sponge_m: f64,
-    density: Density,
-    laps: u32,
-) -> Vec<WashCurve> {
-    // A spiral passes every place once.
-    let pattern = (laps > 1)
-        .then_some(PatternName::Rings)
-        .or(settings.pattern)
-        .or(states_spiral(settings).then_some(PatternName::Spiral));
-    let arc_m = surface.arc_m();
-    let mut all = Vec::new();
-    if settings.turns.is_some() && density == Density::Dense {
-        return all;
+pub(crate) fn candidates(request: &CandidateRequest<'_>) -> Vec<WashCurve> {
+    if request.settings.turns.is_some() && request.density == Density::Dense {
+        return Vec::new();
     }
-    if pattern != Some(PatternName::Spiral) {
-        all.extend(rings(settings, arc_m, sponge_m, density, laps));
-    }
-    if pattern != Some(PatternName::Rings) {
-        all.extend(spirals(settings, arc_m, sponge_m, density));
-    }
-    all
-}
-
-/// Checks that the settings state some of a spiral.
-fn states_spiral(settings: &PlannerSettings) -> bool {
-    settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some()
-}
-
-/// Greatest ℓ: the one stated, or those tried \[m\].
-fn outer(settings: &PlannerSettings, arc_m: f64, sponge_m: f64) -> Vec<f64> {
-    match settings.path_radius_m {
-        Some(radius_m) => vec![radius_m],
-        None => INSETS
-            .iter()
-            .map(|inset| (arc_m - inset * sponge_m).max(0.3 * arc_m))
-            .collect(),
-    }
-}
-
-fn spirals(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density) -> Vec<WashCurve> {
-    let pitches: &[f64] = match density {
-        Density::Usual => &PITCHES,
-        Density::Dense => &DENSE_PITCHES,
+    let asked = PatternName::asked(request.settings.pattern, request.states_numbers());
+    let suits = |pattern: &PatternName| match request.laps {
+        0 | 1 => asked.is_none_or(|asked| asked == *pattern),
+        _ => pattern.rules().repeats,
     };
-    let trim_rad = if states_spiral(settings) { 0.0 } else { TRIMS_RAD[0] };
-    let mut all = Vec::new();
-    for radius_m in outer(settings, arc_m, sponge_m) {
-        let turns = match settings.turns {
-            Some(turns) => vec![turns],
-            None => pitches
-                .iter()
-                .map(|pitch| radius_m / (pitch * sponge_m) + 0.5 * BLEND_RAD / TAU)
-                .collect(),
-        };
-        for turns in turns {
-            all.push(WashCurve {
-                radius_m: radius_m.max(LEAST_RADIUS_M),
-                turns: turns.clamp(LEAST_TURNS, MOST_TURNS),
-                start_angle_rad: 0.0,
-                closing_ring: settings.closing_ring.unwrap_or(true),
-                trim_rad,
-                rings: None,
-            });
-        }
-    }
-    all
-}
-
-/// Rings that lie evenly, or nearly so: about half a pitch from the pole to the first, and half a pitch or less from the last to the
-/// rim. As many as are stated, however far apart; at least one curve.
-fn rings(settings: &PlannerSettings, arc_m: f64, sponge_m: f64, density: Density, laps: u32) -> Vec<WashCurve> {
-    let mut all = Vec::new();
-    let [least, most] = match settings.turns {
-        Some(turns) => [(turns.round() as usize).saturating_add(1).clamp(2, MOST_RINGS); 2],
-        None => {
-            let least = ((arc_m / (2.0 * sponge_m)).ceil().max(2.0) as usize).min(MOST_TRIED);
-            let few = (least + 2).min(MOST_TRIED);
-            match density {
-                Density::Usual => [least, few],
-                Density::Dense => [few + 1, (few + 4).min(MOST_TRIED)],
-            }
-        }
-    };
-    for count in least..=most {
-        let half_m = arc_m / (2 * count) as f64;
-        let mut outers = outer(settings, arc_m, sponge_m);
-        if settings.path_radius_m.is_none() {
-            outers.push(arc_m - half_m);
-        }
-        for radius_m in outers.into_iter().map(|radius_m| radius_m.max(LEAST_RADIUS_M)) {
-            let even_m = radius_m / (2 * count - 1) as f64;
-            for inner_m in INNER.map(|share| share * even_m) {
-                all.extend(BLENDS.map(|blend| ringed((count, laps), [inner_m, radius_m], blend)));
-            }
-        }
-    }
-    all
-}
-
-/// Rings, each gone round a number of times, with ℓ of the innermost and of the outermost.
-fn ringed((count, laps): (usize, u32), [inner_m, radius_m]: [f64; 2], [lead_rad, blend_rad]: [f64; 2]) -> WashCurve {
-    let rings = Rings {
-        count,
-        inner_m,
-        lead_rad,
-        blend_rad,
-        laps,
-    };
-    WashCurve {
-        radius_m,
-        turns: rings.turns(),
-        start_angle_rad: 0.0,
-        closing_ring: true,
-        trim_rad: TRIMS_RAD[0],
-        rings: Some(rings),
-    }
+    let patterns = PatternName::ALL.into_iter().filter(suits);
+    patterns.flat_map(|pattern| pattern.candidates(request)).collect()
 }
 
 /// Stride between moments \[m\], and the longest between their angles \[rad\].

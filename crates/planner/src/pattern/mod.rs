@@ -17,7 +17,7 @@ pub(crate) use crate::pattern::promise::foundation;
 pub use crate::pattern::promise::{Margin, Promise, SampledWash};
 pub use crate::pattern::shortfall::{ContactPromise, Shortfall};
 
-use crate::pattern::candidates::{ByTime, Candidate, Density, Estimate, TRIMS_RAD, candidates};
+use crate::pattern::candidates::{ByTime, Candidate, Estimate, candidates};
 use crate::pattern::promise::Kept;
 use crate::scene::{AXIS_SHARE, AxisRule};
 use crate::timing::TipLimits;
@@ -26,7 +26,7 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{CandidateRequest, Density, TRIMS_RAD, WashCurve, WashPath};
 use std::sync::OnceLock;
 
 /// Contact height on a flat face that the tilt of the tool may use up, besides the promised part \[m\]: a reserve for the error
@@ -124,7 +124,15 @@ impl Patterns {
             acceleration_m_s2: terms.wash_acceleration_m_s2().min(arm_m_s2),
         };
         let laps = terms.passes_of(plate);
-        let curves = |density| candidates(settings, surface, promise.foundation.radius_m, density, laps);
+        let curves = |density| {
+            candidates(&CandidateRequest {
+                settings,
+                surface,
+                sponge_m: promise.foundation.radius_m,
+                density,
+                laps,
+            })
+        };
         let usual = curves(Density::Usual).into_iter();
         let candidates = usual.map(|curve| Candidate::new(curve, surface, &limits)).collect();
         let cones = cones(terms, settings, plate);

@@ -4,8 +4,8 @@ use crate::pattern::*;
 use platewash_bodies::job::WashJob;
 use platewash_fixtures::{contact_kitchen, kitchen};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::job::PatternName;
 use platewash_workcell::surface::SHIPPED_PROFILES;
+use platewash_workcell::wash_path::{PatternName, WashPattern};
 
 fn disc() -> Surface {
     Surface::Disc { radius_m: 0.145 }
@@ -47,17 +47,17 @@ fn keeps_the_stated_pattern() {
     assert!(
         stated(|s| s.pattern = Some(PatternName::Spiral))
             .iter()
-            .all(|p| p.curve.rings.is_none())
+            .all(|p| p.curve.rings().is_none())
     );
     assert!(
         stated(|s| s.pattern = Some(PatternName::Rings))
             .iter()
-            .all(|p| p.curve.rings.is_some())
+            .all(|p| p.curve.rings().is_some())
     );
     assert!(
         stated(|s| s.turns = Some(4.0))
             .iter()
-            .all(|p| p.curve.turns == 4.0 && p.curve.rings.is_none())
+            .all(|p| p.curve.turns == 4.0 && p.curve.rings().is_none())
     );
     assert!(
         stated(|s| s.path_radius_m = Some(0.12))
@@ -70,7 +70,7 @@ fn keeps_the_stated_pattern() {
             .all(|p| !p.curve.closing_ring)
     );
     let rings = stated(|s| (s.pattern, s.turns) = (Some(PatternName::Rings), Some(3.0)));
-    assert!(rings.iter().all(|p| p.curve.rings.unwrap().count == 4));
+    assert!(rings.iter().all(|p| p.curve.rings().unwrap().count == 4));
     assert!(stated(|s| s.tilt_rad = Some(0.05)).iter().all(|p| p.cone_rad == 0.05));
 }
 
@@ -99,11 +99,17 @@ fn keeps_the_stated_number_of_rings() {
                         path_radius_m,
                         ..open()
                     };
-                    let all = candidates(&settings, &surface, promise.foundation.radius_m, Density::Usual, 1);
+                    let all = candidates(&CandidateRequest {
+                        settings: &settings,
+                        surface: &surface,
+                        sponge_m: promise.foundation.radius_m,
+                        density: Density::Usual,
+                        laps: 1,
+                    });
                     let what = format!("{surface:?}, {sponge_m} m, {turns:?}, {path_radius_m:?}");
                     assert!(!all.is_empty(), "{what}");
                     for curve in all {
-                        let rings = curve.rings.unwrap();
+                        let rings = curve.rings().unwrap();
                         let count = turns.map_or(rings.count, |turns| turns as usize + 1);
                         assert!(rings.count == count && count >= 2, "{what}: {curve:?}");
                         assert!(
@@ -132,7 +138,7 @@ fn a_job_that_states_all_has_one_pattern() {
         start_angle_rad: 0.0,
         closing_ring: true,
         trim_rad: 0.0,
-        rings: None,
+        pattern: WashPattern::Spiral,
     };
     assert_eq!((only.curve, only.cone_rad), (curve, job.terms().tilt_max_rad()));
 }

@@ -181,6 +181,7 @@ impl Pipeline<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use platewash_workcell::wash_path::WashPattern;
     use proptest::prelude::*;
 
     proptest! {
@@ -191,7 +192,7 @@ mod tests {
             half_turns in -1.0..1.0f64,
             closing_ring in any::<bool>(),
         ) {
-            let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring, trim_rad: 0.0, rings: None };
+            let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring, trim_rad: 0.0, pattern: WashPattern::Spiral };
             let (s, c) = crate::trig::sin_cos(0.5 * TAU * half_turns);
             let towards = Vector3::new(c, s, 0.0);
             let curve = turned(curve, &towards);

@@ -10,7 +10,7 @@ use platewash_kinematics::{Axes, JointVector};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TRIM_RAD, MOST_TURNS, WashPath};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -372,9 +372,7 @@ pub(crate) fn check_input(
     within("curve.turns", curve.turns, [LEAST_TURNS, MOST_TURNS])?;
     within("curve.start_angle_rad", curve.start_angle_rad, [-1e3, 1e3])?;
     within("curve.trim_rad", curve.trim_rad, [0.0, MOST_TRIM_RAD])?;
-    // A spiral of mean radius R/2, and a ring.
-    let length = PI * curve.radius_m * (curve.turns + 2.0);
-    within("length of the curve", length, [0.0, LONGEST_M])?;
+    within("length of the curve", curve.length_m(), [0.0, LONGEST_M])?;
     for &coordinate in &plate.centre() {
         within("centre", coordinate, [-LARGEST_M, LARGEST_M])?;
     }

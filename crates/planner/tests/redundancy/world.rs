@@ -12,7 +12,7 @@ use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::job::ReachBorders;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{StraightTool, Tool};
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
 
 pub const RADIUS_M: f64 = 0.12385;
 pub const CLEARANCE_M: f64 = 0.01;
@@ -34,7 +34,7 @@ pub fn curve(radius_m: f64) -> WashCurve {
         start_angle_rad: 0.3,
         closing_ring: true,
         trim_rad: 0.0,
-        rings: None,
+        pattern: WashPattern::Spiral,
     }
 }
 

@@ -5,8 +5,7 @@ use crate::resolve::placement::ShapeKeys;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
-use std::f64::consts::PI;
+use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve, WashPattern};
 
 /// Plates thinner or smaller than this are none to the certificate \[m\].
 const LEAST_PLATE_M: f64 = 1e-6;
@@ -36,7 +35,7 @@ impl Scenario {
             start_angle_rad: 0.0,
             closing_ring: self.wash.closing_ring.unwrap_or(true),
             trim_rad: 0.0,
-            rings: None,
+            pattern: WashPattern::Spiral,
         }
     }
 
@@ -103,8 +102,7 @@ impl Scenario {
         };
         let expected = format!("at least {LEAST_RADIUS_M}");
         refuse(&radius_key, curve.radius_m, curve.radius_m >= LEAST_RADIUS_M, expected)?;
-        // As the planner bounds it: a spiral of mean radius R/2, and a ring.
-        let length = PI * curve.radius_m * (curve.turns + 2.0);
+        let length = curve.length_m();
         let expected = format!("such that the wash curve π · {radius_key} · (wash.turns + 2) is at most {LONGEST_M} m");
         refuse(&radius_key, curve.radius_m, length <= LONGEST_M, expected)
     }

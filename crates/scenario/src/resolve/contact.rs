@@ -7,9 +7,9 @@ use crate::sections::motion::Program;
 use crate::sections::tool::ASSUMED_STIFFNESS_KPA;
 use crate::sections::wash::WashSection;
 use platewash_kinematics::trig::sin_cos;
-use platewash_workcell::job::{ContactRequirements, PATH_TOLERANCE_M, PatternName};
+use platewash_workcell::job::{ContactRequirements, PATH_TOLERANCE_M};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::wash_path::MOST_RINGS;
+use platewash_workcell::wash_path::{PatternRules, TurnsRule};
 use std::f64::consts::PI;
 
 /// Greatest speed at which the sponge meets a plate and leaves it, where contact is promised and no speed is stated \[m/s\].
@@ -92,10 +92,10 @@ impl Scenario {
         if let Some(wanted) = wash.contact_requirements() {
             self.check_promise(&wanted)?;
         }
-        if certified && wash.pattern == Some(PatternName::Rings) {
-            return self.check_rings();
+        match wash.pattern.filter(|_| certified) {
+            Some(pattern) => self.check_pattern(&pattern.rules()),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// Refuses a promise that no plan can keep.
@@ -150,21 +150,24 @@ impl Scenario {
         Ok(())
     }
 
-    /// Rings are whole ones, and the last closes the path.
-    fn check_rings(&self) -> Result<(), Problem> {
-        let wash = &self.wash;
-        if wash.closing_ring == Some(false) {
-            let detail = "rings end with one: leave it out, or state wash.pattern = \"spiral\"";
+    /// Refuses numbers that the pattern has no use for.
+    fn check_pattern(&self, rules: &PatternRules) -> Result<(), Problem> {
+        let (wash, name) = (&self.wash, rules.name);
+        if rules.always_closes && wash.closing_ring == Some(false) {
+            let detail = format!("{name} end with one: leave it out, or state wash.pattern = \"spiral\"");
             return conflict("wash.closing_ring", detail);
         }
-        let most = (MOST_RINGS - 1) as f64;
-        match wash.turns {
-            Some(turns) if turns.fract() != 0.0 || !(1.0..=most).contains(&turns) => conflict(
-                "wash.turns",
-                format!(
-                    "with wash.pattern = \"rings\" these are the rings but the last, a whole number from 1 to {most}; found {turns:?}"
-                ),
-            ),
+        match (rules.turns, wash.turns) {
+            (TurnsRule::Whole { counted, most }, Some(turns))
+                if turns.fract() != 0.0 || !(1.0..=most as f64).contains(&turns) =>
+            {
+                conflict(
+                    "wash.turns",
+                    format!(
+                        "with wash.pattern = \"{name}\" these are {counted}, a whole number from 1 to {most}; found {turns:?}"
+                    ),
+                )
+            }
             _ => Ok(()),
         }
     }

@@ -14,11 +14,12 @@ use crate::source::{MAX_BYTES, unread};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::urdf::MeshSource;
-use platewash_workcell::job::{MeasuredShape, PatternName, Soil};
+use platewash_workcell::job::{MeasuredShape, Soil};
 use platewash_workcell::layout::MAX_PLATES;
 use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::surface::Surface;
+use platewash_workcell::wash_path::PatternName;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -241,13 +242,13 @@ impl Scenario {
             return conflict(format!("{key}, wash.soil_file"), detail);
         };
         let wash = &self.wash;
-        let is_spiral = wash.pattern == Some(PatternName::Spiral)
-            || wash.pattern.is_none()
-                && (wash.turns.is_some() || wash.path_radius_m.is_some() || wash.closing_ring.is_some());
-        if soil.passes.is_some_and(|passes| passes > 1) && is_spiral {
+        let states_numbers = wash.turns.is_some() || wash.path_radius_m.is_some() || wash.closing_ring.is_some();
+        let once = PatternName::asked(wash.pattern, states_numbers).filter(|pattern| !pattern.rules().repeats);
+        if let Some(pattern) = once.filter(|_| soil.passes.is_some_and(|passes| passes > 1)) {
             let detail = format!(
-                "the soil \"{name}\" asks for {} passes, and a spiral passes each place once: wash.pattern = \"rings\" goes round each ring as often",
-                soil.passes.unwrap_or(1)
+                "the soil \"{name}\" asks for {} passes, and a {} passes each place once: wash.pattern = \"rings\" goes round each ring as often",
+                soil.passes.unwrap_or(1),
+                pattern.rules().name
             );
             return conflict(format!("{key}, wash.pattern"), detail);
         }

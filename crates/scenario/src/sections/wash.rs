@@ -2,7 +2,7 @@
 
 use crate::lossy_path::serialize_lossy;
 use platewash_keys::Section;
-use platewash_workcell::job::PatternName;
+use platewash_workcell::wash_path::PatternName;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

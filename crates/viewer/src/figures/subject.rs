@@ -14,7 +14,6 @@ use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};
 use platewash_simulator::{Execution, SimulationReport};
 use platewash_workcell::layout::TaskRegion;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve};
 use platewash_workcell::words::quoted;
 
 /// Greatest number of samples of an execution that are read, and the time between two of them where there are fewer \[s\].
@@ -239,7 +238,7 @@ fn checked(track: Track) -> Result<Track, FigureError> {
 }
 
 fn wash_curves(plan: &Plan) -> Vec<IdealPath> {
-    let curves = plan.wash_paths.iter().filter(|path| can_be_drawn(&path.curve));
+    let curves = plan.wash_paths.iter().filter(|path| path.curve.is_sound());
     let ideal = curves.filter_map(|path| {
         let plate = plan.job.plates.get(path.plate)?;
         let thetas = path.curve.parameters(&plate.surface, CHORD_M);
@@ -248,13 +247,6 @@ fn wash_curves(plan: &Plan) -> Vec<IdealPath> {
         Some(IdealPath { plate, points })
     });
     ideal.collect()
-}
-
-/// Checks that a curve has a length that can be followed.
-fn can_be_drawn(curve: &WashCurve) -> bool {
-    (LEAST_RADIUS_M..=LONGEST_M).contains(&curve.radius_m)
-        && (LEAST_TURNS..=MOST_TURNS).contains(&curve.turns)
-        && curve.start_angle_rad.abs() <= 1e3
 }
 
 fn check_segments(plan: &Plan, duration_s: f64) -> Result<(), FigureError> {

@@ -14,9 +14,6 @@ use ts_rs::TS;
 /// Largest deviation of a chord from a wash path \[m\].
 const CHORD_M: f64 = 5e-5;
 
-/// Turns of a spiral that are drawn at most.
-const MOST_TURNS: f64 = 1000.0;
-
 /// Radius of a spiral that is drawn at most, as a multiple of the plate's.
 const MOST_RIMS: f64 = 10.0;
 
@@ -95,9 +92,9 @@ pub(super) fn paths(plan: &Plan, tips: &Tips<'_>) -> Vec<WashPath> {
         .collect()
 }
 
-/// Checks that a curve has some turns on a plate, and few enough to draw. The proof checks that it is the right curve.
+/// Checks that a curve is on a plate, and has few enough points to draw. The proof checks that it is the right curve.
 fn can_be_drawn(curve: &WashCurve, plate: &plate::Plate) -> bool {
-    (0.5..=MOST_TURNS).contains(&curve.turns) && curve.radius_m > 0.0 && curve.radius_m <= MOST_RIMS * plate.rim_m()
+    curve.is_sound() && curve.radius_m <= MOST_RIMS * plate.rim_m()
 }
 
 /// Points of a stated path, world frame \[m\].

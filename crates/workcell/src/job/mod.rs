@@ -25,7 +25,7 @@ pub use crate::job::measured_shape::{MeasuredShape, Relief};
 pub use crate::job::recovery::{NEARER_M, RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
 pub use crate::job::requirements::{
     ContactRequirements, ContactThresholds, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap,
-    PATH_TOLERANCE_M, PatternName, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
+    PATH_TOLERANCE_M, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
 };
 pub use crate::job::soil::{MOST_PASSES, Soil};
 pub use crate::job::terms::{JobTerms, MAX_SEED, check_workcell};

@@ -5,6 +5,7 @@
 //! Settings of the planner. They are part of the job and its hash, and are not judged.
 
 use crate::arc::Arc as ArcRoundBase;
+use crate::wash_path::PatternName;
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -230,21 +231,6 @@ pub struct PlannerSettings {
     pub reach: ReachBorders,
     /// True if the planner looks for another place for a plate that cannot be washed.
     pub relocate: bool,
-}
-
-/// Kinds of wash paths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PatternName {
-    /// A spiral from the centre.
-    Spiral,
-    /// Rings about the centre, joined by blends.
-    Rings,
-}
-
-impl PatternName {
-    /// Names, as files state them.
-    pub const NAMES: [&'static str; 2] = ["spiral", "rings"];
 }
 
 /// Rule for the order in which plates are washed.

@@ -1,27 +1,32 @@
 //! Path of the sponge on a plate: a curve on its face, and the cone for the tool's axis.
 //!
 //! In its plate's frame the curve is stated by the length ℓ along the meridian from the pole as a function of the angle θ about the axis
-//! ([`WashCurve`]): a spiral that runs into a closing ring, or rings joined by blends. On a flat disc ℓ is the distance from the centre.
+//! ([`WashCurve`]). On a flat disc ℓ is the distance from the centre. Behind it the curve may go round once more, on a closing ring.
 //!
-//! Wash curves: ℓ as a function of θ.
-//!
-//! The angle θ goes from 0 to `Θ`, the spiral's turns, and on to `Θ + 2π`, less a trim, with a ring. ℓ grows at the constant rate
-//! `a = R / (Θ − β/2)` until the last `β` = [`BLEND_RAD`] of the spiral, over which the rate falls to zero as `a (1 − S(x))`,
-//! `S(x) = x³ (10 − 15 x + 6 x²)`. So `ℓ(θ)` is C³ and meets the ring at `ℓ = R` without a bend.
-//!
-//! Rings about the pole, evenly apart along the meridian, joined by blends.
-//!
-//! Of n rings the k-th, from 0, has ℓ = ℓ₀ + k (R − ℓ₀)/(n − 1). The arm follows it until λₖ before the full turn, and then moves over the
-//! angle wₖ to the next one by the septic smoothstep `S(x) = x⁴ (35 − 84 x + 70 x² − 20 x³)`, so that ℓ(θ) is C³. Blends farther out have
-//! about the same length in metres with a smaller angle: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one: a full turn, or
-//! less by [`WashCurve::trim_rad`]. With several laps the arm goes round each ring as often before it leaves it.
+//! | concept | module |
+//! | --- | --- |
+//! | a wash path; its curve on a face, whatever its pattern | here |
+//! | the patterns, and what each of them states | `pattern` |
+//! | a spiral from the pole | `spiral` |
+//! | rings joined by blends | `rings` |
+
+mod pattern;
+mod rings;
+mod spiral;
+
+pub use crate::wash_path::pattern::{
+    CandidateRequest, CurveNumber, Density, PatternName, PatternRules, TRIMS_RAD, TurnsRule, WashPattern,
+};
+pub use crate::wash_path::rings::{LEAST_BLEND_RAD, MOST_RINGS, Rings};
+pub use crate::wash_path::spiral::BLEND_RAD;
 
 use crate::plate::Plate;
 use crate::surface::Surface;
 use crate::trig::sin_cos;
+use crate::wash_path::pattern::{PatternPath, of_pattern};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Wash path of a plate: the curve of the tip on the face, and the cone for the tool's axis, given by parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,11 +56,11 @@ impl WashPath {
     }
 }
 
-/// Angle over which the end of the spiral blends into the ring \[rad\].
-pub const BLEND_RAD: f64 = 1.0;
-
 /// Least outer radius of a wash curve \[m\].
 pub const LEAST_RADIUS_M: f64 = 1e-4;
+
+/// Greatest outer radius of a wash curve \[m\].
+const MOST_RADIUS_M: f64 = 10.0;
 
 /// Greatest angle by which the closing ring is shorter than a full turn \[rad\].
 pub const MOST_TRIM_RAD: f64 = 1.5;
@@ -69,9 +74,6 @@ pub const MOST_TURNS: f64 = 200.0;
 /// Greatest length of a wash curve \[m\]. It bounds time and memory.
 pub const LONGEST_M: f64 = 100.0;
 
-/// Greatest slope of S.
-const STEEPEST: f64 = 1.875;
-
 /// Number of points per blend at which its bend is examined in advance, and below the greatest number.
 const LOOKS_A_BLEND: f64 = 8.0;
 const MOST_LOOKS: f64 = 64.0;
@@ -84,6 +86,7 @@ const MOST_MORE: f64 = 1.08;
 
 /// Curve on the face of a plate, given by parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "FlatCurve", into = "FlatCurve")]
 pub struct WashCurve {
     /// Greatest ℓ, R, on a flat face the outer radius \[m\], above 0.
     pub radius_m: f64,
@@ -94,11 +97,48 @@ pub struct WashCurve {
     /// True if a circle at the outer radius follows.
     pub closing_ring: bool,
     /// Angle by which that circle ends before a full turn \[rad\].
-    #[serde(default, skip_serializing_if = "crate::json::is_zero")]
     pub trim_rad: f64,
-    /// Rings joined by blends, which take `turns` turns; `None` for a spiral.
+    /// Pattern before the closing ring, which takes `turns` turns.
+    pub pattern: WashPattern,
+}
+
+/// A curve as plan files state it: the numbers of a pattern under its name, none of them for a spiral.
+#[derive(Serialize, Deserialize)]
+struct FlatCurve {
+    radius_m: f64,
+    turns: f64,
+    start_angle_rad: f64,
+    closing_ring: bool,
+    #[serde(default, skip_serializing_if = "crate::json::is_zero")]
+    trim_rad: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rings: Option<Rings>,
+    rings: Option<Rings>,
+}
+
+impl From<FlatCurve> for WashCurve {
+    fn from(flat: FlatCurve) -> Self {
+        Self {
+            radius_m: flat.radius_m,
+            turns: flat.turns,
+            start_angle_rad: flat.start_angle_rad,
+            closing_ring: flat.closing_ring,
+            trim_rad: flat.trim_rad,
+            pattern: flat.rings.map_or(WashPattern::Spiral, WashPattern::Rings),
+        }
+    }
+}
+
+impl From<WashCurve> for FlatCurve {
+    fn from(curve: WashCurve) -> Self {
+        Self {
+            radius_m: curve.radius_m,
+            turns: curve.turns,
+            start_angle_rad: curve.start_angle_rad,
+            closing_ring: curve.closing_ring,
+            trim_rad: curve.trim_rad,
+            rings: curve.rings(),
+        }
+    }
 }
 
 /// A point of a wash curve, relative to the plate's centre, with derivatives by θ.
@@ -134,16 +174,13 @@ impl WashCurve {
     /// Number of times that the path goes round each ring; 1 for a spiral.
     #[must_use]
     pub fn laps(&self) -> u32 {
-        self.rings.map_or(1, |rings| rings.laps)
+        of_pattern!(&self.pattern, path => path.laps())
     }
 
     /// θ at which the closing ring begins \[rad\]: the end of the spiral, or of the last blend.
     #[must_use]
     pub fn spiral_end(&self) -> f64 {
-        match &self.rings {
-            Some(rings) => rings.end(),
-            None => TAU * self.turns,
-        }
+        of_pattern!(&self.pattern, path => path.end(self))
     }
 
     /// The curve with another trim of its closing ring.
@@ -155,34 +192,70 @@ impl WashCurve {
     /// Distance between neighbouring windings along the meridian \[m\].
     #[must_use]
     pub fn pitch_m(&self) -> f64 {
-        match &self.rings {
-            Some(rings) => rings.pitch_m(self.radius_m),
-            None => TAU * self.rate(),
-        }
+        of_pattern!(&self.pattern, path => path.pitch_m(self))
     }
 
     /// Returns ℓ and its first two derivatives by θ, at θ in [0, [`WashCurve::end`]] \[m, m/rad, m/rad²\].
     #[must_use]
     pub fn arc(&self, theta: f64) -> [f64; 3] {
-        match &self.rings {
-            Some(rings) => rings.arc(self.radius_m, theta),
-            None => self.radius(theta),
-        }
+        of_pattern!(&self.pattern, path => path.arc(self, theta))
     }
 
     /// Upper bounds on |ℓ′| and |ℓ″| between two θ \[m/rad, m/rad²\].
     #[must_use]
-    pub fn greatest_rates(&self, [from, to]: [f64; 2]) -> [f64; 2] {
-        if let Some(rings) = &self.rings {
-            return rings.greatest_rates(self.radius_m, [from, to]);
+    pub fn greatest_rates(&self, between: [f64; 2]) -> [f64; 2] {
+        of_pattern!(&self.pattern, path => path.greatest_rates(self, between))
+    }
+
+    /// Rings of the curve, if they are its pattern.
+    #[must_use]
+    pub fn rings(&self) -> Option<Rings> {
+        match self.pattern {
+            WashPattern::Rings(rings) => Some(rings),
+            WashPattern::Spiral => None,
         }
-        let rate = self.rate();
-        let blends = to >= self.spiral_end() - BLEND_RAD && from <= self.spiral_end();
-        let turns = from <= self.spiral_end();
+    }
+
+    /// Angle of the first blend between rings \[rad\]; `None` without such blends.
+    fn blend_rad(&self) -> Option<f64> {
+        of_pattern!(&self.pattern, path => path.blend_rad())
+    }
+
+    /// Upper bound on the length of the curve, but for what the numbers of its pattern add: a spiral of mean radius R/2, and a ring \[m\].
+    #[must_use]
+    pub fn length_m(&self) -> f64 {
+        PI * self.radius_m * (self.turns + 2.0)
+    }
+
+    /// Numbers that every curve has, with the ranges that can be judged.
+    #[must_use]
+    pub fn numbers(&self) -> [CurveNumber; 5] {
         [
-            if turns { rate } else { 0.0 },
-            if blends { STEEPEST * rate / BLEND_RAD } else { 0.0 },
+            ("curve.radius_m", self.radius_m, [LEAST_RADIUS_M, MOST_RADIUS_M]),
+            ("curve.turns", self.turns, [LEAST_TURNS, MOST_TURNS]),
+            ("curve.start_angle_rad", self.start_angle_rad, [-TAU, TAU]),
+            ("curve.trim_rad", self.trim_rad, [0.0, MOST_TRIM_RAD]),
+            ("length of the curve", self.length_m(), [0.0, LONGEST_M]),
         ]
+    }
+
+    /// True if all numbers are within the ranges that can be judged, so that the curve has few enough points to be drawn.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let is_within = |(_, found, [least, most]): CurveNumber| (least..=most).contains(&found);
+        self.numbers().into_iter().chain(self.pattern_numbers()).all(is_within)
+    }
+
+    /// Numbers of the pattern beside those that every curve has, with the ranges that can be judged.
+    #[must_use]
+    pub fn pattern_numbers(&self) -> Vec<CurveNumber> {
+        of_pattern!(&self.pattern, path => path.numbers(self))
+    }
+
+    /// The pattern in words, with its count: `spiral of 3.50 turns and a ring`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        of_pattern!(&self.pattern, path => path.words(self))
     }
 
     /// Returns the point on a surface at θ in [0, [`WashCurve::end`]] \[rad\], and its derivative by θ, plate frame.
@@ -208,9 +281,18 @@ impl WashCurve {
     }
 
     /// Upper bound on the second derivative by θ of the point on a surface between two θ \[m/rad²\]: with κ the curvature of the meridian,
-    /// |ℓ″| + |κ| ℓ′² + ρ + 2 |ρ′|.
+    /// |ℓ″| + |κ| ℓ′² + ρ + 2 |ρ′|; on a flat face that of the pattern, where it has a closer one.
     #[must_use]
     pub fn greatest_second(&self, surface: &Surface, between: [f64; 2]) -> f64 {
+        let of_flat = || of_pattern!(&self.pattern, path => path.greatest_second_flat(self, between));
+        surface
+            .is_flat()
+            .then(of_flat)
+            .flatten()
+            .unwrap_or_else(|| self.greatest_second_by_rates(surface, between))
+    }
+
+    fn greatest_second_by_rates(&self, surface: &Surface, between: [f64; 2]) -> f64 {
         let [first, second] = self.greatest_rates(between);
         let [least, most] = surface.curvature_bounds();
         // ρ is no greater than ℓ, which never falls.
@@ -254,7 +336,7 @@ impl WashCurve {
                     theta + step * shrink
                 };
                 let before = all[all.len() - 1];
-                let halvings = if surface.is_flat() && self.rings.is_some() {
+                let halvings = if surface.is_flat() && self.blend_rad().is_some() {
                     MOST_HALVINGS
                 } else {
                     0
@@ -274,9 +356,11 @@ impl WashCurve {
             return (8.0 * error / second).sqrt().min(0.1);
         }
         let step = self.fitting(theta, error);
-        let Some(rings) = &self.rings else { return step };
+        let Some(blend_rad) = self.blend_rad() else {
+            return step;
+        };
         // A blend bends more than what is before it, and not at all in its middle.
-        let looks = (LOOKS_A_BLEND * step / rings.blend_rad).ceil().clamp(2.0, MOST_LOOKS);
+        let looks = (LOOKS_A_BLEND * step / blend_rad).ceil().clamp(2.0, MOST_LOOKS);
         let ahead = (1..=looks as u32).map(|k| self.fitting(theta + f64::from(k) / looks * step, error));
         ahead.fold(step, f64::min)
     }
@@ -306,171 +390,5 @@ impl WashCurve {
         } else {
             all.push(to);
         }
-    }
-
-    fn rate(&self) -> f64 {
-        self.radius_m / (self.spiral_end() - 0.5 * BLEND_RAD)
-    }
-
-    /// Returns r, r′, r″ at θ.
-    fn radius(&self, theta: f64) -> [f64; 3] {
-        let (a, blend) = (self.rate(), self.spiral_end() - BLEND_RAD);
-        if theta <= blend {
-            return [a * theta, a, 0.0];
-        }
-        if theta >= self.spiral_end() {
-            return [self.radius_m, 0.0, 0.0];
-        }
-        let x = (theta - blend) / BLEND_RAD;
-        let (x2, x3) = (x * x, x * x * x);
-        // ∫S = x⁴ (5/2 − 3 x + x²), S and S′.
-        let area = x2 * x2 * (2.5 - 3.0 * x + x2);
-        let rise = x3 * (10.0 - 15.0 * x + 6.0 * x2);
-        let slope = 30.0 * x2 * (1.0 - x) * (1.0 - x);
-        [
-            a * (blend + BLEND_RAD * (x - area)),
-            a * (1.0 - rise),
-            -a * slope / BLEND_RAD,
-        ]
-    }
-}
-
-/// Greatest number of rings of a curve.
-pub const MOST_RINGS: usize = 100;
-
-/// Greatest |S′| and |S″|: at x = 1/2, and at x = 1/2 ± √5/10.
-const STEEPEST_BLEND: [f64; 2] = [2.1875, 7.513_188_404_399_293];
-
-/// Rings joined by blends.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rings {
-    /// Number of rings n, at least 2.
-    pub count: usize,
-    /// Length ℓ₀ of the innermost ring \[m\].
-    pub inner_m: f64,
-    /// Angle λ₀ before a full turn at which the first blend begins \[rad\].
-    pub lead_rad: f64,
-    /// Angle w₀ of the first blend \[rad\].
-    pub blend_rad: f64,
-    /// Number of times that the path goes round each ring.
-    #[serde(default = "once", skip_serializing_if = "is_once")]
-    pub laps: u32,
-}
-
-fn once() -> u32 {
-    1
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
-fn is_once(laps: &u32) -> bool {
-    *laps == 1
-}
-
-/// Ring with its blend, or the closing ring.
-#[derive(Debug, Clone, Copy)]
-struct Stage {
-    /// Index of the ring.
-    k: usize,
-    /// Angle θ since it began \[rad\].
-    theta: f64,
-    /// Angles on the ring before the blend, and of the blend \[rad\].
-    lengths: [f64; 2],
-}
-
-impl Rings {
-    /// θ at which the closing ring begins \[rad\].
-    #[must_use]
-    pub fn end(&self) -> f64 {
-        (0..self.blends()).map(|k| self.lengths(k).iter().sum::<f64>()).sum()
-    }
-
-    /// Number of turns before the closing ring.
-    #[must_use]
-    pub fn turns(&self) -> f64 {
-        self.end() / TAU
-    }
-
-    /// Distance between neighbouring rings along the meridian, with the outermost one at `outer_m` \[m\].
-    #[must_use]
-    pub fn pitch_m(&self, outer_m: f64) -> f64 {
-        (outer_m - self.inner_m) / self.blends() as f64
-    }
-
-    /// Returns ℓ, ℓ′ and ℓ″ at θ.
-    fn arc(&self, outer_m: f64, theta: f64) -> [f64; 3] {
-        let pitch_m = self.pitch_m(outer_m);
-        let Some(Stage {
-            k,
-            theta,
-            lengths: [ring, blend],
-        }) = self.stage(theta)
-        else {
-            return [outer_m, 0.0, 0.0];
-        };
-        let from_m = self.inner_m + k as f64 * pitch_m;
-        if theta <= ring {
-            return [from_m, 0.0, 0.0];
-        }
-        let x = ((theta - ring) / blend).min(1.0);
-        let (y, x2) = (1.0 - x, x * x);
-        let x3 = x2 * x;
-        let rise = x2 * x2 * (35.0 - 84.0 * x + 70.0 * x2 - 20.0 * x3);
-        let slope = 140.0 * x3 * y * y * y;
-        let bend = 420.0 * x2 * y * y * (1.0 - 2.0 * x);
-        [
-            from_m + pitch_m * rise,
-            pitch_m * slope / blend,
-            pitch_m * bend / (blend * blend),
-        ]
-    }
-
-    /// Upper bounds on |ℓ′| and |ℓ″| between two θ.
-    fn greatest_rates(&self, outer_m: f64, [from, to]: [f64; 2]) -> [f64; 2] {
-        let (pitch_m, mut start, mut rates) = (self.pitch_m(outer_m).abs(), 0.0, [0.0_f64; 2]);
-        for [ring, blend] in (0..self.blends()).map(|k| self.lengths(k)) {
-            let (begins, ends) = (start + ring, start + ring + blend);
-            if from <= ends && to >= begins {
-                let [first, second] = STEEPEST_BLEND;
-                rates = [
-                    rates[0].max(pitch_m * first / blend),
-                    rates[1].max(pitch_m * second / (blend * blend)),
-                ];
-            }
-            start = ends;
-        }
-        rates
-    }
-
-    fn blends(&self) -> usize {
-        self.count.saturating_sub(1).clamp(1, MOST_RINGS)
-    }
-
-    /// Returns the angles on the k-th ring before its blend, and of the blend \[rad\].
-    fn lengths(&self, k: usize) -> [f64; 2] {
-        let n = (k + 1) as f64;
-        let share = 1.0 / (n * n * n).sqrt().sqrt().sqrt();
-        [
-            (TAU * f64::from(self.laps) - self.lead_rad * share).max(0.0),
-            self.blend_rad * share,
-        ]
-    }
-
-    /// Returns the ring or blend at a θ; `None` on the closing ring.
-    fn stage(&self, theta: f64) -> Option<Stage> {
-        let mut start = 0.0;
-        for k in 0..self.blends() {
-            let lengths = self.lengths(k);
-            let next = start + lengths[0] + lengths[1];
-            if theta < next {
-                return Some(Stage {
-                    k,
-                    theta: theta - start,
-                    lengths,
-                });
-            }
-            start = next;
-        }
-        None
     }
 }
