@@ -16,8 +16,6 @@
 //! ```
 
 #[cfg(feature = "command")]
-pub mod align;
-#[cfg(feature = "command")]
 pub mod cli;
 mod report;
 mod spirals;

@@ -1,4 +1,4 @@
-use platewash::align::*;
+use platewash::cli::alignment::*;
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use platewash_kinematics::irb120::IRB120_URDF;

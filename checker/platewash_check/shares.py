@@ -1,4 +1,4 @@
-"""Shares of flat plates that are swept, pressed, for long enough, and with the dose.
+"""Shares of flat plates: swept, pressed, contact time and contact dose.
 
 A plate is cut into polar cells. A cell counts in a step only if all of it is under the sponge during the whole step. On each ring these are
 cells in a row, so that a step adds its time and its dose at two ends of a row, and sums along the rings do the rest. In a step the

@@ -1,4 +1,4 @@
-"""What the tool does to flat plates: speeds, tilt, height, the wash path, landing, strain and force.
+"""What the tool does to flat plates: speeds, tilt, contact height, path deviation, contact speed, strain and contact force.
 
 Each quantity f is evaluated at both ends of steps. Between them |f| <= max of the ends + h^2/8 sup |f''|; where that is not within the limit,
 the step is halved.

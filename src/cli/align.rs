@@ -6,7 +6,7 @@ use super::numbers::{coordinate, within};
 use super::options::Options;
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::Args;
-use platewash::align::{
+use platewash::cli::alignment::{
     Alignment, DrawnPoint, Touch, TouchedPoint, align, drawn_points, fitting_order, touched_points,
 };
 use platewash::kinematics::urdf::file::read_text;

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 internal error, 2 bad usage or input, 3 infeasible, 4 verification failed, 130 interrupted.
 
 mod align;
+pub mod alignment;
 mod compare;
 mod description;
 mod dry_run;

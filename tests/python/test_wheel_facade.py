@@ -13,7 +13,6 @@ import pyplatewash as pw
 # What each name of the façade is in Python; None with the reason where it is nothing.
 PYTHON = {
     # Modules of Rust's; their nouns are at the top.
-    "align": None,  # the command's
     "bodies": "ClearanceModel",
     "certificate": None,
     "editor": "edit",

@@ -12,7 +12,7 @@
 //! | what the plan states | `statements` |
 //! | the motion: joints, tip, wrist | `motion` |
 //! | clearance of every pair of bodies | `clearance` |
-//! | the tip and the sponge on the plates: coverage, contact, force, landing, reach | `washing` |
+//! | the tip and the sponge on the plates: coverage, contact, load, contact speed, reach | `washing` |
 //! | when the dose of places of a plate is proved, for display | `dose_times` |
 //! | the motion that a robot's controller makes of a plan | `program` |
 //! | a motion of an arm alone, by any planner | `arm_motion` |
@@ -43,7 +43,7 @@ pub use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFindin
 pub use crate::report::check::{Check, Discrepancy, Measure, Sense, Status, Unit, WorstCase};
 pub use crate::report::explanation::Explanation;
 pub use crate::report::headline::{paper_headline, planned_headline};
-pub use crate::report::requirement::Requirement;
+pub use crate::report::requirement::{Requirement, RequirementGroup, RequirementRow};
 pub use crate::report::table::MeasureWords;
 pub use crate::report::verdict_basis::VerdictBasis;
 pub use crate::washing::contact::{PlateContact, ProvedExtreme, ProvedShare};

@@ -50,7 +50,7 @@ pub struct ProgramLimits {
 /// Proof about a program's motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramProof {
-    /// Checks that the motion must keep: joint positions and speeds, contact height, deviation from the plan, clearance, coverage, tilt.
+    /// Checks that the motion must keep: joint position, joint speed, contact height, plan deviation, clearance, swept, tilt.
     pub checks: Vec<Check>,
     /// Speed of the tip that the motion implies, in the plan's time, beside the limit of the plan. It is reported and not required.
     pub implied: Vec<Check>,

@@ -18,7 +18,7 @@ use crate::statements::{dry_run, plates, wash_paths};
 use crate::subject::{self, Subject};
 use crate::washing::contact::{self, PlateContact};
 use crate::washing::coverage::{self, PlateCoverage, Wash};
-use crate::washing::{following, holding, landing, reach};
+use crate::washing::{contact_speed, following, holding, reach};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_motion::plan::{Knots, Plan, Process};
 use platewash_workcell::cancel::CancelToken;
@@ -187,16 +187,16 @@ impl PlanUnderProof<'_> {
         ]);
         checks.extend(joints::checks(pieces, &subject.joints, schedule)); // 12–14: position, speed, acceleration
         checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
-        checks.push(landing::check(&arm, subject, (pieces, &along), schedule, &tips)); // 21: contact speed
+        checks.push(contact_speed::check(&arm, subject, (pieces, &along), schedule, &tips)); // 21: contact speed
         checks.extend(deviations); // 22, 23: path, line
         checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance)); // 24: all pairs, pairs of reduced clearance
         checks.push(reach::check(subject, &swept)); // 25
         checks.push(coverage::check(subject, &swept)); // 26
-        checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: share, time, dose, strain, force
+        checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: pressed, contact time, contact dose, strain, contact force
         checks.extend(wrist::check(subject, pieces, schedule)); // 32
         checks.extend(holding::check(subject, &contact)); // 33: plate stays
         checks.retain(|check| subject.asks_for(check.requirement));
-        if let Some(from_face) = landing::from_face(subject, &along, schedule, &tips) {
+        if let Some(from_face) = contact_speed::from_face(subject, &along, schedule, &tips) {
             let later = |check: &Check| check.requirement > from_face.requirement;
             let place = checks.iter().position(later).unwrap_or(checks.len());
             checks.insert(place, from_face);

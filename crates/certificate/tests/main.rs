@@ -18,6 +18,7 @@ mod holding;
 mod maker;
 mod mutations;
 mod obstacles;
+mod one_name;
 mod program;
 mod proofs;
 mod rests_on;

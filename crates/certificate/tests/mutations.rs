@@ -365,7 +365,7 @@ fn only_plates_within_reach_are_touching_pairs() {
     assert_eq!(line.working_on, [0, 1]);
 }
 
-/// Touching speed and depth are bounded up to the face being worked on: the sponge keeps clear of a plate that is higher, if only by a
+/// Contact speed and depth are bounded up to the face being worked on: the sponge keeps clear of a plate that is higher, if only by a
 /// micron.
 #[test]
 fn the_sponge_keeps_clear_of_a_higher_neighbour() {
@@ -583,9 +583,9 @@ fn refuses_a_tilt_beyond_the_upper_rim_of_the_sponge() {
     }
 }
 
-/// The speed of the lowest point of the rim of a tool that leans forward by an angle, at the worst of many moments at which it is
+/// Contact speed: that of the lowest point of the rim of a tool that leans forward by an angle, at the worst of many moments at which it is
 /// at or below the plate \[m/s\], from differences.
-fn touching_speed(plan: &Plan, lean: f64) -> f64 {
+fn contact_speed(plan: &Plan, lean: f64) -> f64 {
     let robot = irb120();
     let tool = &plan.job.workcell.tool;
     let tip = tool.tip_frame(&robot);
@@ -606,7 +606,7 @@ fn touching_speed(plan: &Plan, lean: f64) -> f64 {
 }
 
 #[test]
-fn reports_the_touching_speed_of_a_tilted_rim() {
+fn reports_the_contact_speed_of_a_tilted_rim() {
     let mut recipe = Recipe::arc(&[20.0]);
     recipe.lean = 0.2;
     let plan = recipe.plan();
@@ -615,7 +615,7 @@ fn reports_the_touching_speed_of_a_tilted_rim() {
     let touch = certificate.check(ContactSpeed).unwrap();
     let measure = touch.measure.unwrap();
     let (bound, seen) = (measure.bound.unwrap(), measure.seen.unwrap());
-    let sampled = touching_speed(&plan, recipe.lean);
+    let sampled = contact_speed(&plan, recipe.lean);
     assert!(sampled > 0.03, "{sampled}");
     assert!(
         sampled <= bound && bound < sampled + 3e-3 && seen <= bound && seen > sampled - 3e-3,

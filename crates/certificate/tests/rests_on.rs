@@ -278,7 +278,7 @@ fn limits_are_printed_without_rounding() {
     let tip_at = |speed: f64| {
         let limits = told("limits", move |r| r.limits.tip_speed_m_s = speed);
         limits
-            .split("tip ")
+            .split("tip speed ")
             .nth(1)
             .unwrap()
             .split(" m/s,")

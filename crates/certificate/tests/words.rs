@@ -238,14 +238,14 @@ fn reports_both_bounds_of_the_force_and_missing_bounds() {
         "{table}"
     );
     assert!(
-        table.contains(&format!(", force {both}, friction torque up to ")),
+        table.contains(&format!(", contact force {both}, friction torque up to ")),
         "{table}"
     );
     certificate.contact[0].greatest_force_n.bound = None;
     let half = format!("{certificate:#}");
     assert!(
         half.contains(&format!(
-            ", force {} N or more, not bounded above, ",
+            ", contact force {} N or more, not bounded above, ",
             decimals_down(least, 2)
         )),
         "{half}"
@@ -257,7 +257,7 @@ fn reports_both_bounds_of_the_force_and_missing_bounds() {
         contact.friction_torque_nm,
     ) = (None, None, None);
     let none = format!("{certificate:#}");
-    let words = "; strain not bounded, force not bounded, friction torque not bounded (friction coefficient";
+    let words = "; strain not bounded, contact force not bounded, friction torque not bounded (friction coefficient";
     assert!(none.contains(words), "{none}");
     assert!(none.contains("  all plates: not bounded; required: "), "{none}");
 }

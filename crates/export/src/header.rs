@@ -274,29 +274,25 @@ fn verdict(judgement: &ProgramJudgement, settings: &ExportSettings) -> Vec<Strin
     lines
 }
 
-/// Names the promises of a plan about contact for which its program is not judged; `None` where it promises nothing.
+/// Names the requirements of a plan about contact for which its program is not judged; `None` where it has none.
 #[must_use]
 pub fn contact_not_judged(promised: &Requirements) -> Option<String> {
-    let contact = promised
-        .contact
-        .map(|_| "contact (share pressed, time, dose, strain, force)");
+    use Requirement as R;
+    let of_contact = [R::Pressed, R::ContactTime, R::ContactDose, R::Strain, R::ContactForce]
+        .map(|of| (of, promised.contact.is_some()));
     let others = [
-        (promised.landing_m_s, "speed of landing"),
-        (promised.lifting_m_s, "speed of lifting"),
-        (promised.wrist_rad, "side of the wrist"),
+        (R::ContactSpeed, promised.landing_m_s.or(promised.lifting_m_s).is_some()),
+        (R::Wrist, promised.wrist_rad.is_some()),
+        (R::PlateStays, promised.holder.is_some()),
     ];
-    let others = others.into_iter().filter_map(|(asked, words)| asked.map(|_| words));
-    let stays = promised.holder.map(|_| "that plates stay");
-    let all: Vec<_> = contact.into_iter().chain(others).chain(stays).collect();
+    let asked = of_contact.into_iter().chain(others).filter(|(_, is_asked)| *is_asked);
+    let all: Vec<_> = asked.map(|(requirement, _)| requirement.words()).collect();
     (!all.is_empty()).then(|| all.join(", "))
 }
 
 /// A measure with its limit, both times a factor.
 fn measure_text(check: &Check, beside: &str, factor: f64) -> String {
-    let name = match check.requirement {
-        Requirement::JointPosition => "distance from the joints' limits".to_owned(),
-        requirement => requirement.words(),
-    };
+    let name = check.requirement.words();
     let Some(measure) = check.measure else {
         return format!("- {name}: {}", check.detail());
     };

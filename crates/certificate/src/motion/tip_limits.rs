@@ -1,4 +1,4 @@
-//! Limits of the tip: speed, acceleration, tilt of the tool, and height of the contact.
+//! Limits of the tip: speed, acceleration, tilt of the tool, and contact height.
 //!
 //! Requirements 15–20, formulas (15.1) to (20.1) in `docs/certificate.md`.
 
@@ -25,7 +25,7 @@ const TILT_RESOLUTION: f64 = 2e-4;
 /// Error of a small angle between two directions \[rad\].
 const TILT_ROUNDING_RAD: f64 = 1e-8;
 
-/// Gap allowed for the height of the contact \[m\].
+/// Gap allowed for the contact height \[m\].
 const HEIGHT_RESOLUTION_M: f64 = 5e-6;
 
 /// Trackers of the tip's quantities.

@@ -1,4 +1,4 @@
-//! Distance of joint 5 from 0 while the sponge is at a plate, always on the same side: where axes 4 and 6 are in line the wrist would flip.
+//! Wrist: distance of joint 5 from 0 while the sponge is at a plate, always on the same side: where axes 4 and 6 are in line the wrist would flip.
 //!
 //! Requirement 32 of `docs/certificate.md`.
 

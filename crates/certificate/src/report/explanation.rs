@@ -1,7 +1,7 @@
 //! Explanations of requirements: a sentence, the formula, and whose the limit is.
 
 use crate::report::check::Check;
-use crate::report::requirement::Requirement;
+use crate::report::requirement::{Requirement, RequirementGroup};
 use crate::report::verdict_basis::VerdictBasis;
 use platewash_kinematics::trig::atan2;
 use serde::Serialize;
@@ -12,6 +12,10 @@ use ts_rs::TS;
 pub struct Explanation {
     /// The requirement in a sentence.
     pub sentence: &'static str,
+    /// Group of the page.
+    pub group: RequirementGroup,
+    /// Place in the group, from 1.
+    pub place: u8,
     /// Section of the documentation with the proof: "docs/certificate.md, 24".
     pub section: String,
     /// Numbers of the formulas that bound it: "24.1".
@@ -24,15 +28,13 @@ impl Explanation {
     /// The explanation of a check, on the basis of its verdict; `None` for a motion without a job.
     #[must_use]
     pub fn of(check: &Check, basis: Option<&VerdictBasis>) -> Self {
-        let (sentence, section, formulas) = check.requirement.explained();
-        let page = match section {
-            27..=31 | 33 => "contact",
-            _ => "certificate",
-        };
+        let row = check.requirement.row();
         Self {
-            sentence,
-            section: format!("docs/{page}.md, {section}"),
-            formulas,
+            sentence: row.sentence,
+            group: row.group,
+            place: row.place,
+            section: row.reference(),
+            formulas: row.formulas,
             limit: limit(check, basis),
         }
     }
@@ -66,7 +68,7 @@ fn limit(check: &Check, basis: Option<&VerdictBasis>) -> String {
             "The limit is a tolerance of the proof: it is the same for every plan."
         }
         R::ContactSpeed if job.landing_m_s.is_none() && job.lifting_m_s.is_none() => {
-            "The limit is the job's washing speed."
+            "The limit is the job's wash speed."
         }
         R::ContactSpeed => "The limit is what the job states of landing and lifting.",
         R::Reach => {
@@ -100,45 +102,4 @@ fn tilt(limit_rad: f64, basis: &VerdictBasis) -> String {
         "The job asks for at most {}; the limit is {limit}, {why}.",
         degrees(asked_rad)
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Requirement;
-    use std::fs;
-    use std::path::Path;
-
-    #[test]
-    fn every_explanation_names_its_section_and_formulas_of_the_documentation() {
-        let page = |name: &str| {
-            let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("../../docs")
-                .join(format!("{name}.md"));
-            fs::read_to_string(&file).unwrap()
-        };
-        let both = page("certificate") + &page("contact");
-        for requirement in Requirement::ALL {
-            let (sentence, section, formulas) = requirement.explained();
-            assert!(sentence.ends_with('.'), "{sentence}");
-            // A statement has a row, every other requirement a section that begins with its name.
-            let name = requirement.name();
-            let in_row = both.contains(&format!("| {section} | {} (`{name}`)", requirement.words()));
-            let own = format!("`{name}`");
-            let of_section = |part: &&str| {
-                let heading = part.lines().next().unwrap_or_default();
-                let numbers: Vec<u8> = (heading.split('.').next().unwrap_or_default().split([',', '–']))
-                    .filter_map(|number| number.trim().parse().ok())
-                    .collect();
-                numbers
-                    .first()
-                    .zip(numbers.last())
-                    .is_some_and(|(from, to)| (*from..=*to).contains(&section))
-            };
-            let in_section = both.split("\n## ").filter(of_section).any(|part| part.contains(&own));
-            assert!(in_row || in_section, "{name} in {section}");
-            for formula in formulas {
-                assert!(both.contains(&format!("\\tag{{{formula}}}")), "{formula}");
-            }
-        }
-    }
 }

@@ -11,7 +11,9 @@ use crate::washing::contact::PlateContact;
 use platewash_kinematics::words::distinct_decimals;
 use platewash_motion::plan::Plan;
 use platewash_workcell::dry_run;
-use platewash_workcell::job::{ContactRequirements, Limits, PlanKind, RETREAT_M_S, Requirements};
+use platewash_workcell::job::{
+    CONTACT_SPEED_M_S, ContactRequirements, Limits, PlanKind, RETREAT_M_S, Requirements, WRIST_DEG,
+};
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name};
 
 /// Number of broken requirements that are shown with their numbers.
@@ -291,11 +293,10 @@ const WASH_SPEED_M_S: f64 = 0.25;
 /// Greatest acceleration of the tip while it washes \[m/s²\].
 const WASH_ACCELERATION_M_S2: f64 = 4.0;
 
-/// Greatest speed with which the sponge lands on a plate and lifts off, where contact is required \[m/s\].
-const CONTACT_SPEED_M_S: f64 = 0.05;
-
-/// Least angle of joint 5 from 0 at a plate, where contact is required \[deg\].
-const WRIST_DEG: f64 = 3.0;
+/// Words of `wash.landing_speed_m_s` and `wash.lifting_speed_m_s`, the two limits of the contact speed. A row names the key, so that the
+/// reader knows which of both to change.
+const LANDING_SPEED: &str = "landing speed";
+const LIFTING_SPEED: &str = "lifting speed";
 
 /// Usual contact requirements.
 const CONTACT: ContactRequirements = ContactRequirements {
@@ -312,7 +313,8 @@ const CONTACT: ContactRequirements = ContactRequirements {
 
 /// Requirement with its usual value.
 struct Row {
-    name: &'static str,
+    /// Words of the requirement, or of the key that states the value.
+    name: String,
     required: f64,
     usual: f64,
     unit: &'static str,
@@ -331,9 +333,9 @@ const NEWTON: Told = (1.0, " N");
 const DEGREE: Told = (1.0, "°");
 
 impl Row {
-    fn at_least(name: &'static str, required: f64, usual: f64, (scale, unit): Told) -> Self {
+    fn at_least(name: impl Into<String>, required: f64, usual: f64, (scale, unit): Told) -> Self {
         Self {
-            name,
+            name: name.into(),
             required: scale * required,
             usual: scale * usual,
             unit,
@@ -341,7 +343,7 @@ impl Row {
         }
     }
 
-    fn at_most(name: &'static str, required: f64, usual: f64, told: Told) -> Self {
+    fn at_most(name: impl Into<String>, required: f64, usual: f64, told: Told) -> Self {
         Self {
             more_is_stricter: false,
             ..Self::at_least(name, required, usual, told)
@@ -370,64 +372,81 @@ impl Row {
 
 /// Returns the requirements of a job that are laxer than usual for its kind, in words. A requirement that is not judged is left out.
 pub(crate) fn laxer_requirements(kind: PlanKind, wanted: &Requirements, limits: &Limits) -> Vec<String> {
+    use Requirement as R;
     let tip_speed_m_s = match kind {
         PlanKind::DryRun => dry_run::SPEED_M_S,
         PlanKind::Wash | PlanKind::MotionHome | PlanKind::Rest => TIP_SPEED_M_S,
     };
-    let mut rows = vec![Row::at_least("clearance", wanted.clearance_m, CLEARANCE_M, MILLIMETRE)];
+    let mut rows = vec![Row::at_least(
+        R::Clearance.words(),
+        wanted.clearance_m,
+        CLEARANCE_M,
+        MILLIMETRE,
+    )];
     match (kind, wanted.lifting_m_s) {
         (PlanKind::MotionHome, Some(lifting_m_s)) => {
-            rows.push(Row::at_most(
-                "lifting speed",
-                lifting_m_s,
-                RETREAT_M_S,
-                METRE_PER_SECOND,
-            ));
+            rows.push(Row::at_most(LIFTING_SPEED, lifting_m_s, RETREAT_M_S, METRE_PER_SECOND));
         }
         (PlanKind::MotionHome, None) => {}
         (PlanKind::Wash | PlanKind::DryRun | PlanKind::Rest, _) => {
-            rows.insert(0, Row::at_least("swept", wanted.coverage, SWEPT, PERCENT));
+            rows.insert(0, Row::at_least(R::Swept.words(), wanted.coverage, SWEPT, PERCENT));
             rows.extend(of_washing(wanted));
         }
     }
     let (speed, acceleration) = (limits.tip_speed_m_s, limits.tip_acceleration_m_s2);
     let unit = METRE_PER_SECOND_SQUARED;
     rows.extend([
-        Row::at_most("tip speed", speed, tip_speed_m_s, METRE_PER_SECOND),
-        Row::at_most("tip acceleration", acceleration, TIP_ACCELERATION_M_S2, unit),
+        Row::at_most(R::TipSpeed.words(), speed, tip_speed_m_s, METRE_PER_SECOND),
+        Row::at_most(R::TipAcceleration.words(), acceleration, TIP_ACCELERATION_M_S2, unit),
     ]);
     rows.iter().filter(|row| row.is_laxer()).map(Row::words).collect()
 }
 
 /// Rows of a plan that washes plates.
 fn of_washing(wanted: &Requirements) -> Vec<Row> {
+    use Requirement as R;
     let (speed_m_s, unit) = (wanted.wash_speed_m_s, METRE_PER_SECOND_SQUARED);
     let acceleration = wanted.wash_acceleration_m_s2;
     let mut rows = vec![
-        Row::at_most("tilt", wanted.tilt_rad.to_degrees(), TILT_DEG, DEGREE),
-        Row::at_most("wash speed", speed_m_s, WASH_SPEED_M_S, METRE_PER_SECOND),
-        Row::at_most("wash acceleration", acceleration, WASH_ACCELERATION_M_S2, unit),
+        Row::at_most(R::Tilt.words(), wanted.tilt_rad.to_degrees(), TILT_DEG, DEGREE),
+        Row::at_most(R::WashSpeed.words(), speed_m_s, WASH_SPEED_M_S, METRE_PER_SECOND),
+        Row::at_most(R::WashAcceleration.words(), acceleration, WASH_ACCELERATION_M_S2, unit),
     ];
     if let Some(contact) = &wanted.contact {
-        // Where the job states no speed of landing or lifting, that of washing is the limit.
+        // Where the job states no contact speed, the wash speed is the limit.
         let speed = |stated: Option<f64>| stated.unwrap_or(speed_m_s);
         let [landing, lifting] = [wanted.landing_m_s, wanted.lifting_m_s].map(speed);
         let wrist_deg = wanted.wrist_rad.unwrap_or(0.0).to_degrees();
         let ([least_n, most_n], error_m) = (contact.force_n, contact.height_error_m);
         rows.extend([
-            Row::at_least("pressed", contact.share, CONTACT.share, PERCENT),
+            Row::at_least(R::Pressed.words(), contact.share, CONTACT.share, PERCENT),
             Row::at_least("compression", contact.compression_m, CONTACT.compression_m, MILLIMETRE),
-            Row::at_least("error of height", error_m, CONTACT.height_error_m, MILLIMETRE),
-            Row::at_least("contact time", contact.time_s, CONTACT.time_s, (1.0, " s")),
-            Row::at_least("contact time on", contact.time_share, CONTACT.time_share, PERCENT),
-            Row::at_least("contact dose", contact.dose_pa_m, CONTACT.dose_pa_m, (1.0, " Pa·m")),
-            Row::at_least("contact dose on", contact.dose_share, CONTACT.dose_share, PERCENT),
-            Row::at_most("strain", contact.strain, CONTACT.strain, PERCENT),
-            Row::at_least("contact force", least_n, CONTACT.force_n[0], NEWTON),
-            Row::at_most("contact force", most_n, CONTACT.force_n[1], NEWTON),
-            Row::at_most("landing speed", landing, CONTACT_SPEED_M_S, METRE_PER_SECOND),
-            Row::at_most("lifting speed", lifting, CONTACT_SPEED_M_S, METRE_PER_SECOND),
-            Row::at_least("joint 5 from 0", wrist_deg, WRIST_DEG, DEGREE),
+            Row::at_least("height error", error_m, CONTACT.height_error_m, MILLIMETRE),
+            Row::at_least(R::ContactTime.words(), contact.time_s, CONTACT.time_s, (1.0, " s")),
+            Row::at_least(
+                R::ContactTime.words() + " on",
+                contact.time_share,
+                CONTACT.time_share,
+                PERCENT,
+            ),
+            Row::at_least(
+                R::ContactDose.words(),
+                contact.dose_pa_m,
+                CONTACT.dose_pa_m,
+                (1.0, " Pa·m"),
+            ),
+            Row::at_least(
+                R::ContactDose.words() + " on",
+                contact.dose_share,
+                CONTACT.dose_share,
+                PERCENT,
+            ),
+            Row::at_most(R::Strain.words(), contact.strain, CONTACT.strain, PERCENT),
+            Row::at_least(R::ContactForce.words(), least_n, CONTACT.force_n[0], NEWTON),
+            Row::at_most(R::ContactForce.words(), most_n, CONTACT.force_n[1], NEWTON),
+            Row::at_most(LANDING_SPEED, landing, CONTACT_SPEED_M_S, METRE_PER_SECOND),
+            Row::at_most(LIFTING_SPEED, lifting, CONTACT_SPEED_M_S, METRE_PER_SECOND),
+            Row::at_least(R::Wrist.words(), wrist_deg, WRIST_DEG, DEGREE),
         ]);
     }
     rows

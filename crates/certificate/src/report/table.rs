@@ -224,7 +224,7 @@ fn contact_row(f: &mut impl fmt::Write, contact: &PlateContact) -> fmt::Result {
     };
     writeln!(
         f,
-        "  {:<10} pressed: {}; long enough: {}; dose: {}; strain {}, force {}, friction torque {} (friction coefficient 0.3 to 1.0, assumed)",
+        "  {:<10} pressed: {}; contact time: {}; contact dose: {}; strain {}, contact force {}, friction torque {} (friction coefficient 0.3 to 1.0, assumed)",
         plate_name(contact.plate),
         share(&contact.pressed, 1e3, "mm"),
         share(&contact.time, 1.0, "s"),

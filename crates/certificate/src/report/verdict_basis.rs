@@ -47,7 +47,7 @@ const FOUNDATION: &str = "the sponge is round and each column of it presses with
                           which nobody measured";
 
 /// Text added with contact requirements: the height error of the plates.
-const ERROR_OF_HEIGHT: &str = "contact, landing and lifting hold for plates too high or too low by up to the stated height error; everything else, \
+const ERROR_OF_HEIGHT: &str = "contact and contact speed hold for plates too high or too low by up to the stated height error; everything else, \
                                clearance too, at the stated height";
 
 /// Assumptions added for plates out of meshes, and out of points that a probe touched.
@@ -597,7 +597,7 @@ fn limits(limits: &Limits, described: &[usize]) -> String {
         _ => format!("of joints {} from the description, others assumed", listed(described)),
     };
     format!(
-        "joint positions and speeds from the description; joint accelerations {} rad/s² ({source}); tip {} m/s, {} m/s² (assumed)",
+        "joint positions and speeds from the description; joint accelerations {} rad/s² ({source}); tip speed {} m/s, tip acceleration {} m/s² (assumed)",
         list(limits.joint_acceleration_rad_s2),
         number(limits.tip_speed_m_s),
         number(limits.tip_acceleration_m_s2)
@@ -611,7 +611,7 @@ fn requirements(wanted: &Requirements) -> String {
     };
     let order = if wanted.as_listed { "as listed" } else { "in any order" };
     format!(
-        "swept {} %, clearance {} mm, tilt {} °, washing at most {} m/s and {} m/s², {overlap}, {order}",
+        "swept {} %, clearance {} mm, tilt {} °, wash speed {} m/s, wash acceleration {} m/s², {overlap}, {order}",
         number(100.0 * wanted.coverage),
         mm(wanted.clearance_m),
         number(wanted.tilt_rad.to_degrees()),
@@ -634,7 +634,7 @@ fn contact(tool: &Tool, wanted: &Requirements, dry_run: Option<&DryRun>) -> Opti
         format!(
             "a point is in contact where the sponge is compressed by {} mm or more, with the plate up to {} mm too high or too low and a \
              stiffness from {} to {} kPa (assumed); in contact {} % of the face, for {} s or more {} %, with a dose of {} Pa·m or more {} %; \
-             strain at most {} %, force along the sponge's axis {} to {} N",
+             strain at most {} %, contact force {} to {} N",
             mm(contact.compression_m),
             mm(contact.height_error_m),
             number(1e-3 * least),

@@ -1,4 +1,4 @@
-//! Contact of the sponge with a plate: the pressed share, contact time and dose, and the load on the sponge.
+//! Contact of the sponge with a plate: pressed, contact time and contact dose, and the load on the sponge.
 //!
 //! Requirements 27–31, formulas (27.1) to (31.2) in `docs/contact.md`.
 

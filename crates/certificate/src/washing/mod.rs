@@ -6,18 +6,18 @@
 //! | the tip follows its curve | `following` |
 //! | how much of a plate is swept | `coverage` |
 //! | how far the sponge reaches beyond the rim, and which neighbours it may touch | `reach` |
-//! | how fast the sponge lands and lifts off | `landing` |
+//! | how fast the sponge lands and lifts off | `contact_speed` |
 //! | contact: how long, how hard, which share of a plate | `contact`, `shares` |
 //! | what holds a plate: what it takes, and whether the plate stays | `holding` |
 //! | the moments of a wash; the strain of the foam; a frame that turns with the sponge | `instants`, `pressing`, `turning_frame` |
 
 pub(crate) mod contact;
+pub(crate) mod contact_speed;
 pub(crate) mod coverage;
 pub(crate) mod face;
 pub(crate) mod following;
 pub(crate) mod holding;
 pub(crate) mod instants;
-pub(crate) mod landing;
 pub(crate) mod pressing;
 pub(crate) mod reach;
 pub(crate) mod shares;

@@ -1,4 +1,4 @@
-//! Load on the sponge while it washes: greatest strain, force along its axis, and friction torque about that axis.
+//! Load on the sponge while it washes: strain, contact force, and friction torque about its axis.
 //!
 //! The foam presses with E w / H over a column of the cross-section dA, along the sponge's axis: with the volume V = ∫ max(w, 0) dA the
 //! force along the axis is E V / H, whatever way the surface faces, as long as there is no friction. Friction μ acts on what the plate

@@ -182,7 +182,7 @@ pub(crate) fn reached_neighbours(subject: &Subject<'_>, plate: usize, beyond_rim
 
 /// True if the sponge, at any tilt, may come nearer to `plate` than the clearance while it works on `working_on`. The sponge keeps clear of
 /// a plate whose face is higher, that stands at an angle, or that lies under the one it works on, except the other face of the same disc.
-/// The touching speed and the reach beyond the rim are bounded at the height of the plate being worked on and below.
+/// The contact speed and the reach beyond the rim are bounded at the height of the plate being worked on and below.
 pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
     let (Some(own), Some(other)) = (subject.plates().get(working_on), subject.plates().get(plate)) else {
         return false;

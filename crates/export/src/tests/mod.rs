@@ -434,7 +434,7 @@ fn reports_contact_promises_that_are_not_judged() {
     );
     (promised.contact, promised.landing_m_s) = (None, Some(0.05));
     (promised.lifting_m_s, promised.wrist_rad) = (None, None);
-    assert_eq!(contact_not_judged(&promised).as_deref(), Some("speed of landing"));
+    assert_eq!(contact_not_judged(&promised).as_deref(), Some("contact speed"));
     promised.landing_m_s = None;
     assert_eq!(contact_not_judged(&promised), None);
     promised.contact = Some(ContactRequirements {
@@ -449,6 +449,6 @@ fn reports_contact_promises_that_are_not_judged() {
         dose_share: 0.99,
     });
     (promised.landing_m_s, promised.wrist_rad) = (Some(0.05), Some(0.05));
-    let all = "contact (share pressed, time, dose, strain, force), speed of landing, side of the wrist";
+    let all = "pressed, contact time, contact dose, strain, contact force, contact speed, wrist";
     assert_eq!(contact_not_judged(&promised).as_deref(), Some(all));
 }

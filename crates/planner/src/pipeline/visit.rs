@@ -25,10 +25,10 @@ const HALVINGS: u32 = 16;
 /// Reserve added to that height \[m\].
 const MEETS_M: f64 = 1e-4;
 
-/// The share of the speed of landing and lifting at which the free sponge touches at most.
+/// Share of the limit of the contact speed, in landing and in lifting, that the free sponge takes at most.
 const LANDING: f64 = 0.97;
 
-/// Share of the speed limit of washing at which the sponge touches at most: the rest is for the motion of its rim relative to the
+/// Share of the wash speed's limit at which the sponge touches at most: the rest is for the motion of its rim relative to the
 /// tip.
 const TOUCHING: f64 = 0.99;
 

@@ -7,16 +7,10 @@ use crate::sections::motion::Program;
 use crate::sections::tool::ASSUMED_STIFFNESS_KPA;
 use crate::sections::wash::WashSection;
 use platewash_kinematics::trig::sin_cos;
-use platewash_workcell::job::{ContactRequirements, PATH_TOLERANCE_M};
+use platewash_workcell::job::{CONTACT_SPEED_M_S, ContactRequirements, PATH_TOLERANCE_M, WRIST_DEG};
 use platewash_workcell::tool::Tool;
 use platewash_workcell::wash_path::{PatternRules, TurnsRule};
 use std::f64::consts::PI;
-
-/// Greatest speed at which the sponge meets a plate and leaves it, where contact is promised and no speed is stated \[m/s\].
-const LANDING_M_S: f64 = 0.05;
-
-/// Least angle of joint 5 from 0, where contact is promised and no angle is stated \[deg\].
-const WRIST_DEG: f64 = 3.0;
 
 /// Requirements of a promised contact, where no others are stated.
 const PROMISED: ContactRequirements = ContactRequirements {
@@ -48,10 +42,11 @@ impl WashSection {
         })
     }
 
-    /// Greatest speeds at which the free sponge meets a plate, and leaves it \[m/s\]; `None` where there is no limit of its own.
+    /// Limits of the contact speed: of the free sponge that lands on a plate, and that lifts off \[m/s\]; `None` where there is no limit of its
+    /// own.
     #[must_use]
     pub fn landing_and_lifting_m_s(&self) -> [Option<f64>; 2] {
-        let promised = self.contact.then_some(LANDING_M_S);
+        let promised = self.contact.then_some(CONTACT_SPEED_M_S);
         [self.landing_speed_m_s, self.lifting_speed_m_s].map(|stated| stated.or(promised))
     }
 

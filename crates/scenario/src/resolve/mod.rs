@@ -6,7 +6,7 @@
 //! | the link that a mount and touched places count from | `mount` |
 //! | places of the plates; plates and soils out of files | `placement`; `plate_files` |
 //! | bodies around the arm; meshes as convex bodies | `surroundings`; `solids` |
-//! | requirements of contact, landing and lifting | `contact` |
+//! | requirements of contact and contact speed | `contact` |
 //! | keys with a narrower range in a certified job than in the paper's program | `certified` |
 //! | bounds on the amount of work | `work` |
 

@@ -127,7 +127,7 @@ fn contact(pressed: &[(String, &Pressing)], f: &mut Formatter<'_>) -> fmt::Resul
     writeln!(
         f,
         "{:<24} {:>12} {:>14} {:>16}",
-        "kept in contact", "pressed %", "long enough %", "with the dose %"
+        "kept in contact", "pressed %", "contact time %", "contact dose %"
     )?;
     for (plate, kept) in found {
         let [pressed, time, dose] = [kept.contact, kept.time, kept.dose].map(percent);

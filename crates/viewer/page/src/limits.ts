@@ -1,44 +1,19 @@
 /** Requirements in groups, each with its share of the limit. */
 import { fixedShort } from "./format.ts";
 import { RANK } from "./verdict.ts";
-import type { Check, Measure } from "./view.ts";
-
-export type GroupName = "Washed" | "Safe" | "Within limits";
-
-/** Requirements by group, those that people look at first in front. What is not listed is within limits, before the joints. */
-const GROUPS: Readonly<Record<GroupName, readonly string[]>> = {
-  Washed: ["pressed", "swept", "contact_time", "contact_dose", "contact_force", "plate_stays", "contact_height", "path_deviation", "wash_paths", "every_plate_once"],
-  Safe: ["clearance", "reduced_clearance", "contact_speed", "strain", "tilt", "reach", "line_deviation", "wrist", "rest_at_wash_ends", "plates_apart", "plates", "exclusions", "tool", "arm", "dry_run"],
-  "Within limits": ["wash_speed", "wash_acceleration", "tip_speed", "tip_acceleration", "plan_deviation", "segments", "home_to_home"],
-};
-
-const JOINTS = /^joint_/;
-
-function groupOf({ requirement }: Check): GroupName {
-  const found = (Object.keys(GROUPS) as GroupName[]).find((name) => GROUPS[name].includes(requirement));
-  return found ?? "Within limits";
-}
-
-/** Place within the group: what is not kept first, the joints last. */
-function order(name: GroupName, { requirement, status }: Check): [number, number] {
-  const place = GROUPS[name].indexOf(requirement);
-  return [RANK[status], JOINTS.test(requirement) ? 1000 : place < 0 ? 999 : place];
-}
+import type { Check, Measure, RequirementGroup } from "./view.ts";
 
 export interface Group {
-  name: GroupName;
+  name: RequirementGroup;
   checks: Check[];
 }
 
-/** The groups that have requirements; those with what is not kept first. */
+/** The groups that have requirements; those with what is not kept first, and in each what is not kept first. The program says which requirement is in which group, and where. */
 export function grouped(checks: readonly Check[]): Group[] {
-  const groups = (Object.keys(GROUPS) as GroupName[]).map((name): Group => {
-    const own = checks.filter((check) => groupOf(check) === name);
-    own.sort((a, b) => {
-      const [[rank, place], [other, at]] = [order(name, a), order(name, b)];
-      return rank - other || place - at;
-    });
-    return { name, checks: own };
+  const found: Record<RequirementGroup, Check[]> = { Washed: [], Safe: [], "Within limits": [] };
+  for (const check of checks) found[check.why.group].push(check);
+  const groups = (Object.keys(found) as RequirementGroup[]).map((name): Group => {
+    return { name, checks: found[name].sort((a, b) => RANK[a.status] - RANK[b.status] || a.why.place - b.why.place) };
   });
   return groups.filter((group) => group.checks.length > 0).sort((a, b) => RANK[a.checks[0]!.status] - RANK[b.checks[0]!.status]);
 }

@@ -1,23 +1,23 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { grouped, measureWords, shareOf } from "../src/limits.ts";
-import type { Check, Measure, Status, Unit } from "../src/view.ts";
+import type { Check, Measure, RequirementGroup, Status, Unit } from "../src/view.ts";
 
-const check = (requirement: string, status: Status = "proved"): Check => ({ requirement, words: requirement, status, detail: "", worst: {}, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } });
+const check = (requirement: string, group: RequirementGroup, place: number, status: Status = "proved"): Check => ({ requirement, words: requirement, status, detail: "", worst: {}, place: "", why: { sentence: "", group, place, section: "", formulas: [], limit: "" } });
 const atMost = (bound: number | null, limit: number, unit: Unit): Measure => ({ bound, seen: null, limit, sense: "at_most", unit });
 const atLeast = (bound: number | null, limit: number, unit: Unit): Measure => ({ bound, seen: null, limit, sense: "at_least", unit });
 
-test("requirements come in three groups, the joints last, and unknown ones are within limits", () => {
-  const groups = grouped(["joint_speed", "clearance", "news", "tip_speed", "swept", "pressed"].map((name) => check(name)));
+test("requirements come in three groups, each in the order of their places", () => {
+  const groups = grouped([check("joint_speed", "Within limits", 9), check("clearance", "Safe", 1), check("tip_speed", "Within limits", 3), check("swept", "Washed", 2), check("pressed", "Washed", 1)]);
   assert.deepEqual(groups.map(({ name, checks }) => [name, checks.map(({ requirement }) => requirement)]), [
     ["Washed", ["pressed", "swept"]],
     ["Safe", ["clearance"]],
-    ["Within limits", ["tip_speed", "news", "joint_speed"]],
+    ["Within limits", ["tip_speed", "joint_speed"]],
   ]);
 });
 
 test("what is not kept is first, in its group and among the groups", () => {
-  const groups = grouped([check("pressed"), check("tip_speed"), check("joint_speed", "violated"), check("clearance", "not_proved")]);
+  const groups = grouped([check("pressed", "Washed", 1), check("tip_speed", "Within limits", 3), check("joint_speed", "Within limits", 9, "violated"), check("clearance", "Safe", 1, "not_proved")]);
   assert.deepEqual(groups.map(({ name }) => name), ["Within limits", "Safe", "Washed"]);
   assert.deepEqual(groups[0]!.checks.map(({ requirement }) => requirement), ["joint_speed", "tip_speed"]);
 });

@@ -115,7 +115,7 @@ test("the patch is below an arm on the floor, and the marks under the plates whe
 });
 
 function check(words: string, time_s: number | null, status: Status = "proved"): Check {
-  return { requirement: words, words, status, detail: "", worst: time_s === null ? {} : { time_s }, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } };
+  return { requirement: words, words, status, detail: "", worst: time_s === null ? {} : { time_s }, place: "", why: { sentence: "", group: "Within limits", place: 1, section: "", formulas: [], limit: "" } };
 }
 
 test("marks that would cover each other are one, at the worst of them", () => {

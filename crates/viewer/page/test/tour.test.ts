@@ -6,7 +6,7 @@ import type { Check, Status, View } from "../src/view.ts";
 
 function check(words: string, status: Status, time_s?: number): Check {
   const measure = { bound: 0.8, seen: null, limit: 1, sense: "at_most", unit: "m/s" } as const;
-  return { requirement: words, words, status, measure, detail: "", worst: time_s === undefined ? {} : { time_s }, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } };
+  return { requirement: words, words, status, measure, detail: "", worst: time_s === undefined ? {} : { time_s }, place: "", why: { sentence: "", group: "Within limits", place: 1, section: "", formulas: [], limit: "" } };
 }
 
 function view(checks: Check[], passes: boolean): View {

@@ -6,7 +6,7 @@ import { decode, floats, NumbersError } from "../src/numbers.ts";
 import { verdict, washed } from "../src/verdict.ts";
 import { type Certificate, type Check, DocumentError, type Execution, type Numbers, parseView, type PlanSegment, type Plate, type Status, type View } from "../src/view.ts";
 
-const check = (status: Status): Check => ({ requirement: "tilt", words: "tilt", status, detail: "", worst: {}, place: "", why: { sentence: "", section: "", formulas: [], limit: "" } });
+const check = (status: Status): Check => ({ requirement: "tilt", words: "tilt", status, detail: "", worst: {}, place: "", why: { sentence: "", group: "Within limits", place: 1, section: "", formulas: [], limit: "" } });
 
 function viewWith(statuses: Status[] | null, certificate: Partial<Certificate> = {}): View {
   const checks = (statuses ?? []).map(check);

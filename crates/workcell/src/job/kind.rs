@@ -36,11 +36,11 @@ pub enum Statement {
     Contact,
     /// Holder of the plates (`job.requirements.holder`).
     Holder,
-    /// Landing speed (`job.requirements.landing_m_s`).
+    /// Contact speed in landing (`job.requirements.landing_m_s`).
     LandingSpeed,
-    /// Lifting speed (`job.requirements.lifting_m_s`).
+    /// Contact speed in lifting (`job.requirements.lifting_m_s`).
     LiftingSpeed,
-    /// Angle of joint 5 from 0 (`job.requirements.wrist_rad`).
+    /// Wrist: angle of joint 5 from 0 (`job.requirements.wrist_rad`).
     Wrist,
 }
 

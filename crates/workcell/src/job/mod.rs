@@ -24,8 +24,9 @@ pub use crate::job::kind::{PlanKind, Statement, StatementRule};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
 pub use crate::job::recovery::{NEARER_M, RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
 pub use crate::job::requirements::{
-    ContactRequirements, ContactThresholds, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits, OrderRule, Overlap,
-    PATH_TOLERANCE_M, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
+    CONTACT_SPEED_M_S, ContactRequirements, ContactThresholds, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits,
+    OrderRule, Overlap, PATH_TOLERANCE_M, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
+    WRIST_DEG,
 };
 pub use crate::job::soil::{MOST_PASSES, Soil};
 pub use crate::job::terms::{JobTerms, MAX_SEED, check_workcell};

@@ -13,6 +13,13 @@ use ts_rs::TS;
 /// Greatest distance of a plan's tip from its wash path while it washes \[m\].
 pub const PATH_TOLERANCE_M: f64 = 2e-4;
 
+/// Usual limit of the contact speed, of the free sponge that lands on a plate and that lifts off \[m/s\]: the default of both keys of a
+/// scenario that asks for contact. A job that allows more requires less than usual.
+pub const CONTACT_SPEED_M_S: f64 = 0.05;
+
+/// Usual requirement of the wrist: least angle of joint 5 from 0 at a plate \[deg\], and the default of a scenario that asks for contact.
+pub const WRIST_DEG: f64 = 3.0;
+
 /// Greatest distance of a plan's tip from the line over the end of a wash path while it approaches and retreats \[m\].
 pub const LINE_TOLERANCE_M: f64 = 1e-3;
 
@@ -35,11 +42,11 @@ pub struct Requirements {
     pub overlap: Overlap,
     /// True if plates must be washed in the order in which they are listed.
     pub as_listed: bool,
-    /// Greatest touching speed of the free sponge while it comes down on a plate \[m/s\], for every point of it that touches. Without
-    /// `landing_m_s` and `lifting_m_s` it is the speed of washing.
+    /// Greatest contact speed of the free sponge while it comes down on a plate \[m/s\], for every point of it that touches. Without
+    /// `landing_m_s` and `lifting_m_s` it is the wash speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landing_m_s: Option<f64>,
-    /// Greatest touching speed of the free sponge while it leaves a plate \[m/s\].
+    /// Greatest contact speed of the free sponge while it leaves a plate \[m/s\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lifting_m_s: Option<f64>,
     /// Least distance of joint 5 from 0 while the sponge is at a plate, always on the same side \[rad\]: a wrist with axes 4 and 6 in line
@@ -113,7 +120,7 @@ pub struct ContactRequirements {
     pub share: f64,
     /// Greatest strain of the sponge: its compression over its free height.
     pub strain: f64,
-    /// Least and greatest normal force on the sponge while it washes \[N\].
+    /// Least and greatest contact force: that along the sponge's axis while it washes \[N\].
     pub force_n: [f64; 2],
     /// Least time in contact \[s\], required on `time_share`.
     pub time_s: f64,

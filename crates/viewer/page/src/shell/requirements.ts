@@ -57,7 +57,7 @@ export function contactWords({ asked, plates }: Contact): string {
 export function contactTable(view: View, contact: Contact): HTMLElement[] {
   const { asked, plates } = contact;
   if (plates.length === 0) return [];
-  const heads = ["", "pressed", "time", "dose", "strain", "force [N]"];
+  const heads = ["", "pressed", "contact time", "contact dose", "strain", "contact force [N]"];
   const wanted = [asked.share, asked.time_share, asked.dose_share].map((share) => `≥\u202f${fixedShort(100 * share, 2)}\u202f%`);
   const head = el("tr", {}, ...heads.map((words) => el("th", { set: { scope: "col" } }, words)));
   const limits = el(

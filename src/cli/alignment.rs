@@ -27,7 +27,7 @@ use platewash_workcell::plate::GREATEST_M;
 use platewash_workcell::words::millimetres;
 
 /// Greatest number of points.
-pub(crate) const MOST: usize = 10_000;
+const MOST: usize = 10_000;
 
 /// Least distance between two points \[m\].
 const APART_M: f64 = 0.01;
@@ -37,7 +37,7 @@ const BESIDE_M: f64 = 0.005;
 const BESIDE_SHARE: f64 = 0.02;
 
 /// Greatest absolute coordinate \[m\]. A drawing in millimetres is below it, so that it is refused for its unit and not for its size.
-pub(crate) const GREATEST: f64 = 1e3 * GREATEST_M;
+const GREATEST: f64 = 1e3 * GREATEST_M;
 
 /// Greatest factor between a ratio of lengths and 1/1000 for which the ratio counts as a slip of units.
 const NEAR: f64 = 2.0;

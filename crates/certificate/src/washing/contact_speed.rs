@@ -1,4 +1,4 @@
-//! Touching speed: the speed of any point of the sponge that touches a plate while it comes down or leaves.
+//! Contact speed: the speed of any point of the sponge that touches a plate while it comes down or leaves.
 //!
 //! Requirement 21, formulas (21.1) and (21.2) in `docs/certificate.md`.
 //!
@@ -7,7 +7,7 @@
 //! faster than it washes. Stretches in which nothing touches count for nothing; the others are halved like those of every quantity
 //! (`motion/bound_tracker.rs`).
 //!
-//! The sponge over the face of a plate that it comes down on or leaves: contact or no contact, and a bound of the touching speed.
+//! The sponge over the face of a plate that it comes down on or leaves: contact or no contact, and a bound of the contact speed.
 //!
 //! Its far face lies b beyond the tip: b = 0 for the one that it has while it washes, b = c for the free one.
 //!
@@ -49,9 +49,9 @@ use platewash_workcell::words::{millimetres, plate_name};
 const RESOLUTION: f64 = 2e-3;
 
 /// Limits for the segments of some kinds.
-struct TouchSpeedLimit<'a> {
+struct ContactSpeedLimit<'a> {
     kinds: &'a [SegmentKind],
-    /// Greatest touching speed \[m/s\].
+    /// Greatest contact speed \[m/s\].
     limit: f64,
     /// True for the free sponge; false for the compressed one.
     is_free: bool,
@@ -91,7 +91,7 @@ pub(crate) fn from_face(
     ))
 }
 
-/// Checks the touching speed on every plate that the sponge comes down on or leaves.
+/// Checks the contact speed on every plate that the sponge comes down on or leaves.
 pub(crate) fn check(
     arm: &Arm<'_>,
     subject: &Subject<'_>,
@@ -103,17 +103,17 @@ pub(crate) fn check(
         return Check::not_judged(Requirement::ContactSpeed);
     };
     let wanted = &subject.job.requirements;
-    let judged = |limit: &TouchSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
+    let judged = |limit: &ContactSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
     let limit = subject.job.wash_speed_m_s();
     if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
-        return judged(&TouchSpeedLimit {
+        return judged(&ContactSpeedLimit {
             kinds: &[SegmentKind::Approach, SegmentKind::Retreat],
             limit,
             is_free: false,
         });
     }
     let of = |kind, stated: Option<f64>| {
-        judged(&TouchSpeedLimit {
+        judged(&ContactSpeedLimit {
             kinds: &[kind],
             limit: stated.map_or(limit, |stated| stated.min(limit)),
             is_free: stated.is_some(),
@@ -131,7 +131,7 @@ fn judge(
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: &Schedule,
     tips: &Tips,
-    touch: &TouchSpeedLimit<'_>,
+    touch: &ContactSpeedLimit<'_>,
 ) -> Check {
     let limit = touch.limit;
     let mut tracker = BoundTracker::new(limit, RESOLUTION * limit);
@@ -411,7 +411,7 @@ impl Rim<'_> {
         }
     }
 
-    /// Upper bound on the touching speed on a face that is no disc over a stretch \[m/s\]; `None` where nothing touches.
+    /// Upper bound on the contact speed on a face that is no disc over a stretch \[m/s\]; `None` where nothing touches.
     fn bound_on(
         &self,
         columns: &(Columns, Bends<'_>),
