@@ -20,11 +20,11 @@
 //! The errors are the cases in which points give no mount.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
-use platewash_kinematics::trig::acos;
-use platewash_kinematics::{Pose, RobotModel};
-use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
-use platewash_workcell::plate::GREATEST_M;
-use platewash_workcell::words::millimetres;
+use platewash::kinematics::trig::acos;
+use platewash::kinematics::{Pose, RobotModel};
+use platewash::workcell::number_table::{NumberTable, Row, TableError, TableShape};
+use platewash::workcell::plate::GREATEST_M;
+use platewash::workcell::words::millimetres;
 
 /// Greatest number of points.
 const MOST: usize = 10_000;

@@ -9,9 +9,10 @@ use numpy::PyArrayDyn;
 use platewash::paper::PaperSpiral;
 use platewash::paper::cubic::{self, Interpolation};
 use platewash::workcell::arc::{self, Arc};
-use platewash::workcell::job::MOST_PASSES;
 use platewash::workcell::surface::Surface;
-use platewash::workcell::wash_path::{LEAST_BLEND_RAD, MOST_RINGS, MOST_TRIM_RAD, Rings, WashCurve, WashPattern};
+use platewash::workcell::wash_path::{
+    LEAST_BLEND_RAD, MOST_LAPS, MOST_RINGS, MOST_TRIM_RAD, Rings, WashCurve, WashPattern,
+};
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
 
@@ -122,7 +123,7 @@ pub fn rings_of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Rings> {
         lead_rad: number("lead_rad", [0.0, TAU])?,
         blend_rad: number("blend_rad", [LEAST_BLEND_RAD, TAU])?,
         laps: argument::field(whole, value, ("rings", "laps"), |name, laps| {
-            argument::count(name, laps, [1, u64::from(MOST_PASSES)])
+            argument::count(name, laps, [1, u64::from(MOST_LAPS)])
         })? as u32,
     })
 }

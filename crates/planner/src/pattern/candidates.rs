@@ -11,12 +11,12 @@ use platewash_bodies::contact::{Moment, SpongePose};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{CandidateRequest, Density, PatternName, SurfacePoint, WashCurve};
 
-/// Lists all curves of a density that the settings leave open, with the greatest trim; at least one of the usual density.
-pub(crate) fn candidates(request: &CandidateRequest<'_>) -> Vec<WashCurve> {
-    if request.settings.turns.is_some() && request.density == Density::Dense {
+/// Lists all curves of a density that a job leaves open, of the pattern that it states if it does, with the greatest trim; at least one of the usual density.
+pub(crate) fn candidates(pattern: Option<PatternName>, request: &CandidateRequest<'_>) -> Vec<WashCurve> {
+    if request.stated.turns.is_some() && request.density == Density::Dense {
         return Vec::new();
     }
-    let asked = PatternName::asked(request.settings.pattern, request.states_numbers());
+    let asked = PatternName::asked(pattern, &request.stated);
     let suits = |pattern: &PatternName| match request.laps {
         0 | 1 => asked.is_none_or(|asked| asked == *pattern),
         _ => pattern.rules().repeats,

@@ -125,13 +125,14 @@ impl Patterns {
         };
         let laps = terms.passes_of(plate);
         let curves = |density| {
-            candidates(&CandidateRequest {
-                settings,
+            let request = CandidateRequest {
+                stated: settings.stated_numbers(),
                 surface,
                 sponge_m: promise.foundation.radius_m,
                 density,
                 laps,
-            })
+            };
+            candidates(settings.pattern, &request)
         };
         let usual = curves(Density::Usual).into_iter();
         let candidates = usual.map(|curve| Candidate::new(curve, surface, &limits)).collect();

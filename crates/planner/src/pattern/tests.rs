@@ -99,13 +99,16 @@ fn keeps_the_stated_number_of_rings() {
                         path_radius_m,
                         ..open()
                     };
-                    let all = candidates(&CandidateRequest {
-                        settings: &settings,
-                        surface: &surface,
-                        sponge_m: promise.foundation.radius_m,
-                        density: Density::Usual,
-                        laps: 1,
-                    });
+                    let all = candidates(
+                        settings.pattern,
+                        &CandidateRequest {
+                            stated: settings.stated_numbers(),
+                            surface: &surface,
+                            sponge_m: promise.foundation.radius_m,
+                            density: Density::Usual,
+                            laps: 1,
+                        },
+                    );
                     let what = format!("{surface:?}, {sponge_m} m, {turns:?}, {path_radius_m:?}");
                     assert!(!all.is_empty(), "{what}");
                     for curve in all {

@@ -19,7 +19,7 @@ use platewash_workcell::layout::MAX_PLATES;
 use platewash_workcell::number_table::{NumberTable, Row, TableError, TableShape};
 use platewash_workcell::plate::PlateTerms;
 use platewash_workcell::surface::Surface;
-use platewash_workcell::wash_path::PatternName;
+use platewash_workcell::wash_path::{PatternName, StatedNumbers};
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -242,8 +242,12 @@ impl Scenario {
             return conflict(format!("{key}, wash.soil_file"), detail);
         };
         let wash = &self.wash;
-        let states_numbers = wash.turns.is_some() || wash.path_radius_m.is_some() || wash.closing_ring.is_some();
-        let once = PatternName::asked(wash.pattern, states_numbers).filter(|pattern| !pattern.rules().repeats);
+        let stated = StatedNumbers {
+            turns: wash.turns,
+            path_radius_m: wash.path_radius_m,
+            closing_ring: wash.closing_ring,
+        };
+        let once = PatternName::asked(wash.pattern, &stated).filter(|pattern| !pattern.rules().repeats);
         if let Some(pattern) = once.filter(|_| soil.passes.is_some_and(|passes| passes > 1)) {
             let detail = format!(
                 "the soil \"{name}\" asks for {} passes, and a {} passes each place once: wash.pattern = \"rings\" goes round each ring as often",

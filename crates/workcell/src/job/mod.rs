@@ -28,5 +28,5 @@ pub use crate::job::requirements::{
     OrderRule, Overlap, PATH_TOLERANCE_M, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
     WRIST_DEG,
 };
-pub use crate::job::soil::{MOST_PASSES, Soil};
+pub use crate::job::soil::Soil;
 pub use crate::job::terms::{JobTerms, MAX_SEED, check_workcell};

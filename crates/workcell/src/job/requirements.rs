@@ -5,7 +5,7 @@
 //! Settings of the planner. They are part of the job and its hash, and are not judged.
 
 use crate::arc::Arc as ArcRoundBase;
-use crate::wash_path::PatternName;
+use crate::wash_path::{PatternName, StatedNumbers};
 use platewash_kinematics::AXES;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -238,6 +238,18 @@ pub struct PlannerSettings {
     pub reach: ReachBorders,
     /// True if the planner looks for another place for a plate that cannot be washed.
     pub relocate: bool,
+}
+
+impl PlannerSettings {
+    /// Returns the numbers of the curve that are stated.
+    #[must_use]
+    pub fn stated_numbers(&self) -> StatedNumbers {
+        StatedNumbers {
+            turns: self.turns,
+            path_radius_m: self.path_radius_m,
+            closing_ring: self.closing_ring,
+        }
+    }
 }
 
 /// Rule for the order in which plates are washed.

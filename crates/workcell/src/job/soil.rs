@@ -4,15 +4,13 @@ use crate::job::error::TermsError;
 use crate::job::requirements::ContactRequirements;
 use crate::job::terms::{JobTerms, within};
 use crate::plate::Plate;
+use crate::wash_path::MOST_LAPS;
 use crate::words::printable;
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 
 /// Significant digits of numbers in words.
 const DIGITS: usize = 4;
-
-/// Greatest number of passes.
-pub const MOST_PASSES: u32 = 20;
 
 /// Kind of soil: the washing that it needs. What it leaves out is as for the other plates of the job.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,7 +44,7 @@ impl Soil {
             within("soils.dose_pa_m", dose, [0.0, 1e9])?;
         }
         if let Some(passes) = self.passes {
-            within("soils.passes", f64::from(passes), [1.0, f64::from(MOST_PASSES)])?;
+            within("soils.passes", f64::from(passes), [1.0, f64::from(MOST_LAPS)])?;
         }
         if let Some(speed) = self.speed_m_s {
             within("soils.speed_m_s", speed, [1e-6, 10.0])?;

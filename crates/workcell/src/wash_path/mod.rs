@@ -15,9 +15,9 @@ mod rings;
 mod spiral;
 
 pub use crate::wash_path::pattern::{
-    CandidateRequest, CurveNumber, Density, PatternName, PatternRules, TRIMS_RAD, TurnsRule, WashPattern,
+    CandidateRequest, CurveNumber, Density, PatternName, PatternRules, StatedNumbers, TRIMS_RAD, TurnsRule, WashPattern,
 };
-pub use crate::wash_path::rings::{LEAST_BLEND_RAD, MOST_RINGS, Rings};
+pub use crate::wash_path::rings::{LEAST_BLEND_RAD, MOST_LAPS, MOST_RINGS, Rings};
 pub use crate::wash_path::spiral::BLEND_RAD;
 
 use crate::plate::Plate;

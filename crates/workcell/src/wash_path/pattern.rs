@@ -3,7 +3,6 @@
 //! A pattern is a file: its path, the numbers of a plan file with their ranges, its rules for the keys of a job, and the curves that a planner
 //! tries. Another one is its file, its lines here, and its field of a plan file in `FlatCurve`.
 
-use crate::job::PlannerSettings;
 use crate::surface::Surface;
 use crate::wash_path::rings::Rings;
 use crate::wash_path::spiral::Spiral;
@@ -70,8 +69,8 @@ impl PatternName {
 
     /// Returns the pattern that a job asks for: the one that it states, or a spiral where it states the numbers of a curve and no pattern.
     #[must_use]
-    pub fn asked(stated: Option<Self>, states_numbers: bool) -> Option<Self> {
-        stated.or(states_numbers.then_some(Self::Spiral))
+    pub fn asked(stated: Option<Self>, numbers: &StatedNumbers) -> Option<Self> {
+        stated.or(numbers.is_any().then_some(Self::Spiral))
     }
 }
 
@@ -111,11 +110,30 @@ pub enum Density {
     Dense,
 }
 
+/// Numbers of a curve that a job states; a planner chooses the others.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StatedNumbers {
+    /// Turns, as the pattern counts them: [`TurnsRule`].
+    pub turns: Option<f64>,
+    /// Greatest ℓ \[m\].
+    pub path_radius_m: Option<f64>,
+    /// True if a circle at the greatest ℓ closes the curve.
+    pub closing_ring: Option<bool>,
+}
+
+impl StatedNumbers {
+    /// True if the job states one of them.
+    #[must_use]
+    pub fn is_any(&self) -> bool {
+        self.turns.is_some() || self.path_radius_m.is_some() || self.closing_ring.is_some()
+    }
+}
+
 /// Request for the curves that a planner may choose from.
 #[derive(Debug, Clone, Copy)]
 pub struct CandidateRequest<'a> {
-    /// Settings of the job; those that are stated are kept.
-    pub settings: &'a PlannerSettings,
+    /// Numbers that are kept.
+    pub stated: StatedNumbers,
     /// Face of the plate.
     pub surface: &'a Surface,
     /// Radius of the sponge \[m\].
@@ -133,17 +151,10 @@ const INSETS: [f64; 6] = [0.95, 0.92, 0.85, 0.77, 0.7, 0.5];
 pub const TRIMS_RAD: [f64; 3] = [0.55, 0.4, 0.2];
 
 impl CandidateRequest<'_> {
-    /// Checks that the settings state numbers of a curve.
-    #[must_use]
-    pub fn states_numbers(&self) -> bool {
-        let settings = self.settings;
-        settings.turns.is_some() || settings.path_radius_m.is_some() || settings.closing_ring.is_some()
-    }
-
     /// Greatest ℓ: the one stated, or those tried \[m\].
     pub(crate) fn outer_m(&self) -> Vec<f64> {
         let arc_m = self.surface.arc_m();
-        match self.settings.path_radius_m {
+        match self.stated.path_radius_m {
             Some(radius_m) => vec![radius_m],
             None => INSETS
                 .iter()

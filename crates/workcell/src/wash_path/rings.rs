@@ -5,7 +5,6 @@
 //! about the same length in metres with a smaller angle: λₖ and wₖ fall as (k + 1)^(−3/8). The last ring is the closing one: a full turn, or
 //! less by [`WashCurve::trim_rad`]. With several laps the arm goes round each ring as often before it leaves it.
 
-use crate::job::MOST_PASSES;
 use crate::wash_path::pattern::{
     CandidateRequest, CurveNumber, Density, PatternPath, PatternRules, TRIMS_RAD, TurnsRule, WashPattern,
 };
@@ -15,6 +14,9 @@ use std::f64::consts::TAU;
 
 /// Greatest number of rings of a curve.
 pub const MOST_RINGS: usize = 100;
+
+/// Greatest number of times that a path goes round a ring, and that a soil may ask for.
+pub const MOST_LAPS: u32 = 20;
 
 /// Least angle of a blend between two rings \[rad\].
 pub const LEAST_BLEND_RAD: f64 = 1e-3;
@@ -189,7 +191,7 @@ impl PatternPath for Rings {
         // No ring is longer than the outermost.
         let length_m = TAU * curve.radius_m * (laps * count + 1.0);
         vec![
-            ("curve.rings.laps", laps, [1.0, f64::from(MOST_PASSES)]),
+            ("curve.rings.laps", laps, [1.0, f64::from(MOST_LAPS)]),
             ("curve.rings.count", count, [2.0, MOST_RINGS as f64]),
             ("curve.rings.inner_m", self.inner_m, [0.0, curve.radius_m]),
             ("curve.rings.lead_rad", self.lead_rad, [0.0, TAU]),
@@ -209,9 +211,9 @@ impl PatternPath for Rings {
 /// Lists rings that lie evenly, or nearly so: about half a pitch from the pole to the first, and half a pitch or less from the last to the
 /// rim. As many as are stated, however far apart; at least one curve.
 pub(crate) fn candidates(request: &CandidateRequest<'_>) -> Vec<WashCurve> {
-    let (settings, arc_m) = (request.settings, request.surface.arc_m());
+    let (stated, arc_m) = (request.stated, request.surface.arc_m());
     let mut all = Vec::new();
-    let [least, most] = match settings.turns {
+    let [least, most] = match stated.turns {
         Some(turns) => [(turns.round() as usize).saturating_add(1).clamp(2, MOST_RINGS); 2],
         None => {
             let least = ((arc_m / (2.0 * request.sponge_m)).ceil().max(2.0) as usize).min(MOST_TRIED);
@@ -225,7 +227,7 @@ pub(crate) fn candidates(request: &CandidateRequest<'_>) -> Vec<WashCurve> {
     for count in least..=most {
         let half_m = arc_m / (2 * count) as f64;
         let mut outers = request.outer_m();
-        if settings.path_radius_m.is_none() {
+        if stated.path_radius_m.is_none() {
             outers.push(arc_m - half_m);
         }
         for radius_m in outers.into_iter().map(|radius_m| radius_m.max(LEAST_RADIUS_M)) {

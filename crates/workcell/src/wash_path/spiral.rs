@@ -97,15 +97,15 @@ fn rate(curve: &WashCurve) -> f64 {
 
 /// Lists spirals that a request leaves open.
 pub(crate) fn candidates(request: &CandidateRequest<'_>) -> Vec<WashCurve> {
-    let settings = request.settings;
+    let stated = request.stated;
     let pitches: &[f64] = match request.density {
         Density::Usual => &PITCHES,
         Density::Dense => &DENSE_PITCHES,
     };
-    let trim_rad = if request.states_numbers() { 0.0 } else { TRIMS_RAD[0] };
+    let trim_rad = if stated.is_any() { 0.0 } else { TRIMS_RAD[0] };
     let mut all = Vec::new();
     for radius_m in request.outer_m() {
-        let turns = match settings.turns {
+        let turns = match stated.turns {
             Some(turns) => vec![turns],
             None => pitches
                 .iter()
@@ -117,7 +117,7 @@ pub(crate) fn candidates(request: &CandidateRequest<'_>) -> Vec<WashCurve> {
                 radius_m: radius_m.max(LEAST_RADIUS_M),
                 turns: turns.clamp(LEAST_TURNS, MOST_TURNS),
                 start_angle_rad: 0.0,
-                closing_ring: settings.closing_ring.unwrap_or(true),
+                closing_ring: stated.closing_ring.unwrap_or(true),
                 trim_rad,
                 pattern: WashPattern::Spiral,
             });
