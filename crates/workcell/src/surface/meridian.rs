@@ -276,6 +276,7 @@ impl Meridian {
 
     /// Returns the point at a distance from the axis \[m\]. Beyond the rim the meridian continues straight.
     #[must_use]
+    #[inline]
     pub fn at_radius(&self, radius_m: f64) -> MeridianPoint {
         let (from, _) = self.piece(|(start, _)| start.radius_m <= radius_m);
         on_piece(from, radius_m)
@@ -283,6 +284,7 @@ impl Meridian {
 
     /// Same as [`Self::at_radius`], with the index of the piece found last as a guess: any number at first.
     #[must_use]
+    #[inline]
     pub fn at_radius_near(&self, radius_m: f64, piece: &mut usize) -> MeridianPoint {
         let mut at = (*piece).min(self.count);
         while at > 0 && self.starts[at].0.radius_m > radius_m {
@@ -297,6 +299,7 @@ impl Meridian {
 
     /// Returns the point at a length along the meridian from the pole \[m\]. Beyond the rim the meridian continues straight.
     #[must_use]
+    #[inline]
     pub fn at_arc(&self, arc_m: f64) -> MeridianPoint {
         let (from, before_m) = self.piece(|(_, start_m)| *start_m <= arc_m);
         let along_m = arc_m - before_m;
@@ -384,6 +387,7 @@ impl Meridian {
     }
 
     /// Returns the start of the last piece for which `begins` is true; beyond the rim, the rim.
+    #[inline]
     fn piece(&self, begins: impl Fn(&(MeridianPoint, f64)) -> bool) -> &(MeridianPoint, f64) {
         let starts = &self.starts[..=self.count];
         let after = starts.partition_point(begins).max(1);
@@ -392,6 +396,7 @@ impl Meridian {
 }
 
 /// Returns the point of a piece at a distance from the axis \[m\].
+#[inline]
 fn on_piece(from: &MeridianPoint, radius_m: f64) -> MeridianPoint {
     let sine = from.sine + from.curvature * (radius_m - from.radius_m);
     let cosine = (1.0 - sine * sine).max(0.0).sqrt();
@@ -406,6 +411,7 @@ fn on_piece(from: &MeridianPoint, radius_m: f64) -> MeridianPoint {
 }
 
 /// Height difference Δz from the start of a piece to a radius on it, with known sin β and cos β \[m\].
+#[inline]
 fn rise(from: &MeridianPoint, radius_m: f64, sine: f64, cosine: f64) -> f64 {
     (radius_m - from.radius_m) * (from.sine + sine) / (from.cosine + cosine)
 }

@@ -77,6 +77,7 @@ impl Surface {
 
     /// Returns the point of the meridian at ρ \[m\]. Beyond the rim it continues straight.
     #[must_use]
+    #[inline]
     pub fn at_radius(&self, rho_m: f64) -> MeridianPoint {
         match self {
             Self::Disc { .. } => level(rho_m),
@@ -86,6 +87,7 @@ impl Surface {
 
     /// Returns the point of the meridian at ℓ \[m\]. Beyond the rim it continues straight.
     #[must_use]
+    #[inline]
     pub fn at_arc(&self, arc_m: f64) -> MeridianPoint {
         match self {
             Self::Disc { .. } => level(arc_m),
@@ -104,6 +106,7 @@ impl Surface {
 
     /// Height of the face over its pole at ρ \[m\].
     #[must_use]
+    #[inline]
     pub fn height_m(&self, rho_m: f64) -> f64 {
         self.at_radius(rho_m).height_m
     }
@@ -214,6 +217,7 @@ impl Surface {
 }
 
 /// Returns a point of a flat face.
+#[inline]
 fn level(radius_m: f64) -> MeridianPoint {
     MeridianPoint {
         radius_m,
