@@ -36,7 +36,7 @@ pub struct VisitSummary {
     pub tilt: TiltChoice,
     /// Lean of the tool across the arm's plane: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\]. Left out where it
     /// is 0.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "platewash_workcell::json::is_zero")]
     pub aside_rad: f64,
     /// Largest lean of the tool from the normal of the face \[rad\].
     pub cone_rad: f64,
@@ -46,10 +46,6 @@ pub struct VisitSummary {
     pub wash_s: f64,
     /// Least time of the area, and the shares of that time at each limit.
     pub pace: Pace,
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// Kind and duration of one transit.

@@ -47,7 +47,8 @@ pub fn write(value: &impl Serialize) -> Result<String, JsonError> {
 }
 
 /// True for a number that files leave out as it is 0.
-pub(crate) fn is_zero(number: &f64) -> bool {
+#[must_use]
+pub fn is_zero(number: &f64) -> bool {
     *number == 0.0
 }
 

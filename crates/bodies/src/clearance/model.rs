@@ -34,13 +34,8 @@ pub struct PairClearance {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mounted_on: Option<String>,
     /// Part of the required clearance that the pair need not keep \[m\].
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "platewash_workcell::json::is_zero")]
     pub reduced_by_m: f64,
-}
-
-/// True for a number that files leave out as it is 0.
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 impl PairClearance {

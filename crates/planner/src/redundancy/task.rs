@@ -373,6 +373,9 @@ pub(crate) fn check_input(
     within("curve.start_angle_rad", curve.start_angle_rad, [-1e3, 1e3])?;
     within("curve.trim_rad", curve.trim_rad, [0.0, MOST_TRIM_RAD])?;
     within("length of the curve", curve.length_m(), [0.0, LONGEST_M])?;
+    for (name, found, range) in curve.pattern_numbers() {
+        within(name, found, range)?;
+    }
     for &coordinate in &plate.centre() {
         within("centre", coordinate, [-LARGEST_M, LARGEST_M])?;
     }

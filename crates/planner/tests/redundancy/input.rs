@@ -6,7 +6,7 @@ use platewash_kinematics::JointVector;
 use platewash_planner::OutOfRange;
 use platewash_planner::redundancy::{RedundancyError, Task};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::wash_path::{WashCurve, WashPath};
+use platewash_workcell::wash_path::{Rings, WashCurve, WashPath, WashPattern};
 
 #[test]
 fn numbers_that_make_no_sense_are_refused_by_name() {
@@ -40,6 +40,28 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
     }
     let long = |curve: &mut WashCurve| (curve.radius_m, curve.turns) = (9.0, 100.0);
     assert_eq!(curved(&long), "length of the curve");
+    let rings = Rings {
+        count: 4,
+        inner_m: 0.02,
+        lead_rad: 2.0,
+        blend_rad: 1.7,
+        laps: 1,
+    };
+    let ringed = |rings| curved(&|curve| curve.pattern = WashPattern::Rings(rings));
+    assert_eq!(
+        ringed(Rings {
+            laps: u32::MAX,
+            ..rings
+        }),
+        "curve.rings.laps"
+    );
+    assert_eq!(
+        ringed(Rings {
+            blend_rad: f64::NAN,
+            ..rings
+        }),
+        "curve.rings.blend_rad"
+    );
     within(&kitchen_tool(), &[plate_at(0.36, 0.0)], |world| {
         let other = WashPath { plate: 7, ..good };
         let missing = RedundancyError::Plate { plate: 7, count: 1 };
