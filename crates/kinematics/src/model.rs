@@ -20,7 +20,9 @@ use crate::limits::{JointFriction, JointLimits};
 use crate::rotation::{Columns, RigidTransform};
 use crate::srdf::DisabledPairs;
 use crate::trig::{atan2, sin_cos_vector};
-use crate::urdf::{FixedJoints, FollowerLink, UnusedStatement};
+use crate::urdf::fixed::FixedJoints;
+use crate::urdf::followers::FollowerLink;
+use crate::urdf::statements::UnusedStatement;
 use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 

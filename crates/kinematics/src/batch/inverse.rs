@@ -2,8 +2,8 @@
 
 use crate::batch::chain::Chain;
 use crate::batch::forward::{Tips, frames_and_lines, no_lines, vectors};
+use crate::batch::slices::{BatchError, CHUNK, same_length};
 use crate::batch::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
-use crate::batch::{BatchError, CHUNK, same_length};
 use crate::ik::{IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
 use crate::lanes::{Backend, Kernel, LANES, Vector, run};
 use crate::{AXES, JointVector, Pose};

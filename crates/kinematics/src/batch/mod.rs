@@ -17,6 +17,7 @@
 //! | the two forward batches | `poses.rs` |
 //! | pose errors and damped steps of four problems | `step.rs` |
 //! | the inverse batch | `inverse.rs` |
+//! | lengths of slices, chunks of work | `slices.rs` |
 
 #![allow(clippy::needless_range_loop)] // a lane's or a joint's number indexes several arrays at once
 
@@ -24,35 +25,10 @@ mod chain;
 mod forward;
 mod inverse;
 mod poses;
+mod slices;
 mod step;
 
 pub use crate::batch::inverse::{solve, solve_into};
 pub use crate::batch::poses::{fk, fk_into, fk_matrices_into, jacobian, jacobian_into};
+pub use crate::batch::slices::BatchError;
 pub use crate::lanes::Backend;
-
-/// Number of configurations per unit of work for the thread pool. It is fixed, so that nothing depends on the number of threads.
-const CHUNK: usize = 512;
-
-/// Slices whose lengths do not match.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BatchError {
-    /// One slice is longer or shorter than the first.
-    #[error("{name}: {expected} entries are needed; found {found}")]
-    Length {
-        /// Name of the slice.
-        name: &'static str,
-        /// Expected length.
-        expected: usize,
-        /// Length found.
-        found: usize,
-    },
-}
-
-fn same_length(name: &'static str, expected: usize, found: usize) -> Result<(), BatchError> {
-    if expected == found {
-        Ok(())
-    } else {
-        Err(BatchError::Length { name, expected, found })
-    }
-}

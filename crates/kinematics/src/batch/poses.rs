@@ -2,7 +2,7 @@
 
 use crate::batch::chain::Chain;
 use crate::batch::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
-use crate::batch::{BatchError, CHUNK, same_length};
+use crate::batch::slices::{BatchError, CHUNK, same_length};
 use crate::lanes::{Backend, Kernel, LANES, Vector, run};
 use crate::rotation::RigidTransform;
 use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};

@@ -1,12 +1,11 @@
 //! The cascade that users call: seed, QP, listed starts, random restarts. See the [module](super) text.
 
 use crate::ik::analytic::{AnalyticArm, AnalyticError, Solutions, StructureMismatch};
+use crate::ik::answer::{IkCause, IkError, IkFailure, IkSolution, Method, Start};
 use crate::ik::dls::{self, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
+use crate::ik::qp;
+use crate::ik::settings::{AnalyticStarts, IkSettings, IkSettingsError, RandomRestarts};
 use crate::ik::starts::Starts;
-use crate::ik::{
-    AnalyticStarts, IkCause, IkError, IkFailure, IkSettings, IkSettingsError, IkSolution, Method, RandomRestarts,
-    Start, qp,
-};
 use crate::model::Frame;
 use crate::rotation::RigidTransform;
 use crate::{AXES, JointVector, Pose, RobotModel};

@@ -18,9 +18,10 @@
 //! First the seed; then the configurations that [`IkSolver::solve`] finds for the target tilted to 0, ½ and all of the cone in 12
 //! directions (and, with free yaw, as many yaws), those that meet the bounds first.
 
+use crate::ik::answer::{IkError, IkFailure};
+use crate::ik::cascade::IkSolver;
 use crate::ik::dls::{self, ALL_FREE, DAMPING_GAIN, Iterate, Stop, Task};
 use crate::ik::freedom::{Deviation, TaskFreedom, TaskFreedomError, Yaw};
-use crate::ik::{IkError, IkFailure, IkSolver};
 use crate::rotation::RigidTransform;
 use crate::trig::sin_cos;
 use crate::{AXES, Axes, JointVector, Pose};

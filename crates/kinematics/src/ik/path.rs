@@ -13,8 +13,9 @@
 //! order in the spacing, so that one damped step mostly suffices. If that fails or steps too far, the waypoint is solved from
 //! the last answer; if that steps too far, the way is halved, up to [`MOST_HALVINGS`] times.
 
+use crate::ik::answer::{IkCause, IkError};
+use crate::ik::cascade::IkSolver;
 use crate::ik::dls::{self, ALL_FREE, Iterate, Stop, Task};
-use crate::ik::{IkCause, IkError, IkSolver};
 use crate::{JointVector, Pose};
 use nalgebra::UnitQuaternion;
 

@@ -20,7 +20,7 @@ pub enum AnalyticStarts {
     Unused,
 }
 
-/// Settings of [`crate::ik::IkSolver`]; [`IkSettings::default`] suits the IRB 120 and arms of its size.
+/// Settings of [`crate::ik::cascade::IkSolver`]; [`IkSettings::default`] suits the IRB 120 and arms of its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkSettings {
     /// Largest accepted distance between the frame's origin and the target's \[m\]; default 1e-6.

@@ -8,8 +8,9 @@
 //!
 //! Every answer is a configuration within the limits that meets both tolerances. It is *not* known that there are no further ones.
 
+use crate::ik::answer::IkError;
+use crate::ik::cascade::IkSolver;
 use crate::ik::dls::{self, ALL_FREE, Task};
-use crate::ik::{IkError, IkSolver};
 use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
 use crate::{AXES, JointVector, Pose};

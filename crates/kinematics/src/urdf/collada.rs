@@ -9,7 +9,7 @@ mod surface;
 
 use crate::trig::sin_cos;
 use crate::urdf::collada::document::Element;
-use crate::urdf::collada::surface::mesh;
+use crate::urdf::collada::surface::{mesh, too_many};
 use nalgebra::{Matrix3, Matrix4, Point3, Vector3};
 use std::collections::BTreeMap;
 
@@ -157,10 +157,6 @@ impl<'a> Scene<'a> {
         self.shown.extend(placed);
         Ok(())
     }
-}
-
-fn too_many(most: usize) -> String {
-    format!("it has more than {most} triangles")
 }
 
 /// Reads the transform of a node.

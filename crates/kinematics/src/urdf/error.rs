@@ -3,7 +3,7 @@
 //! `urdf-rs` reports the error but not its position: this file finds the element.
 
 use crate::AXES;
-use crate::urdf::scan::line_at;
+use crate::urdf::line::line_at;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 

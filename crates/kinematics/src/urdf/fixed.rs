@@ -1,9 +1,10 @@
 //! Joints of a description that a caller holds still, such as those of a gripper.
 
+use crate::AXES;
 use crate::rotation::RigidTransform;
 use crate::trig::sin_cos;
 use crate::urdf::error::UrdfError;
-use crate::{AXES, RobotModel, urdf::unit_axis};
+use crate::urdf::tree::unit_axis;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use urdf_rs::{Joint, JointType, Robot};
@@ -60,26 +61,6 @@ pub(crate) fn fix(robot: &mut Robot, stated: &FixedJoints) -> Result<Fixed, Urdf
             found: fixed.positions[joint],
         }),
         None => Ok(fixed),
-    }
-}
-
-impl RobotModel {
-    /// Checks that joints are held still as they were stated to be: [`RobotModel::from_urdf_with_fixed`] ignores names that it does not need.
-    ///
-    /// # Errors
-    /// [`UrdfError::NotHeld`] for one of the six axes, a joint that follows one of them, and a name of no joint that moves.
-    pub fn check_held(&self, stated: &FixedJoints) -> Result<(), UrdfError> {
-        let Some(joint) = stated.keys().find(|joint| !self.fixed_joints().contains_key(*joint)) else {
-            return Ok(());
-        };
-        let follower = self.left_out_links().iter().find(|link| link.joint == *joint);
-        let reason = match follower {
-            Some(link) => format!("it follows '{}', and what it carries is left out", link.leader),
-            None if self.joints().iter().any(|axis| axis.name == *joint) => "it is one of the six axes".to_owned(),
-            None => "the description has no joint of that name that moves".to_owned(),
-        };
-        let joint = joint.clone();
-        Err(UrdfError::NotHeld { joint, reason })
     }
 }
 

@@ -1,7 +1,8 @@
 //! First look at URDF text with a pull parser: bounds size and depth, finds cut files and stray text, refuses
 //! xacro and vectors with words among their numbers. Nothing recursive may see the text before this.
 
-use crate::urdf::UrdfError;
+use crate::urdf::error::UrdfError;
+use crate::urdf::line::line_at;
 use quick_xml::errors::SyntaxError;
 use quick_xml::events::attributes::Attribute;
 use quick_xml::events::{BytesStart, Event};
@@ -34,14 +35,6 @@ pub(crate) fn check(text: &str) -> Result<(), UrdfError> {
             Err(e) => return Err(scan.broken(&e)),
         }
     }
-}
-
-/// Line of an offset in bytes, counted from 1.
-pub(crate) fn line_at(text: &str, offset: usize) -> usize {
-    1 + text.as_bytes()[..offset.min(text.len())]
-        .iter()
-        .filter(|b| **b == b'\n')
-        .count()
 }
 
 /// State of the scan.

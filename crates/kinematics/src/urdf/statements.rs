@@ -7,7 +7,7 @@
 use crate::urdf::edits::Edits;
 use crate::urdf::error::UrdfError;
 use crate::urdf::gaps::{self, Gap};
-use crate::urdf::scan::line_at;
+use crate::urdf::line::line_at;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use serde::Serialize;

@@ -10,6 +10,7 @@ use crate::urdf::error::UrdfError;
 use crate::urdf::statements::Rates;
 use crate::words::is_hidden;
 use crate::{AXES, JointVector, Pose};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{JointType, Robot};
 
@@ -327,5 +328,17 @@ pub(crate) fn length(at: &str, what: &str, values: &[f64]) -> Result<(), UrdfErr
         what: what.to_owned(),
         found: format!("{values:?}"),
         limit_m: LARGEST_LENGTH_M,
+    })
+}
+
+pub(crate) fn unit_axis(joint: &urdf_rs::Joint) -> Result<Vector3<f64>, UrdfError> {
+    let axis = Vector3::from(joint.axis.xyz.0);
+    let norm = axis.norm();
+    if norm.is_finite() && norm > 1e-9 {
+        return Ok(axis / norm);
+    }
+    Err(UrdfError::Axis {
+        joint: joint.name.clone(),
+        found: joint.axis.xyz.0,
     })
 }

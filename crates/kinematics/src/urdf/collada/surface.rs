@@ -1,7 +1,6 @@
 //! Surfaces of a Collada geometry, in its own frame.
 
 use crate::urdf::collada::document::Element;
-use crate::urdf::collada::too_many;
 use nalgebra::Point3;
 
 /// Elements of a mesh that are surfaces.
@@ -123,4 +122,8 @@ fn triangles(surface: &Element, vertices: &Element, most: usize) -> Result<Vec<u
         }
     }
     Ok(triangles)
+}
+
+pub(crate) fn too_many(most: usize) -> String {
+    format!("it has more than {most} triangles")
 }
