@@ -139,7 +139,7 @@ fn finds_all_solutions_of_generated_arms() {
                 found.distance_rad
             );
             let branches = arm.arm.branches(&target, &start).unwrap();
-            assert_eq!(branches[found.label.index()].unwrap().label, found.label);
+            assert_eq!(branches.get(found.label).unwrap().unwrap().label, found.label);
             for branch in branches.iter().flatten() {
                 assert!(arm.error(&branch.q, &target) <= EXACT);
                 assert!(branch.q.amax() <= PI);
@@ -188,7 +188,7 @@ fn singular_values(arm: &Arm) -> (f64, f64) {
             .arm
             .branches(&arm.target(&arm.random(&mut rng)), &JointVector::zeros())
             .unwrap();
-        let [up, down, plain, flipped] = [0, 2, 0, 1].map(|k| branches[k]);
+        let [up, down, plain, flipped] = [0, 2, 0, 1].map(|k| *branches.get(Label::ALL[k]).unwrap());
         let (Ok(up), Ok(down), Ok(plain), Ok(flipped)) = (up, down, plain, flipped) else {
             continue;
         };
@@ -494,7 +494,7 @@ fn labels_stay_along_paths() {
             assert!(found.distance_rad < 0.05, "no jump");
             q = found.q;
             let next = arm.arm.branches(&target, &q).unwrap();
-            for (label, pair) in Label::ALL.iter().zip(branches.iter().zip(&next)) {
+            for (label, pair) in Label::ALL.iter().zip(branches.iter().zip(next.iter())) {
                 if let (Ok(before), Ok(after)) = pair {
                     assert!(apart(&before.q, &after.q) < 0.05, "{label:?} jumps at {k}");
                 }

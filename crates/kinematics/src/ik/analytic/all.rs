@@ -2,9 +2,12 @@
 //!
 //! A branch that ends beyond a limit by no more than the uncertainty of its joints is closed onto the limit.
 
+use crate::ik::analytic::arm::AnalyticArm;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Label, OutOfReach};
-use crate::ik::analytic::nearest::{Window, nearest_integer};
-use crate::ik::analytic::{AnalyticArm, AnalyticError, LIMIT_ROUNDING_RAD, check_finite};
+use crate::ik::analytic::branches::Branches;
+use crate::ik::analytic::error::{AnalyticError, check_finite};
+use crate::ik::analytic::tolerances::LIMIT_ROUNDING_RAD;
+use crate::ik::analytic::window::{Window, nearest_integer};
 use crate::rotation::RigidTransform;
 use crate::{AXES, JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
@@ -45,10 +48,10 @@ pub struct Configurations {
     next: Option<[u32; AXES]>,
 }
 
-/// The eight branches of one target under limits, each a solution or the reason that there is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The branches of one target under limits, each a solution or the reason that there is none.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Solutions {
-    slots: [Result<Solution, Rejection>; 8],
+    slots: Branches<Result<Solution, Rejection>>,
 }
 
 impl Solution {
@@ -111,7 +114,7 @@ impl Iterator for Configurations {
 }
 
 impl Solutions {
-    /// Returns the branches with a configuration within the limits, in the order of [`Label::ALL`].
+    /// Returns the branches with a configuration within the limits, in the order of [`Label::index`].
     pub fn iter(&self) -> impl Iterator<Item = &Solution> {
         self.slots.iter().filter_map(|slot| slot.as_ref().ok())
     }
@@ -126,15 +129,16 @@ impl Solutions {
     /// Returns the branches without one, each with the filter that rejected it.
     pub fn rejections(&self) -> impl Iterator<Item = (Label, Rejection)> {
         let rejection = |(label, slot): (Label, &Result<Solution, Rejection>)| Some((label, slot.err()?));
-        Label::ALL.into_iter().zip(&self.slots).filter_map(rejection)
+        self.slots.labelled().filter_map(rejection)
     }
 
     /// Returns one branch by its label.
     ///
     /// # Errors
-    /// [`Rejection`]: the filter that rejected it.
+    /// [`Rejection`]: the filter that rejected it. A branch that the arm does not have is infinitely far out of reach.
     pub fn get(&self, label: Label) -> Result<Solution, Rejection> {
-        self.slots[label.index()]
+        let missing = Err(Rejection::OutOfReach(OutOfReach::NOWHERE));
+        self.slots.get(label).copied().unwrap_or(missing)
     }
 }
 
@@ -166,8 +170,8 @@ impl AnalyticArm {
 
     pub(crate) fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> Solutions {
         let slots = self.form.all_within(target, window).map(|slot| match slot {
-            Ok((branch, near)) => self.solution(target, &branch, near, window),
-            Err(miss) => Err(Rejection::OutOfReach(miss)),
+            Ok((branch, near)) => self.solution(target, branch, *near, window),
+            Err(miss) => Err(Rejection::OutOfReach(*miss)),
         });
         Solutions { slots }
     }

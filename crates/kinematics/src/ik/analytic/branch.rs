@@ -1,12 +1,6 @@
-//! The eight branches of a target.
-//!
-//! Names of the branches, and the borders where they meet.
+//! Branches of a target: their names, and the borders where they meet.
 
 use crate::JointVector;
-use crate::ik::analytic::links::{Bend, Swing};
-use crate::ik::analytic::wrist::Turn;
-use crate::ik::analytic::{AnalyticArm, AnalyticError, check_finite};
-use crate::rotation::RigidTransform;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -20,22 +14,6 @@ pub struct Branch {
     pub label: Label,
     /// Degeneracies of the branch.
     pub degenerate: Degeneracies,
-}
-
-impl AnalyticArm {
-    /// Returns all branches for `target`, `T_base_body6` of the folded chain (the pose of [`Frame`](crate::Frame) on body 6 without offset;
-    /// its rotation orthonormal to rounding), in the order of [`Label::ALL`], each within reach or not. Free joints keep the value they have in `previous` \[rad\]. Limits are not checked.
-    ///
-    /// # Errors
-    /// [`AnalyticError::Target`] and [`AnalyticError::Start`] for input that is not finite.
-    pub fn branches(
-        &self,
-        target: &RigidTransform,
-        previous: &JointVector,
-    ) -> Result<[Result<Branch, OutOfReach>; 8], AnalyticError> {
-        check_finite(target, previous)?;
-        Ok(self.form.all_branches(target, previous))
-    }
 }
 
 impl Branch {
@@ -102,10 +80,19 @@ pub struct Label {
     pub elbow: Elbow,
     /// Wrist sense.
     pub wrist: Wrist,
+    /// Which of the branches on these sides it is: 0 for all of an arm with eight branches.
+    #[serde(skip_serializing_if = "is_first")]
+    pub number: u8,
+}
+
+/// True for the only branch on its sides, or the first: its number is left out.
+#[allow(clippy::trivially_copy_pass_by_ref)] // the signature that serde asks for
+fn is_first(number: &u8) -> bool {
+    *number == 0
 }
 
 impl Label {
-    /// All eight labels: front before back, then up before down, then plain before flipped.
+    /// The labels of an arm with eight branches: front before back, then up before down, then plain before flipped.
     pub const ALL: [Self; 8] = {
         use {Elbow::*, Shoulder::*, Wrist::*};
         [
@@ -120,24 +107,46 @@ impl Label {
         ]
     };
 
-    /// Returns a label from its parts.
+    /// Returns the label of the only branch on its sides, or the first.
     #[must_use]
     pub const fn new(shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Self {
-        Self { shoulder, elbow, wrist }
+        let number = 0;
+        Self {
+            shoulder,
+            elbow,
+            wrist,
+            number,
+        }
     }
 
-    /// Position in [`Label::ALL`].
+    /// Returns the label of another branch on the same sides.
+    #[must_use]
+    pub const fn numbered(self, number: u8) -> Self {
+        Self { number, ..self }
+    }
+
+    /// Position among the branches of an arm: that in [`Label::ALL`], and eight for each number before.
     #[must_use]
     pub const fn index(self) -> usize {
-        4 * self.shoulder as usize + 2 * self.elbow as usize + self.wrist as usize
+        8 * self.number as usize + 4 * self.shoulder as usize + 2 * self.elbow as usize + self.wrist as usize
+    }
+
+    /// Returns the label at a position.
+    #[must_use]
+    pub(crate) const fn at(index: usize) -> Self {
+        Self::ALL[index % 8].numbered((index / 8) as u8)
     }
 }
 
 impl fmt::Display for Label {
-    /// Shoulder, elbow and wrist in words: "front up plain".
+    /// Shoulder, elbow and wrist in words: "front up plain"; behind them the count of a further branch on these sides, "front up plain 2".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let words = format!("{:?} {:?} {:?}", self.shoulder, self.elbow, self.wrist);
-        f.write_str(&words.to_lowercase())
+        f.write_str(&words.to_lowercase())?;
+        match self.number {
+            0 => Ok(()),
+            number => write!(f, " {}", u32::from(number) + 1),
+        }
     }
 }
 
@@ -150,17 +159,6 @@ pub struct Degeneracies {
     pub elbow: bool,
     /// Axes 4 and 6 are parallel: joint 4 is free and keeps its previous value.
     pub wrist: bool,
-}
-
-impl Degeneracies {
-    #[inline]
-    pub(crate) fn of(swing: &Swing, bend: &Bend, turn: &Turn) -> Self {
-        Self {
-            shoulder: swing.meets,
-            elbow: bend.meets,
-            wrist: turn.free,
-        }
-    }
 }
 
 /// Border of the reachable space that the wrist centre is beyond.

@@ -1,7 +1,7 @@
 //! Newton steps on the chain as described: they move a branch onto its limits, and close the answers of arms whose description is rounded.
 
-use crate::ik::analytic::recognise::StructureMismatch;
-use crate::ik::analytic::{CLOSED, LIMIT_ROUNDING_RAD};
+use crate::ik::analytic::mismatch::StructureMismatch;
+use crate::ik::analytic::tolerances::{CLOSED, LIMIT_ROUNDING_RAD};
 use crate::rotation::{RigidTransform, rotation_vector};
 use crate::trig::sin_cos;
 use crate::{AXES, JointLimits, JointVector};

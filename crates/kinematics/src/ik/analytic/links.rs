@@ -1,8 +1,9 @@
 //! Joint 1 and a triangle: the part that both closed forms share. The shoulder turns a plane, and two links in it reach a point.
 
 use crate::JointVector;
-use crate::ik::analytic::branch::{Elbow, OutOfReach, ReachBorder, Shoulder};
-use crate::ik::analytic::{FREE_SHOULDER_M, REACH_ROUNDING_M};
+use crate::ik::analytic::branch::{Degeneracies, Elbow, OutOfReach, ReachBorder, Shoulder};
+use crate::ik::analytic::tolerances::{FREE_SHOULDER_M, REACH_ROUNDING_M};
+use crate::ik::analytic::wrist::Turn;
 use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -209,4 +210,15 @@ fn turned_about_z(r: &Matrix3<f64>, s: f64, c: f64) -> Matrix3<f64> {
 
 fn beyond(border: ReachBorder, by_m: f64) -> OutOfReach {
     OutOfReach { border, by_m }
+}
+
+impl Degeneracies {
+    #[inline]
+    pub(crate) fn of(swing: &Swing, bend: &Bend, turn: &Turn) -> Self {
+        Self {
+            shoulder: swing.meets,
+            elbow: bend.meets,
+            wrist: turn.free,
+        }
+    }
 }

@@ -22,7 +22,7 @@
 //! the chain as described, until the pose is met to [`CLOSED`] m and rad; a branch whose steps do not get there counts as out of its
 //! limits, as it may near a singularity.
 //!
-//! Each structure is a `ClosedForm`; what uses an [`AnalyticArm`] does not know which it has.
+//! Each structure is a `ClosedForm`; what uses an [`AnalyticArm`] does not know which it has, nor how many branches.
 //!
 //! # Equations
 //!
@@ -70,140 +70,33 @@
 //! joints closed by Gauss–Newton, and counts only if the pose is met to [`CLOSED`] m and rad.
 
 mod all;
+mod arm;
 mod branch;
+mod branches;
 mod chain;
+mod closed_form;
+mod error;
+mod geometry;
 mod links;
+mod mismatch;
 mod nearest;
 mod parallel;
 mod recognise;
+mod search;
 mod side_by_side;
 mod spherical;
+mod tolerances;
+mod window;
 mod wrist;
 
 pub use crate::ik::analytic::all::{Configurations, Rejection, Solution, Solutions};
+pub use crate::ik::analytic::arm::AnalyticArm;
 pub use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, ReachBorder, Shoulder, Wrist};
-pub use crate::ik::analytic::nearest::NearestConfiguration;
-pub use crate::ik::analytic::recognise::StructureMismatch;
-
-use crate::ik::analytic::chain::Chain;
-use crate::ik::analytic::nearest::Window;
-use crate::rotation::RigidTransform;
-use crate::{AXES, JointLimits, JointVector, LimitViolation};
-use std::fmt::Debug;
-use std::sync::Arc;
-
-/// Arm whose inverse kinematics has a closed form: see the [module](self) text. Immutable; copies share it.
-#[derive(Debug, Clone)]
-pub struct AnalyticArm {
-    form: Arc<dyn ClosedForm>,
-}
-
-/// Branch, and its configuration within the limits or nearly so.
-pub(crate) type Candidate = (Branch, Option<JointVector>);
-
-/// Closed form of one structure of arm. Configurations are answers for body 6; `previous` and the window's anchor decide free joints.
-pub(crate) trait ClosedForm: Debug + Send + Sync {
-    /// Returns the chain as described.
-    fn chain(&self) -> &Chain;
-    /// Returns words for the structure.
-    fn structure(&self) -> &'static str;
-    /// See [`AnalyticArm::shoulder_sides_are_alike`].
-    fn shoulder_sides_are_alike(&self) -> bool;
-    /// Returns all branches in the order of [`Label::ALL`]; limits are not checked.
-    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8];
-    /// Returns all branches, each with its configuration nearest to the start that is within the limits or nearly so.
-    fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8];
-    /// Returns the answer nearest to the start.
-    fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration>;
-    /// Returns the anchors that remain to be tried where a joint is free and its value at the anchor led to no answer.
-    fn elsewhere(&self, target: &RigidTransform, window: &Window<'_>) -> Vec<JointVector>;
-    /// Returns |det J| up to a constant factor.
-    fn regularity(&self, q: &JointVector) -> f64;
-
-    /// Returns `q` within the limits: see [`Chain::move_within_limits`].
-    #[inline]
-    fn moved_within_limits(
-        &self,
-        target: &RigidTransform,
-        q: JointVector,
-        limits: &JointLimits,
-    ) -> Option<JointVector> {
-        let chain = self.chain();
-        if chain.rounding.is_none() && limits.contain(&q) {
-            return Some(q);
-        }
-        chain.move_within_limits(target, q, limits, || self.regularity(&q))
-    }
-}
-
-/// Largest deviation of a length that must be zero for an arm to be recognised \[m\].
-pub const GEOMETRY_TOLERANCE_M: f64 = 1e-10;
-/// Largest deviation of an angle that must be 0° or 90° for an arm to be recognised \[rad\].
-pub const GEOMETRY_TOLERANCE_RAD: f64 = 5e-10;
-/// Shortest upper arm and forearm \[m\].
-pub const SHORTEST_LINK_M: f64 = 1e-3;
-/// Distance of a target beyond full stretch, full fold or the column around axis 1 up to which it is still answered \[m\].
-pub const REACH_ROUNDING_M: f64 = 5e-10;
-/// Distance of a wrist centre from axis 1 (or axis 2, if the arm can fold so far) below which the joint is free \[m\].
-pub const FREE_SHOULDER_M: f64 = 1e-10;
-/// Angle between axes 4 and 6 below which joint 4 is free \[rad\].
-pub const FREE_WRIST_RAD: f64 = 1e-10;
-/// Distance beyond a limit up to which a joint is set onto it \[rad\].
-pub const LIMIT_ROUNDING_RAD: f64 = 1e-11;
-/// Distance beyond a limit up to which a branch is moved onto it, if the other joints can make up for it \[rad\].
-pub const LIMIT_NEAR_RAD: f64 = 1e-5;
-/// Error of the pose up to which those joints must make up for it \[m and rad\].
-pub const CLOSED: f64 = 2e-10;
-/// Greatest number of whole turns of a continuous joint that are followed, either way.
-pub const MOST_TURNS: f64 = 1000.0;
-
-/// Reason that there is no analytic answer.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum AnalyticError {
-    /// The target has NaN or infinite entries.
-    #[error("the target pose is not finite: position {position:?} m")]
-    Target {
-        /// Position of the target \[m\].
-        position: [f64; 3],
-    },
-    /// The start has a NaN or infinite entry.
-    #[error("the start of joint {} is not finite: {found}", .joint + 1)]
-    Start {
-        /// Joint index, 0 for joint 1.
-        joint: usize,
-        /// Value given \[rad\].
-        found: f64,
-    },
-    /// No branch reaches the wrist centre; holds the one that misses it by least.
-    #[error("out of reach: {0}")]
-    OutOfReach(OutOfReach),
-    /// Every branch that reaches the target breaks a limit; holds the one that breaks its worst limit by least.
-    #[error(
-        "outside the limits: the nearest branch needs joint {} at {} rad, limit {} rad",
-        .violation.joint + 1, .violation.position_rad, .violation.limit_rad
-    )]
-    Limits {
-        /// Label of the branch.
-        label: Label,
-        /// Violation of its worst joint.
-        violation: LimitViolation,
-    },
-}
-
-/// Refuses targets and starts with NaN or infinite entries.
-#[inline]
-pub(crate) fn check_finite(target: &RigidTransform, start: &JointVector) -> Result<(), AnalyticError> {
-    // A sum is finite only if its terms are; targets so large that it overflows are no poses either.
-    if !(target.rotation.sum() + target.translation.sum()).is_finite() {
-        let position = target.translation.into();
-        return Err(AnalyticError::Target { position });
-    }
-    match (0..AXES).find(|&joint| !start[joint].is_finite()) {
-        Some(joint) => Err(AnalyticError::Start {
-            joint,
-            found: start[joint],
-        }),
-        None => Ok(()),
-    }
-}
+pub use crate::ik::analytic::branches::Branches;
+pub use crate::ik::analytic::error::AnalyticError;
+pub use crate::ik::analytic::mismatch::StructureMismatch;
+pub use crate::ik::analytic::tolerances::{
+    CLOSED, FREE_SHOULDER_M, FREE_WRIST_RAD, GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, LIMIT_NEAR_RAD,
+    LIMIT_ROUNDING_RAD, MOST_TURNS, REACH_ROUNDING_M, SHORTEST_LINK_M,
+};
+pub use crate::ik::analytic::window::NearestConfiguration;

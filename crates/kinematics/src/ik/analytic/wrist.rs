@@ -1,8 +1,8 @@
 //! Three turns of z–y–z form: joints 4 to 6 of a spherical wrist, or the sum of joints 2 to 4 with joints 5 and 6 where axes 2, 3 and 4 are
 //! parallel.
 
-use crate::ik::analytic::FREE_WRIST_RAD;
 use crate::ik::analytic::branch::Wrist;
+use crate::ik::analytic::tolerances::FREE_WRIST_RAD;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::Matrix3;
 use std::f64::consts::PI;

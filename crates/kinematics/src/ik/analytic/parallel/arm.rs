@@ -10,14 +10,12 @@
 use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist, principal};
 use crate::ik::analytic::chain::Chain;
+use crate::ik::analytic::geometry::{Geometry, meeting_point, nearly, parallel};
 use crate::ik::analytic::links::{Goal, Links, Swing, Triangle};
-use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
-use crate::ik::analytic::side_by_side::Rare;
-use crate::ik::analytic::side_by_side::parallel::AllSideBySide;
+use crate::ik::analytic::mismatch::StructureMismatch;
+use crate::ik::analytic::tolerances::FREE_WRIST_RAD;
+use crate::ik::analytic::window::Window;
 use crate::ik::analytic::wrist::{Turn, Turns};
-use crate::ik::analytic::{Candidate, ClosedForm, FREE_WRIST_RAD};
-use crate::lanes::run_exact;
-use crate::rotation::RigidTransform;
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::Complex;
 
@@ -35,95 +33,34 @@ pub(crate) struct ParallelAxesArm {
     pub sign_4: f64,
 }
 
-impl ClosedForm for ParallelAxesArm {
-    fn chain(&self) -> &Chain {
-        &self.chain
+impl ParallelAxesArm {
+    /// Recognises the arm by the geometry of its chain. `None` where axes 3 and 4 are not even nearly parallel.
+    ///
+    /// # Errors
+    /// [`StructureMismatch`]: the first property that fails by more than rounding.
+    pub fn recognise(geometry: &Geometry) -> Option<Result<Self, StructureMismatch>> {
+        nearly(parallel(&geometry.axes, [2, 3])).then(|| Self::with_parallel_axes(geometry))
     }
 
-    fn structure(&self) -> &'static str {
-        "axes 2, 3 and 4 parallel, axes 5 and 6 meet"
-    }
-
-    fn shoulder_sides_are_alike(&self) -> bool {
-        true
-    }
-
-    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
-        let goal = &self.links.goal(target);
-        let all = AllSideBySide {
-            arm: self,
-            goal,
-            window: None,
-        };
-        match run_exact(all) {
-            Ok(all) => Label::ALL.map(|label| {
-                let (q, degenerate) = all.branches[label.index()]?;
-                Ok(Branch::new(q, label, degenerate))
-            }),
-            Err(Rare) => self.branches_in_turn(goal, previous),
+    fn with_parallel_axes(geometry: &Geometry) -> Result<Self, StructureMismatch> {
+        let axes = &geometry.axes;
+        let (centre, meet) = meeting_point(axes);
+        let angles = geometry.angles().into_iter().chain([parallel(axes, [2, 3])]);
+        let chain = geometry.chain(angles.chain([meet]))?;
+        let (links, hand) = geometry.links(&centre, Some(&axes[3].point), chain.rounding)?;
+        if links.lateral_offset == 0.0 {
+            return Err(StructureMismatch::NoLateralOffset);
         }
-    }
-
-    fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8] {
-        self.all_branches(target, &window.anchor).map(|slot| {
-            let branch = slot?;
-            Ok((branch, window.nearest(&branch.q)))
+        let y = links.shoulder_from_base.rotation.row(1).transpose();
+        Ok(Self {
+            chain,
+            turns: geometry.turns(&links),
+            hand,
+            sign_4: 1.0_f64.copysign(axes[3].direction.dot(&y)),
+            links,
         })
     }
 
-    fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
-        let goal = &self.links.goal(target);
-        let all = AllSideBySide {
-            arm: self,
-            goal,
-            window: Some(window),
-        };
-        let mut search = Search::new(self, target, window);
-        match run_exact(all) {
-            Ok(all) => {
-                for label in Label::ALL
-                    .into_iter()
-                    .filter(|label| all.admitted >> label.index() & 1 == 1)
-                {
-                    if let Ok((q, degenerate)) = all.branches[label.index()] {
-                        search.offer(q, label, degenerate);
-                    }
-                }
-            }
-            Err(Rare) => {
-                for branch in self.branches_in_turn(goal, &window.anchor).iter().flatten() {
-                    if let Some(q) = window.nearest(&branch.q) {
-                        search.offer(q, branch.label, branch.degenerate);
-                    }
-                }
-            }
-        }
-        search.best
-    }
-
-    /// Other values of joint 4, where the sum of joints 2 to 4 is free, nearest to the anchor first.
-    fn elsewhere(&self, target: &RigidTransform, window: &Window<'_>) -> Vec<JointVector> {
-        let (goal, anchor) = (self.links.goal(target), &window.anchor);
-        let of_side = |side| {
-            let swing = self.links.swing(&goal, side, anchor[0]).ok()?;
-            let turn = Some(self.turn(&swing, anchor)).filter(|turn| turn.free)?;
-            Some(self.critical_sums(&swing, &turn, window))
-        };
-        let sums = [Shoulder::Front, Shoulder::Back]
-            .into_iter()
-            .filter_map(of_side)
-            .flatten();
-        let links = self.sign_4 * self.turn_of_links(anchor[1], anchor[2]);
-        window.anchors_with(3, sums.map(|sum| anchor[3] + principal(sum - links - anchor[3])))
-    }
-
-    fn regularity(&self, q: &JointVector) -> f64 {
-        let hand = self.turned_hand(self.sum(q));
-        self.links.regularity(q, hand, q[4] + self.turns.at_zero[0])
-    }
-}
-
-impl ParallelAxesArm {
     pub fn branches_in_turn(&self, goal: &Goal, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
         let of_side = |shoulder| {
             let swing = self.links.swing(goal, shoulder, previous[0])?;
@@ -154,7 +91,7 @@ impl ParallelAxesArm {
 
     /// Splits `E = Kᵀ Rot_z(−q₁) R`, `E = Rot_z(θ) Rot_y(q₅ + α₅) Rot_z(q₆ + α₆)`.
     #[inline]
-    fn turn(&self, swing: &Swing, previous: &JointVector) -> Turn {
+    pub fn turn(&self, swing: &Swing, previous: &JointVector) -> Turn {
         Turn::split(self.turns.from_shoulder * swing.rotation, self.sum(previous))
     }
 
@@ -187,27 +124,27 @@ impl ParallelAxesArm {
 
     /// Returns the turn of the forearm about y at joints 2 and 3 \[rad\].
     #[inline]
-    fn turn_of_links(&self, q2: f64, q3: f64) -> f64 {
+    pub fn turn_of_links(&self, q2: f64, q3: f64) -> f64 {
         let [sign_2, sign_3] = self.links.signs;
         sign_2 * q2 + sign_3 * q3
     }
 
     /// Returns θ: the turn of joints 2 to 4 together, about axis 4 \[rad\].
     #[inline]
-    fn sum(&self, q: &JointVector) -> f64 {
+    pub fn sum(&self, q: &JointVector) -> f64 {
         self.sign_4 * self.turn_of_links(q[1], q[2]) + q[3]
     }
 
     /// Returns the vector from axis 4 to the wrist centre at a turn θ \[m\].
     #[inline]
-    fn turned_hand(&self, sum: f64) -> Complex<f64> {
+    pub fn turned_hand(&self, sum: f64) -> Complex<f64> {
         let (s, c) = sin_cos(self.sign_4 * sum);
         Complex::new(c, s) * self.hand
     }
 
     /// Returns the values of θ at which the elbow is stretched or folded, or a joint stands on a limit, with axes 4 and 6 parallel \[rad\];
     /// NaN where a joint has no limit.
-    fn critical_sums(&self, swing: &Swing, turn: &Turn, window: &Window<'_>) -> impl Iterator<Item = f64> + use<> {
+    pub fn critical_sums(&self, swing: &Swing, turn: &Turn, window: &Window<'_>) -> impl Iterator<Item = f64> + use<> {
         let (links, wrist) = (&self.links, swing.wrist);
         let [upper, fore] = links.lengths;
         let [_, _, q6] = self.turns.joints(turn, Wrist::Plain);

@@ -13,13 +13,12 @@
 use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::chain::Chain;
+use crate::ik::analytic::geometry::{Geometry, wrist_centre};
 use crate::ik::analytic::links::{Bend, Goal, Links, Swing};
-use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
-use crate::ik::analytic::side_by_side::Rare;
-use crate::ik::analytic::side_by_side::spherical::SideBySide;
+use crate::ik::analytic::mismatch::StructureMismatch;
+use crate::ik::analytic::search::Search;
+use crate::ik::analytic::window::{NearestConfiguration, Window};
 use crate::ik::analytic::wrist::{Turn, Turns};
-use crate::ik::analytic::{Candidate, ClosedForm};
-use crate::lanes::run_exact;
 use crate::rotation::RigidTransform;
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -32,68 +31,20 @@ pub(crate) struct SphericalWristArm {
     pub turns: Turns,
 }
 
-impl ClosedForm for SphericalWristArm {
-    fn chain(&self) -> &Chain {
-        &self.chain
-    }
-
-    fn structure(&self) -> &'static str {
-        "spherical wrist, axes 2 and 3 parallel"
-    }
-
-    fn shoulder_sides_are_alike(&self) -> bool {
-        false
-    }
-
-    fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> [Result<Branch, OutOfReach>; 8] {
-        self.branches_with_turns(target, previous).map(|slot| Ok(slot?.0))
-    }
-
-    fn all_within(&self, target: &RigidTransform, window: &Window<'_>) -> [Result<Candidate, OutOfReach>; 8] {
-        self.branches_with_turns(target, &window.anchor).map(|slot| {
-            let (branch, turn) = slot?;
-            let within = || {
-                let [q1, q2, q3] = [0, 1, 2].map(|joint| window.value(joint, branch.q[joint]));
-                let [q4, q5, q6] = self.wrist_within(&turn, branch.label.wrist, window)?;
-                Some(JointVector::new(q1?, q2?, q3?, q4, q5, q6))
-            };
-            Ok((branch, within()))
-        })
-    }
-
-    fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
-        let goal = &self.links.goal(target);
-        let side_by_side = SideBySide {
-            arm: self,
-            target,
-            goal,
-            window,
-        };
-        run_exact(side_by_side).unwrap_or_else(|Rare| self.search_in_turn(target, goal, window))
-    }
-
-    /// Other values of joint 1, where it is free, nearest to the anchor first.
-    fn elsewhere(&self, target: &RigidTransform, window: &Window<'_>) -> Vec<JointVector> {
-        let goal = self.links.goal(target);
-        let side = Shoulder::Front;
-        let swing = self.links.swing(&goal, side, 0.0).ok().filter(|swing| swing.free);
-        let Some(triangle) = swing.and_then(|swing| self.links.triangle(swing.wrist).ok()) else {
-            return Vec::new();
-        };
-        let bends = [Elbow::Up, Elbow::Down].map(|elbow| self.links.bend(&triangle, side, elbow, window.anchor[1]));
-        let roots = bends.iter().flat_map(|bend| self.roots(&goal, bend, window));
-        let ends = [window.limits.lower[0], window.limits.upper[0]];
-        window.anchors_with(0, roots.chain(ends).filter_map(|q1| window.value(0, q1)))
-    }
-
-    fn regularity(&self, q: &JointVector) -> f64 {
-        self.links
-            .regularity(q, Complex::default(), q[4] + self.turns.at_zero[0])
-    }
-}
-
 impl SphericalWristArm {
-    fn branches_with_turns(
+    /// Recognises the arm by the geometry of its chain.
+    ///
+    /// # Errors
+    /// [`StructureMismatch`]: the first property that fails by more than rounding.
+    pub fn recognise(geometry: &Geometry) -> Result<Self, StructureMismatch> {
+        let (centre, misses) = wrist_centre(&geometry.axes);
+        let chain = geometry.chain(geometry.angles().into_iter().chain(misses))?;
+        let (links, _) = geometry.links(&centre, None, chain.rounding)?;
+        let turns = geometry.turns(&links);
+        Ok(Self { chain, links, turns })
+    }
+
+    pub fn branches_with_turns(
         &self,
         target: &RigidTransform,
         previous: &JointVector,
@@ -166,7 +117,7 @@ impl SphericalWristArm {
 
     /// Returns `[q₄, q₅, q₆]` of one wrist branch, each the value within the limits that is nearest to the start.
     #[inline]
-    fn wrist_within(&self, turn: &Turn, wrist: Wrist, window: &Window<'_>) -> Option<[f64; 3]> {
+    pub fn wrist_within(&self, turn: &Turn, wrist: Wrist, window: &Window<'_>) -> Option<[f64; 3]> {
         let [q4, q5, q6] = self.turns.joints(turn, wrist);
         let (q4, q5) = (window.value(3, q4)?, window.value(4, q5)?);
         match window.value(5, q6) {
@@ -192,7 +143,7 @@ impl SphericalWristArm {
     }
 
     /// Values of joint 1 at which a joint of the wrist stands on a limit \[rad\].
-    fn roots(&self, goal: &Goal, bend: &Bend, window: &Window<'_>) -> impl Iterator<Item = f64> + use<> {
+    pub fn roots(&self, goal: &Goal, bend: &Bend, window: &Window<'_>) -> impl Iterator<Item = f64> + use<> {
         let (c, s) = (bend.forearm.re, bend.forearm.im);
         let n = self.turns.from_shoulder * Matrix3::new(c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c);
         let rotation = goal.rotation;

@@ -1,13 +1,12 @@
 //! Branches side by side in the lanes of vectors. What is rare is left to the search branch by branch: joints that are free, joints that only
 //! the second, wider tolerance of the limits admits, and rounded arms with a spherical wrist.
 
-pub(crate) mod parallel;
-pub(crate) mod spherical;
-
 use crate::ik::analytic::branch::Degeneracies;
 use crate::ik::analytic::links::{ELBOWS_MEET, Goal, Links};
-use crate::ik::analytic::nearest::Window;
-use crate::ik::analytic::{FREE_SHOULDER_M, FREE_WRIST_RAD, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, REACH_ROUNDING_M};
+use crate::ik::analytic::tolerances::{
+    FREE_SHOULDER_M, FREE_WRIST_RAD, LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, REACH_ROUNDING_M,
+};
+use crate::ik::analytic::window::Window;
 use crate::lanes::{LANES, Vector};
 use crate::trig::atan2_vector;
 use nalgebra::{Complex, Matrix3};
@@ -190,7 +189,7 @@ impl<V: Vector> Within<V> {
 
     /// Returns the lanes that are left, as bits, of those that reach the target.
     #[inline(always)]
-    fn admitted(&self, reached: V) -> Result<u8, Rare> {
+    pub fn admitted(&self, reached: V) -> Result<u8, Rare> {
         let [exactly, nearly] = [
             self.exactly.and(reached).sign_bits(),
             self.nearly.and(reached).sign_bits(),

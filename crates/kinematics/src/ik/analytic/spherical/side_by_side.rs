@@ -5,12 +5,13 @@
 use crate::JointVector;
 use crate::ik::analytic::branch::{Elbow, Label, Shoulder, Wrist};
 use crate::ik::analytic::links::Goal;
-use crate::ik::analytic::nearest::{NearestConfiguration, Search, Window};
+use crate::ik::analytic::search::Search;
 use crate::ik::analytic::side_by_side::{
     Complexes, Rare, Swings, Triangles, Turns, Within, angles_of_both, conjugate, degeneracies, product, splat,
     squared_norm, times, turned,
 };
-use crate::ik::analytic::spherical::SphericalWristArm;
+use crate::ik::analytic::spherical::arm::SphericalWristArm;
+use crate::ik::analytic::window::{NearestConfiguration, Window};
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::rotation::RigidTransform;
 use crate::trig::atan2_vector;
@@ -181,7 +182,7 @@ fn turned_about_y<V: Vector>([x, y, z]: [V; 3], [c, s]: Complexes<V>) -> [V; 3] 
 mod tests {
     use super::*;
     use crate::RobotModel;
-    use crate::ik::analytic::recognise::Geometry;
+    use crate::ik::analytic::geometry::Geometry;
     use crate::lanes::tests::portable_and_exact;
     use proptest::prelude::*;
 
@@ -193,7 +194,7 @@ mod tests {
             stretch in prop_oneof![3 => Just(1.0), 1 => 0.8..1.2f64],
         ) {
             let robot = RobotModel::irb120().map_err(|error| TestCaseError::fail(error.to_string()))?;
-            let arm = Geometry::of(&robot).spherical().map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let arm = SphericalWristArm::recognise(&Geometry::of(&robot)).map_err(|error| TestCaseError::fail(error.to_string()))?;
             let mut target = robot.fk(&q.into()).bodies[6];
             target.translation *= stretch;
             let (goal, window) = (arm.links.goal(&target), Window::new(robot.limits(), &start.into()));
@@ -208,7 +209,7 @@ mod tests {
     #[test]
     fn ordinary_targets_are_not_rare() {
         let robot = RobotModel::irb120().unwrap();
-        let arm = Geometry::of(&robot).spherical().unwrap();
+        let arm = SphericalWristArm::recognise(&Geometry::of(&robot)).unwrap();
         let target = robot.fk(&JointVector::new(0.3, 0.2, -0.4, 0.5, 0.6, -0.7)).bodies[6];
         let (goal, window) = (
             arm.links.goal(&target),

@@ -2,15 +2,15 @@
 //! elbows follow one after the other.
 
 use crate::JointVector;
-use crate::ik::analytic::FREE_WRIST_RAD;
 use crate::ik::analytic::branch::{Degeneracies, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::links::Goal;
-use crate::ik::analytic::nearest::Window;
-use crate::ik::analytic::parallel::ParallelAxesArm;
+use crate::ik::analytic::parallel::arm::ParallelAxesArm;
 use crate::ik::analytic::side_by_side::{
     Complexes, Rare, Swings, Triangles, Turns, Within, all_lanes, angles_of_both, degeneracies, product, splat, times,
     turned,
 };
+use crate::ik::analytic::tolerances::FREE_WRIST_RAD;
+use crate::ik::analytic::window::Window;
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::trig::atan2_vector;
 use nalgebra::Complex;
@@ -188,7 +188,7 @@ impl AllSideBySide<'_> {
 mod tests {
     use super::*;
     use crate::RobotModel;
-    use crate::ik::analytic::recognise::Geometry;
+    use crate::ik::analytic::geometry::Geometry;
     use crate::lanes::tests::portable_and_exact;
     use crate::urdf::MeshSource;
     use proptest::prelude::*;
@@ -196,7 +196,7 @@ mod tests {
     fn arm() -> (RobotModel, ParallelAxesArm) {
         let text = include_str!("../../../../tests/fixtures/family_8.urdf");
         let robot = RobotModel::from_urdf(text, &MeshSource::none()).unwrap();
-        let arm = Geometry::of(&robot).parallel().unwrap();
+        let arm = ParallelAxesArm::recognise(&Geometry::of(&robot)).unwrap().unwrap();
         (robot, arm)
     }
 

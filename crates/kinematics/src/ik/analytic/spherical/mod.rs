@@ -1,0 +1,11 @@
+//! Closed form of arms with a spherical wrist and parallel axes 2 and 3.
+//!
+//! | concept | file |
+//! | --- | --- |
+//! | the arm: its equations, branch by branch, and its recognition | `arm` |
+//! | its branches side by side in the lanes of vectors | `side_by_side` |
+//! | both as a closed form | `form` |
+
+pub(crate) mod arm;
+mod form;
+mod side_by_side;
