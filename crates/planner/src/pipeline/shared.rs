@@ -1,13 +1,14 @@
 //! Data that the phases of planning share.
 
-use crate::error::{OutOfRange, PlanError};
-use crate::infeasible::PlaceSearch;
+use crate::error::PlanError;
+use crate::out_of_range::OutOfRange;
 use crate::pattern::Patterns;
 use crate::redundancy::places::SEARCHED_M;
 use crate::scene::{AXIS_SHARE, Contact, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::ClearanceShortfall;
 use crate::trig::sin_cos;
+use crate::unwashable_plate::PlaceSearch;
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_bodies::clearance::ClearanceModel;

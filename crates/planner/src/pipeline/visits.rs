@@ -3,7 +3,6 @@
 //! A plate for which no way was found to wash it whole: why.
 
 use crate::error::PlanError;
-use crate::infeasible::{PlaceSearch, UnwashablePlate};
 use crate::pattern::{Margin, Pattern, Promise, SampledWash};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
@@ -12,6 +11,7 @@ use crate::redundancy::beyond_reach::{required_share, share_beyond_reach};
 use crate::redundancy::washability::{self, WashablePart};
 use crate::redundancy::{self, RedundancyError, Task, Washing};
 use crate::scene::Scene;
+use crate::unwashable_plate::{PlaceSearch, UnwashablePlate};
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector3;
 use platewash_bodies::job::WashJob;

@@ -1,6 +1,6 @@
 //! Errors of a search for configurations along a wash path.
 
-use crate::error::OutOfRange;
+use crate::out_of_range::OutOfRange;
 use crate::scene::Hindrance;
 use nalgebra::Vector3;
 use platewash_workcell::cancel::Cancelled;

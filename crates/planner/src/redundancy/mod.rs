@@ -31,9 +31,10 @@
 
 pub mod beyond_reach;
 pub mod error;
+mod lean_aside;
 mod lines;
 pub mod places;
-mod samples;
+pub mod samples;
 mod search;
 pub mod stuck;
 pub mod task;

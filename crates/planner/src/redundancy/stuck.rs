@@ -7,9 +7,9 @@
 //! Dead ends: the obstructions where a search finds nothing.
 
 use crate::redundancy::error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
+use crate::redundancy::lean_aside::{leans, obstacle_blocks_at};
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::{Stop, Task, check_step};
-use crate::redundancy::washing;
 use crate::scene::{Filter, Hindrance, Start, Width};
 use crate::trig::atan2;
 use platewash_workcell::cancel::Cancelled;
@@ -28,10 +28,10 @@ pub fn is_blocked(task: &Task<'_>) -> Result<bool, Cancelled> {
     let Some(layer) = first_dead(task, &graph)? else {
         return Ok(false);
     };
-    if !washing::obstacle_blocks_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
+    if !obstacle_blocks_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
         return Ok(true);
     }
-    for aside_rad in washing::leans(task) {
+    for aside_rad in leans(task) {
         let scene = task.scene.clone().leaning_aside(aside_rad);
         let leaning = task.in_scene(&scene);
         if first_dead(&leaning, &Graph::new(&leaning))?.is_none() {

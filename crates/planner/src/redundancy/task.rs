@@ -1,6 +1,6 @@
 //! Task of washing one plate: checks a contact point at a tilt, and a whole wash path at a profile of tilts.
 
-use crate::error::OutOfRange;
+use crate::out_of_range::OutOfRange;
 use crate::redundancy::error::RedundancyError;
 use crate::redundancy::samples::{Samples, TiltSpline};
 use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
@@ -347,9 +347,6 @@ pub(crate) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> R
         by_rad: step[joint],
     })
 }
-
-/// Largest deviation of the chord between neighbouring contact points from the wash path \[m\].
-pub const CHORD_ERROR_M: f64 = 2e-5;
 
 /// The largest tilt that can be asked for \[rad\]: short of lying flat.
 pub const LARGEST_TILT_RAD: f64 = 0.9 * FRAC_PI_2;

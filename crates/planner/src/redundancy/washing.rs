@@ -4,7 +4,9 @@
 //! in the way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay
 //! within the path's cone.
 
-use crate::redundancy::error::{DeadEnd, RedundancyError};
+use crate::redundancy::error::RedundancyError;
+use crate::redundancy::lean_aside::leans;
+use crate::redundancy::lean_aside::obstacle_blocks;
 use crate::redundancy::samples::{TiltSpline, smoothed};
 use crate::redundancy::search::{Graph, GraphPath};
 use crate::redundancy::stuck::{self, blocked};
@@ -29,7 +31,7 @@ const PROFILE_STEPS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 pub struct Washing {
     /// Parameters of the wash path, from 0 to its end, as
     /// [`WashCurve::parameters`](platewash_workcell::wash_path::WashCurve::parameters) gives them for
-    /// [`crate::redundancy::task::CHORD_ERROR_M`] \[rad\].
+    /// [`crate::redundancy::samples::CHORD_ERROR_M`] \[rad\].
     pub theta: Vec<f64>,
     /// Tilt of the tool in the arm's plane at each: its angle from the plate's normal there, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
@@ -306,36 +308,4 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
         q,
         choice,
     }
-}
-
-/// Leans aside that are tried, as shares of the planned cone: the least first, as the rest is left for tilts in the arm's plane.
-const SHARES: [f64; 3] = [0.35, 0.65, 1.0];
-
-/// The leans to try \[rad\], to either side.
-pub(crate) fn leans(task: &Task<'_>) -> impl Iterator<Item = f64> + use<> {
-    let most_rad = task.planned_lean_rad();
-    SHARES
-        .into_iter()
-        .flat_map(move |share| [share * most_rad, -share * most_rad])
-}
-
-/// Checks that an obstacle stands in the way at the contact points where a search ended.
-pub(crate) fn obstacle_blocks(task: &Task<'_>, error: &RedundancyError) -> bool {
-    let ends = match error {
-        RedundancyError::NoTilt { ends, .. } => &ends[..],
-        RedundancyError::Disconnected { end, .. } | RedundancyError::Between { end, .. } => std::slice::from_ref(end),
-        _ => &[],
-    };
-    ends.iter().any(|end| obstacle_blocks_at(task, end))
-}
-
-/// Checks that an obstacle stands in the way of some tilt at a contact point.
-pub(crate) fn obstacle_blocks_at(task: &Task<'_>, end: &DeadEnd) -> bool {
-    let surroundings = task.scene.surroundings;
-    end.reasons.iter().any(|reason| match &reason.least {
-        Hindrance::Clearance { pair, .. } => [&pair.a, &pair.b]
-            .into_iter()
-            .any(|name| surroundings.is_obstacle(name)),
-        _ => false,
-    })
 }

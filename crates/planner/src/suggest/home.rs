@@ -2,6 +2,7 @@
 
 use crate::error::PlanError;
 use crate::scene::{Contact, Scene, Stretch, Width};
+use crate::suggest::near_pair::NearPair;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
@@ -56,29 +57,6 @@ impl SuggestedHome {
     #[must_use]
     pub fn q_rad(&self) -> JointVector {
         JointVector::from(self.q_deg).map(f64::to_radians)
-    }
-}
-
-/// Two bodies that are too near in some of the configurations that were tried for a home.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NearPair {
-    /// Names of the bodies.
-    pub pair: [String; 2],
-    /// Number of configurations in which they are too near.
-    pub count: usize,
-    /// Number of configurations that were tried.
-    pub tried: usize,
-    /// Greatest distance in all of them \[m\].
-    pub most_m: f64,
-    /// True if both are of the arm or its tool.
-    pub is_of_arm: bool,
-}
-
-impl NearPair {
-    /// True if the bodies are of the arm or its tool, and too near in all of the configurations without touching in all of them.
-    #[must_use]
-    pub fn is_by_design(&self) -> bool {
-        self.is_of_arm && self.count == self.tried && self.most_m > 0.0
     }
 }
 

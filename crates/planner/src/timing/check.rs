@@ -6,8 +6,8 @@
 
 use crate::timing::grid::Grid;
 use crate::timing::hermite::Piece;
+use crate::timing::limits::{MotionLimits, TipLimits};
 use crate::timing::tip_model::{Magnitudes, TipModel, TipRates};
-use crate::timing::{MotionLimits, TipLimits};
 use platewash_kinematics::JointVector;
 
 /// Share of a limit that the bound between looks may take at most; then looks are not made denser.

@@ -3,7 +3,7 @@
 //! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 for any u.
 
 use crate::joint_path::JointPath;
-use crate::timing::TimingError;
+use crate::timing::error::TimingError;
 use crate::timing::tip_model::TipModel;
 use crate::timing::tip_model::TipRates;
 use platewash_kinematics::JointVector;

@@ -2,7 +2,7 @@
 //! `redundancy` and `scene` are.
 
 use super::redundancy::places::MovedPlate;
-use super::redundancy::task::CHORD_ERROR_M;
+use super::redundancy::samples::CHORD_ERROR_M;
 use super::redundancy::{RedundancyError, Task, Washing, washing};
 use super::scene::Scene;
 use platewash_bodies::clearance::ClearanceModel;
