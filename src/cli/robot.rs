@@ -2,7 +2,7 @@
 
 use super::failure::ExitCode;
 use super::files::Files;
-use super::fk::FramePose;
+use super::frame_pose::FramePose;
 use super::options::Options;
 use anyhow::{Context, Result};
 use clap::Args;

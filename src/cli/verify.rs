@@ -3,9 +3,10 @@
 
 use super::export;
 use super::failure::{ExitCode, not_verified};
+use super::input_file::refused;
 use super::options::{Options, PLAN_STATES};
 use super::output::DetailArguments;
-use super::plan_file::{self, PlanFile, refused};
+use super::plan_file::{self, PlanFile};
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline, prove_with};

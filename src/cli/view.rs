@@ -2,9 +2,10 @@
 
 use super::failure::{ExitCode, internal};
 use super::files::{Files, check_places};
+use super::input_file::{refused, text};
 use super::options::Options;
 use super::page::{self, ServeArguments};
-use super::plan_file::{PlanFile, refused, text};
+use super::plan_file::PlanFile;
 use super::simulate::SimulationAnswer;
 use anyhow::{Error, Result};
 use clap::Args;

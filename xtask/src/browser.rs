@@ -1,7 +1,8 @@
 //! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
+use crate::command::with_command;
 use crate::step::Step;
-use crate::{command, web};
+use crate::web;
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Workshop, root, target};
 use std::fs;
@@ -63,10 +64,4 @@ fn workshop() -> Result<(Node, Workshop)> {
     let workshop = Workshop::new("the tests in a browser", &sources, target().join("browser"))?;
     workshop.fetch(&node, Packages::All)?;
     Ok((node, workshop))
-}
-
-/// Names the release build of the command and the project's folder to a step.
-pub fn with_command(step: Step) -> Step {
-    step.with("PLATEWASH_BIN", command::program())
-        .with("PLATEWASH_ROOT", root())
 }

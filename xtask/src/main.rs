@@ -29,6 +29,7 @@ mod page;
 mod programs;
 mod python;
 mod site;
+mod size;
 mod sources;
 mod step;
 mod steps;

@@ -1,7 +1,7 @@
 //! The documentation as a website: pages, Rust and Python API, playground. Links that lead nowhere are errors.
 
 use crate::step::Step;
-use crate::{check, page, python, web, wheel};
+use crate::{page, python, web, wheel};
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{Node, Packages, Workshop, copied, removed, root, target};
 use std::path::Path;
@@ -20,7 +20,7 @@ const LINKED: [&str; 6] = [
 /// Makes all that the website holds, then the website, and says how to look at it.
 pub fn make() -> Result<()> {
     page::make()?;
-    check::documentation()?;
+    documentation()?;
     wheel::install()?;
     built()?;
     println!("\nto look at it: {}", web::serving(&target().join("site")));
@@ -74,4 +74,10 @@ fn formulas_of_page(node: &Node, folder: &Path) -> Result<()> {
         );
     }
     copied(&new, &kept)
+}
+
+/// Makes rustdoc's pages.
+pub fn documentation() -> Result<()> {
+    let step = Step::cargo("documentation", &["doc", "--release", "--workspace", "--no-deps"]);
+    wheel::with_its_settings(step).with("RUSTDOCFLAGS", "-D warnings").run()
 }

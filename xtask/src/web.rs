@@ -1,6 +1,6 @@
 //! The playground: the engine as a WebAssembly module, the folder of the page around it, and the test of the module.
 
-use crate::browser;
+use crate::command::with_command;
 use crate::step::Step;
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, alone, python_program, root, target, workshop};
@@ -58,7 +58,7 @@ pub fn tested() -> Result<()> {
     let node = Node::found(Packages::All)?;
     let line = ["--test", "--test-reporter=spec", "tests/playground/same.mjs"];
     let step = Step::of("module and command side by side", node.node(&root(), &line));
-    browser::with_command(step).with("PLATEWASH_MODULE", module).run()
+    with_command(step).with("PLATEWASH_MODULE", module).run()
 }
 
 /// True if the toolchain in use compiles for WebAssembly.

@@ -7,7 +7,7 @@ use crate::robot::Robot;
 use crate::scenario::ScenarioObject;
 use crate::warnings::warn;
 use crate::work::{alone, aside};
-use crate::{argument, errors};
+use crate::{argument, errors, exception};
 use platewash::editor::{Editor, EditorError};
 use platewash::scenario::Draft;
 use platewash::{CancelToken, Scenario};
@@ -34,7 +34,7 @@ fn refused(py: Python<'_>, error: &EditorError) -> PyErr {
     match error {
         EditorError::Scenario(error) => errors::scenario(py, error),
         EditorError::Failure(error) => errors::failure(py, error),
-        _ => errors::internal(py, &error.to_string()),
+        _ => exception::internal(py, &error.to_string()),
     }
 }
 

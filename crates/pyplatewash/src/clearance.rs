@@ -3,6 +3,7 @@
 use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
+use crate::exception;
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::plan::PlanObject;
 use crate::plate::PlateFields;
@@ -47,7 +48,7 @@ const JOB: &str = "a WashJob, a PaperJob, a Plan, what plan() returns, or the pa
 fn finite(py: Python<'_>, q: &[JointVector]) -> PyResult<()> {
     match q.iter().position(|q| !q.iter().all(|v| v.is_finite())) {
         None => Ok(()),
-        Some(row) => Err(errors::input(py, "q", &format!("row {row} is not finite"))),
+        Some(row) => Err(exception::input(py, "q", &format!("row {row} is not finite"))),
     }
 }
 
@@ -117,7 +118,7 @@ impl ClearanceObject {
             let workcell = assembly::workcell_on_floor(&model, held)?;
             ClearanceModel::new(&model, &workcell, &plates)
         })?;
-        let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
+        let inner = inner.map_err(|e| exception::input(py, "robot", &e.to_string()))?;
         let plates = PyTuple::new(py, given)?.unbind();
         Ok(Self {
             inner,

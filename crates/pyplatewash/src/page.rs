@@ -11,7 +11,7 @@ use crate::scenario::{self, ScenarioObject};
 use crate::simulation::{ExecutionObject, FinishedSimulation, Question};
 use crate::tool::ToolFields;
 use crate::work::patiently;
-use crate::{argument, arrays};
+use crate::{argument, arrays, exception};
 use platewash::motion::plan::Process;
 use platewash::viewer::bundle::Bundle;
 use platewash::viewer::figures::{Figure, Subject, draw};
@@ -33,7 +33,7 @@ const MISSING: &str = "this build of pyplatewash is without the page that shows 
 /// # Errors
 /// `MissingError` in a build without it.
 pub fn bundle(py: Python<'_>) -> PyResult<Bundle> {
-    Bundle::embedded().ok_or_else(|| errors::missing(py, "page", MISSING))
+    Bundle::embedded().ok_or_else(|| exception::missing(py, "page", MISSING))
 }
 
 /// The argument called `height` \[px\], 640 where it is not given.
@@ -63,7 +63,7 @@ pub fn check(page: &Bound<'_, PyAny>) -> PyResult<()> {
 
 /// HTML page of a view.
 fn html(py: Python<'_>, view: &View, bundle: &Bundle) -> PyResult<String> {
-    page::html(view, bundle).map_err(|e| errors::internal(py, &e.to_string()))
+    page::html(view, bundle).map_err(|e| exception::internal(py, &e.to_string()))
 }
 
 /// Returns the certificate and the execution that are given, after a check that both belong to the plan.
@@ -79,11 +79,11 @@ pub fn of_the_plan(
     let certificate = certificate.map(|certificate| certificate.inner().clone());
     let hash = plan.inner().seal().ok();
     if certificate.as_ref().is_some_and(|c| c.hash.computed != hash) {
-        return Err(errors::input(py, "certificate", "is one of another plan"));
+        return Err(exception::input(py, "certificate", "is one of another plan"));
     }
     let done = execution.map(ExecutionObject::done);
     if done.as_ref().is_some_and(|done| done.question.plan != *plan.inner()) {
-        return Err(errors::input(py, "execution", "is one of another plan"));
+        return Err(exception::input(py, "execution", "is one of another plan"));
     }
     Ok((certificate, done))
 }
@@ -111,7 +111,7 @@ fn view(
         Ok::<_, SimulationError>(View::of_plan(&plan, &arm, &beside))
     })?;
     let made = made.map_err(|error| errors::failure(py, &error.into()))?;
-    made.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
+    made.map_err(|error| exception::keyed(py, "plan", &error.to_string()))
 }
 
 /// The executed motion with its report, for a page.
@@ -148,7 +148,7 @@ pub fn _configuration_page(
     let (py, height) = (q.py(), height_px(height)?);
     let q: JointVector = arrays::joint_vector("q", q)?;
     if !q.iter().all(|v| v.is_finite()) {
-        return Err(errors::input(py, "q", "is not finite"));
+        return Err(exception::input(py, "q", "is not finite"));
     }
     let tool = tool.map(|tool| ToolFields::of(tool)?.on(py, robot.model()));
     let tool = tool.transpose()?;
@@ -244,7 +244,7 @@ pub fn _plan_figure<'py>(
     let kind = kind.map_or(Ok("layout".to_owned()), |kind| {
         argument::text("kind", kind, "a figure's name")
     })?;
-    let figure = Figure::named(&kind).map_err(|unknown| errors::input(py, "kind", &unknown.to_string()))?;
+    let figure = Figure::named(&kind).map_err(|unknown| exception::input(py, "kind", &unknown.to_string()))?;
     let plan = plan.get();
     let (certificate, done) = of_the_plan(py, plan, execution, certificate)?;
     let (plan, arm) = (plan.inner().clone(), robot.get().model().clone());
@@ -255,7 +255,7 @@ pub fn _plan_figure<'py>(
             known.name,
             arm.name()
         );
-        return Err(errors::input(py, "robot", &words));
+        return Err(exception::input(py, "robot", &words));
     }
     let region = scenario.map(|scenario| scenario.inner().task_region(&arm));
     let drawn = patiently(py, move |cancel| {
@@ -282,5 +282,5 @@ pub fn _plan_figure<'py>(
         Ok::<_, Failure>(draw())
     })?;
     let drawn = drawn.map_err(|error| errors::failure(py, &error))?;
-    drawn.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
+    drawn.map_err(|error| exception::keyed(py, "plan", &error.to_string()))
 }

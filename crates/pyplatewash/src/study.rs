@@ -1,28 +1,18 @@
-//! `Study`: many scenarios as one value. Its rows are worked on by `journal` and `worker`, which Python's engines drive
-//! (`python/pyplatewash/_studies/`).
-//!
-//! The text of a study file from the arguments of a call.
-//!
-//! The worker that makes rows, on a thread of its own and without any file of the study.
-
-mod journal;
-
-pub use crate::study::journal::StudyJournalObject;
+//! `Study`: many scenarios as one value, and the text of a study file from the arguments of a call. Its rows are worked on by
+//! `study_journal` and `study_worker`, which Python's engines drive (`python/pyplatewash/_studies/`).
 
 use crate::scenario::ScenarioObject;
 use crate::value::{from_mapping, to_record};
-use crate::work::{ask, patiently, patiently_by};
-use crate::{argument, errors};
-use platewash::CancelToken;
+use crate::work::{ask, patiently};
+use crate::{argument, errors, exception};
 use platewash::kinematics::urdf::Files;
 use platewash::scenario::Draft;
-use platewash::study::{self, Outcome, Resolver, Study, StudyError, StudyParts};
+use platewash::study::{self, Study, StudyError, StudyParts};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyFrozenSet, PyMapping, PyRange, PyRangeMethods, PySet, PyString, PyTuple, PyType};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Name, in messages, of a study that comes from no file.
 const UNSAVED: &str = "study";
@@ -49,7 +39,11 @@ impl StudyObject {
         Ok(argument::object::<Self>("study", value, "a Study")?.get().inner.clone())
     }
 
-    fn of(py: Python<'_>, study: Result<Study, StudyError>) -> PyResult<Self> {
+    /// The object of a study that was read.
+    ///
+    /// # Errors
+    /// `StudyError`, for a study that could not be read.
+    fn from_result(py: Python<'_>, study: Result<Study, StudyError>) -> PyResult<Self> {
         let inner = study.map(Arc::new).map_err(|error| errors::study(py, error))?;
         Ok(Self { inner })
     }
@@ -74,7 +68,7 @@ impl StudyObject {
     ) -> PyResult<Self> {
         let text = text(py, scenario, axes, rows, name, plans)?;
         let study = Study::parse(&text, UNSAVED, Path::new(""));
-        Self::of(py, study.map_err(without_line))
+        Self::from_result(py, study.map_err(without_line))
     }
 
     /// The study of a file, or the one that a folder keeps the rows of, which needs no other file.
@@ -83,7 +77,7 @@ impl StudyObject {
     #[classmethod]
     fn load(_class: &Bound<'_, PyType>, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
         let path = argument::path("path", path)?;
-        Self::of(py, Study::load(&path))
+        Self::from_result(py, Study::load(&path))
     }
 
     /// A study from TOML text; files that it names are relative to the working folder.
@@ -92,7 +86,7 @@ impl StudyObject {
     #[classmethod]
     fn parse(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
         let text = argument::text("text", text, "TOML text")?;
-        Self::of(py, Study::parse(&text, UNSAVED, Path::new("")))
+        Self::from_result(py, Study::parse(&text, UNSAVED, Path::new("")))
     }
 
     /// Its name.
@@ -195,7 +189,7 @@ impl StudyObject {
 
     #[classmethod]
     fn _restored(_class: &Bound<'_, PyType>, py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
-        Self::of(py, restored(parts))
+        Self::from_result(py, restored(parts))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -237,7 +231,7 @@ pub fn _study_summary<'py>(py: Python<'py>, folder: &Bound<'py, PyAny>) -> PyRes
 }
 
 /// A study from its parts.
-fn restored(parts: &Bound<'_, PyBytes>) -> Result<Study, StudyError> {
+pub fn restored(parts: &Bound<'_, PyBytes>) -> Result<Study, StudyError> {
     let text = String::from_utf8_lossy(parts.as_bytes());
     StudyParts::from_json(&text).and_then(Study::from_parts)
 }
@@ -277,7 +271,7 @@ pub fn text(
         refuse_nulls("rows", &Value::Array(rows.clone())).map_err(|at| none(py, &at))?;
         put("rows", Value::Array(rows));
     }
-    toml::to_string(&study).map_err(|error| errors::input(py, "axes", &error.to_string()))
+    toml::to_string(&study).map_err(|error| exception::input(py, "axes", &error.to_string()))
 }
 
 /// An error without the line of a text that nobody has seen.
@@ -304,7 +298,7 @@ fn scenarios(given: &Bound<'_, PyAny>) -> PyResult<Value> {
         let path = argument::path(name, given).map_err(|e| argument::refused(name, given, SCENARIO, e))?;
         match path.to_str() {
             Some(path) => Ok(Value::from(path)),
-            None => Err(errors::input(given.py(), name, "is not valid Unicode")),
+            None => Err(exception::input(given.py(), name, "is not valid Unicode")),
         }
     };
     if is_one {
@@ -376,64 +370,5 @@ fn refuse_nulls(at: &str, value: &Value) -> Result<(), String> {
 }
 
 fn none(py: Python<'_>, at: &str) -> PyErr {
-    errors::wrong_type(py, at, "a value is needed; found None")
-}
-
-/// A row's line, the seconds that it took, and the bytes of its plan where the study keeps it.
-type RowTuple<'py> = (Bound<'py, PyBytes>, f64, Option<Bound<'py, PyBytes>>);
-
-/// Makes rows of a study, each on one thread of its own, whatever number of threads calls it.
-#[pyclass(frozen, module = "pyplatewash._core", name = "StudyWorker")]
-pub struct StudyWorkerObject {
-    study: Arc<Study>,
-    resolver: Arc<Resolver>,
-    cancel: CancelToken,
-}
-
-#[pymethods]
-impl StudyWorkerObject {
-    /// Makes the worker of a study from the parts of the study.
-    #[new]
-    fn new(py: Python<'_>, parts: &Bound<'_, PyBytes>) -> PyResult<Self> {
-        let study = StudyObject::of(py, restored(parts))?.inner;
-        Ok(Self {
-            resolver: Arc::new(Resolver::new(study.clone())),
-            study,
-            cancel: CancelToken::new(),
-        })
-    }
-
-    /// Makes a row; None where it was cancelled.
-    fn make<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<RowTuple<'py>>> {
-        let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
-        let resolver = self.resolver.clone();
-        let began = Instant::now();
-        let made = patiently_by(py, 1, &self.cancel, move |cancel| resolver.row(index, cancel))?;
-        let Some(made) = made.map_err(|error| errors::study(py, error))? else {
-            return Ok(None);
-        };
-        let line = made.row.line();
-        let plan = made.plan.map(|plan| PyBytes::new(py, &plan));
-        Ok(Some((
-            PyBytes::new(py, line.as_bytes()),
-            began.elapsed().as_secs_f64(),
-            plan,
-        )))
-    }
-
-    /// A row of a planner that does nothing: what an engine costs by itself is measured with it.
-    fn unplanned<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<RowTuple<'py>>> {
-        let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
-        if self.cancel.is_cancelled() {
-            return Ok(None);
-        }
-        let row = self.study.ended(index, Outcome::NotFound, "nothing was planned");
-        let line = row.map_err(|error| errors::study(py, error))?.line();
-        Ok(Some((PyBytes::new(py, line.as_bytes()), 0.0, None)))
-    }
-
-    /// Gives up what it works on, and all that comes.
-    fn stop(&self) {
-        self.cancel.cancel();
-    }
+    exception::wrong_type(py, at, "a value is needed; found None")
 }

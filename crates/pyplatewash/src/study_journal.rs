@@ -2,7 +2,7 @@
 
 use crate::study::StudyObject;
 use crate::work::patiently_by;
-use crate::{argument, errors};
+use crate::{argument, errors, exception};
 use platewash::CancelToken;
 use platewash::study::{self, Journal, Outcome, Resolver, RowWithPlan, Study, StudyError};
 use pyo3::prelude::*;
@@ -44,7 +44,7 @@ impl StudyJournalObject {
         let mut held = self.locked();
         match held.as_mut() {
             Some(held) => ask(held, &self.study).map_err(|error| errors::study(py, error)),
-            None => Err(errors::named(py, "StudyError", "the study's folder is closed")),
+            None => Err(exception::named(py, "StudyError", "the study's folder is closed")),
         }
     }
 }
@@ -105,7 +105,7 @@ impl StudyJournalObject {
     fn work(&self, py: Python<'_>, threads: usize, told: Py<PyAny>) -> PyResult<()> {
         let taken = self.locked().take();
         let Some(mut held) = taken else {
-            return Err(errors::named(py, "StudyError", "the study's folder is closed"));
+            return Err(exception::named(py, "StudyError", "the study's folder is closed"));
         };
         let study = self.study.clone();
         let (raised, heard) = (Arc::new(Mutex::new(None)), CancelToken::new());
