@@ -28,6 +28,8 @@ mod packages;
 mod page;
 mod programs;
 mod python;
+#[cfg(test)]
+mod rings;
 mod site;
 mod size;
 mod sources;

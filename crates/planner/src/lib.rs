@@ -58,4 +58,3 @@ pub use crate::redundancy::places::SEARCHED_M;
 pub use crate::unwashable_plate::{PlaceSearch, UnwashablePlate};
 pub use crate::washable_map::{MapArea, MapPatch};
 pub use crate::watch::{Activity, Listener, Watch};
-pub(crate) use platewash_kinematics::trig;

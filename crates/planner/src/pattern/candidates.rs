@@ -5,9 +5,9 @@
 use crate::pattern::promise::{Promise, SampledWash};
 use crate::scene::{AxisRule, TiltPolicy};
 use crate::timing::TipLimits;
-use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Moment, SpongePose};
+use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{CandidateRequest, Density, PatternName, SurfacePoint, WashCurve};
 

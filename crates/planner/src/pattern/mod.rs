@@ -21,7 +21,7 @@ use crate::pattern::candidates::{ByTime, Candidate, Estimate, candidates};
 use crate::pattern::promise::Kept;
 use crate::scene::{AXIS_SHARE, AxisRule};
 use crate::timing::TipLimits;
-use crate::trig::atan2;
+use platewash_kinematics::trig::atan2;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::plate::Plate;

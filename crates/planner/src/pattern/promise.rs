@@ -3,10 +3,10 @@
 use crate::pattern::shortfall::ContactPromise;
 use crate::pattern::shortfall::Shortfall;
 use crate::scene::Scene;
-use crate::trig::{acos, sin_cos};
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Columns, ContactSampler, Dwell, Foundation, Level, Moment, SpongePose};
 use platewash_kinematics::JointVector;
+use platewash_kinematics::trig::{acos, sin_cos};
 use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;

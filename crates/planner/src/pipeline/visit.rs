@@ -8,11 +8,11 @@ use crate::redundancy::Washing;
 use crate::scene::Scene;
 use crate::timing::{self, TimedPath};
 use crate::transit::LiftLine;
-use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Columns, SpongePose};
 use platewash_kinematics::Pose;
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::{atan2, sin};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
 

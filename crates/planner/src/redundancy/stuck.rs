@@ -11,7 +11,7 @@ use crate::redundancy::lean_aside::{leans, obstacle_blocks_at};
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::{Stop, Task, check_step};
 use crate::scene::{Filter, Hindrance, Start, Width};
-use crate::trig::atan2;
+use platewash_kinematics::trig::atan2;
 use platewash_workcell::cancel::Cancelled;
 use std::f64::consts::TAU;
 

@@ -11,11 +11,11 @@ pub(crate) use crate::scene::stance::angle_between;
 pub use crate::scene::stance::{AXIS_SHARE, AxisRule, Contact, Stance, TILT_RESERVE_RAD, WRIST_RESERVE_RAD};
 pub use crate::scene::tilt_policy::TiltPolicy;
 
-use crate::trig::sin_cos;
 use nalgebra::{Matrix3, Point3, Vector3};
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::ik::{IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{Frame, JointVector, Pose, RobotModel};
 use platewash_workcell::cancel::{CancelToken, Cancelled};
 use platewash_workcell::job::ReachBorders;

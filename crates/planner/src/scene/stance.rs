@@ -1,7 +1,7 @@
 //! Stance: the rules for a tool on faces that are not flat, and for the wrist; and the point at which the tip stands.
 
-use crate::trig::{asin, sin_cos};
 use nalgebra::Vector3;
+use platewash_kinematics::trig::{asin, sin_cos};
 use platewash_workcell::surface::Surface;
 use std::f64::consts::PI;
 

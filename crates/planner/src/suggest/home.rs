@@ -3,10 +3,10 @@
 use crate::error::PlanError;
 use crate::scene::{Contact, Scene, Stretch, Width};
 use crate::suggest::near_pair::NearPair;
-use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::model::manipulability;
+use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_kinematics::{AXES, Axes, JointVector, RobotModel, halton};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;

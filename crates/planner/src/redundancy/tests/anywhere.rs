@@ -6,8 +6,8 @@
 
 use crate::redundancy::task::Task;
 use crate::scene::{Contact, Width};
-use crate::trig::sin_cos;
 use platewash_kinematics::JointVector;
+use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::cancel::Cancelled;
 
 /// Difference of neighbouring tilts, at most \[rad\]: 1°.

@@ -15,7 +15,6 @@ use crate::redundancy::washability::{Cause, Points, WashablePart, washable_part}
 use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
 use crate::redundancy::*;
 use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, tilt_policy};
-use crate::trig::sin_cos;
 use crate::{redundancy, scene};
 use nalgebra::Vector3;
 use platewash_bodies::clearance::ClearanceModel;
@@ -23,6 +22,7 @@ use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::ReachBorders;
