@@ -1,8 +1,8 @@
 //! Report of a job that cannot be done, or that no way was found to do: the reason, and the findings on each plate concerned.
 
 use crate::error::PlanError;
+use crate::placed_arm::{Filter, Hindrance};
 use crate::redundancy::washability::Cause;
-use crate::scene::{Filter, Hindrance};
 use crate::transit::TransitError;
 use crate::unwashable_plate::Conclusion;
 use crate::unwashable_plate::PlaceSearch;

@@ -12,7 +12,7 @@
 //! | the order of the plates | `order` |
 //! | the curve on each plate | `pattern` |
 //! | tilt, yaw and branch of the arm along it | `redundancy` |
-//! | the arm, its tool and what is around them | `scene` |
+//! | the arm, its tool and what is around them | `placed_arm` |
 //! | transits between plates | `transit`, `joint_path` |
 //! | timing as fast as the limits allow | `timing` |
 //! | the result; the time of a wash against the least | `planned_job`, `pace` |
@@ -29,10 +29,10 @@ mod outlook;
 mod pace;
 mod pattern;
 mod pipeline;
+pub mod placed_arm;
 mod planned_job;
 mod recovery;
 pub mod redundancy;
-pub mod scene;
 pub mod suggest;
 pub mod timing;
 pub mod transit;

@@ -3,7 +3,7 @@
 //! Estimates for a curve: its time at the limits of washing and of the arm, and its effect on the bare face.
 
 use crate::pattern::promise::{Promise, SampledWash};
-use crate::scene::{AxisRule, TiltPolicy};
+use crate::placed_arm::{AxisRule, TiltPolicy};
 use crate::timing::TipLimits;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Moment, SpongePose};

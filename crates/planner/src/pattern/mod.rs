@@ -19,7 +19,7 @@ pub use crate::pattern::shortfall::{ContactPromise, Shortfall};
 
 use crate::pattern::candidates::{ByTime, Candidate, Estimate, candidates};
 use crate::pattern::promise::Kept;
-use crate::scene::{AXIS_SHARE, AxisRule};
+use crate::placed_arm::{AXIS_SHARE, AxisRule};
 use crate::timing::TipLimits;
 use platewash_kinematics::trig::atan2;
 use platewash_workcell::cancel::CancelToken;

@@ -183,7 +183,8 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                 .unwrap();
         let tool = &job.terms().workcell.tool;
         let reach = job.terms().planner_settings().unwrap().reach;
-        let scene = crate::scene::Scene::new(job.arm(), tool, &clearance, &job.terms().plates, reach).unwrap();
+        let placed =
+            crate::placed_arm::PlacedArm::new(job.arm(), tool, &clearance, &job.terms().plates, reach).unwrap();
         let knots = &plan.knots;
         plan.segments
             .iter()
@@ -200,7 +201,7 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                     .collect();
                 let promise = Promise::of(job.terms(), plate);
                 promise
-                    .sampled(&scene, plate, &along, 0.25)
+                    .sampled(&placed, plate, &along, 0.25)
                     .shortfall(&Margin::ARM)
                     .is_none()
             })

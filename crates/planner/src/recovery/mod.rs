@@ -70,11 +70,11 @@ pub fn recover(
     let stop = Stop::new(plan, &motion, at, time_s)?;
     let job = WashJob::new(arm.clone(), plan.job.clone()).map_err(PlanError::from)?;
     let pipeline = Pipeline::here(&job, watch)?;
-    let scene = pipeline.scene()?;
+    let placed = pipeline.placed()?;
     (watch.tell)(&Activity::Transit { turn: 1, of: 1 });
     let about = |after_s: &f64| Some(motion.at(stop.time_s? + after_s)?.q);
     let on_plan = ABOUT_S.iter().filter_map(about).collect();
-    let start = Start::new(&pipeline, &scene, at, stop.at_plate, on_plan);
+    let start = Start::new(&pipeline, &placed, at, stop.at_plate, on_plan);
     let near = start.too_near();
     if let Some(pair) = near.iter().find(|pair| pair.distance_m <= NEARER_M) {
         let pair = Box::new(pair.clone());
@@ -169,7 +169,7 @@ fn transit_home(start: &Start<'_>, from: &JointVector) -> Result<Transit, PlanEr
     let terms = start.pipeline.terms;
     let mut rng = random::stream(terms.seed, "recovery");
     let [from, to] = [*from, terms.home_rad[0]].map(LiftLine::home);
-    let rules = start.pipeline.transit_rules(start.scene);
+    let rules = start.pipeline.transit_rules(start.placed);
     Ok(transit::plan(&rules, &from, &to, &mut rng)?)
 }
 

@@ -1,8 +1,8 @@
 //! Leaning aside: the tool leans across the arm's plane where an obstacle blocks every tilt in it.
 
+use crate::placed_arm::Hindrance;
 use crate::redundancy::error::{DeadEnd, RedundancyError};
 use crate::redundancy::task::Task;
-use crate::scene::Hindrance;
 
 /// Leans aside that are tried, as shares of the planned cone: the least first, as the rest is left for tilts in the arm's plane.
 const SHARES: [f64; 3] = [0.35, 0.65, 1.0];
@@ -27,7 +27,7 @@ pub(crate) fn obstacle_blocks(task: &Task<'_>, error: &RedundancyError) -> bool 
 
 /// Checks that an obstacle stands in the way of some tilt at a contact point.
 pub(crate) fn obstacle_blocks_at(task: &Task<'_>, end: &DeadEnd) -> bool {
-    let surroundings = task.scene.surroundings;
+    let surroundings = task.placed.surroundings;
     end.reasons.iter().any(|reason| match &reason.least {
         Hindrance::Clearance { pair, .. } => [&pair.a, &pair.b]
             .into_iter()

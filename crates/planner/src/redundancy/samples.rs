@@ -9,7 +9,7 @@
 //! (de Boor, *A Practical Guide to Splines*, ch. IX). It is C², and everywhere a mean of four neighbouring control values
 //! with weights ≥ 0: it never overshoots them. Beyond the ends the outermost values repeat.
 
-use crate::scene::{AxisRule, Contact};
+use crate::placed_arm::{AxisRule, Contact};
 use nalgebra::{Vector2, Vector3};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;

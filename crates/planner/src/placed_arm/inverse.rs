@@ -1,6 +1,6 @@
 //! Configurations for a pose of the tip: all to start from, and the one that continues a path.
 
-use crate::scene::hindrance::Hindrance;
+use crate::placed_arm::hindrance::Hindrance;
 use platewash_kinematics::ik::analytic::{
     AnalyticArm, Degeneracies, Elbow, Label, Rejection, Shoulder, Solution, Wrist,
 };

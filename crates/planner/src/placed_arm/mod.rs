@@ -1,15 +1,15 @@
-//! The scene: the arm, its tool and the bodies that the arm must keep clear of; and the pose of the tool at a contact point.
+//! A placed arm: the arm with its tool among the bodies that it must keep clear of, and the pose of the tool at a contact point.
 
 mod hindrance;
 mod inverse;
 pub(crate) mod stance;
 pub(crate) mod tilt_policy;
 
-pub use crate::scene::hindrance::{Filter, Hindrance};
-pub(crate) use crate::scene::inverse::{Inverse, Start, Width, merge_starts};
-pub(crate) use crate::scene::stance::angle_between;
-pub use crate::scene::stance::{AXIS_SHARE, AxisRule, Contact, Stance, TILT_RESERVE_RAD, WRIST_RESERVE_RAD};
-pub use crate::scene::tilt_policy::TiltPolicy;
+pub use crate::placed_arm::hindrance::{Filter, Hindrance};
+pub(crate) use crate::placed_arm::inverse::{Inverse, Start, Width, merge_starts};
+pub(crate) use crate::placed_arm::stance::angle_between;
+pub use crate::placed_arm::stance::{AXIS_SHARE, AxisRule, Contact, Stance, TILT_RESERVE_RAD, WRIST_RESERVE_RAD};
+pub use crate::placed_arm::tilt_policy::TiltPolicy;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
@@ -33,9 +33,9 @@ const LEVEL: f64 = 1e-9;
 /// The sine of the angle from which on a tool leans from axis 6.
 const LEAST_LEAN: f64 = 0.02;
 
-/// Surroundings of all planning: the arm with its tool, and the bodies around them.
+/// The arm in its place: with its tool, among the bodies that it must keep clear of.
 #[derive(Debug, Clone)]
-pub struct Scene<'a> {
+pub struct PlacedArm<'a> {
     /// The arm.
     pub robot: &'a RobotModel,
     /// The tip: the centre of the sponge's far face, z leaving the tool.
@@ -59,8 +59,8 @@ pub struct Scene<'a> {
     cancel: Option<&'a CancelToken>,
 }
 
-impl<'a> Scene<'a> {
-    /// A scene. `tool` and `plates` are those that `surroundings` was made with.
+impl<'a> PlacedArm<'a> {
+    /// A placed arm. `tool` and `plates` are those that `surroundings` was made with.
     ///
     /// # Errors
     /// [`IkSettingsError`], for a solver that refuses its settings.
@@ -73,7 +73,7 @@ impl<'a> Scene<'a> {
     ) -> Result<Self, IkSettingsError> {
         let tip = tool.tip_frame(robot);
         let axes = robot.fk(&JointVector::zeros()).joint_axes();
-        let mut scene = Self {
+        let mut placed = Self {
             robot,
             tip,
             surroundings,
@@ -87,31 +87,31 @@ impl<'a> Scene<'a> {
             across: Vector3::y(),
             cancel: None,
         };
-        scene.across = scene.across_at_rest([&axes[4], &axes[5]]);
-        Ok(scene)
+        placed.across = placed.across_at_rest([&axes[4], &axes[5]]);
+        Ok(placed)
     }
 
-    /// The same scene, in which all searches end as soon as `cancel` is set.
+    /// The same placed arm, in which all searches end as soon as `cancel` is set.
     #[must_use]
     pub fn with_cancel(self, cancel: &'a CancelToken) -> Self {
         let cancel = Some(cancel);
         Self { cancel, ..self }
     }
 
-    /// The same scene with another stance.
+    /// The same placed arm with another stance.
     #[must_use]
     pub fn with_stance(self, stance: Stance) -> Self {
         Self { stance, ..self }
     }
 
-    /// The same scene with the tool leaning so far across the arm's plane ([`Stance::aside_rad`]).
+    /// The same placed arm with the tool leaning so far across the arm's plane ([`Stance::aside_rad`]).
     #[must_use]
     pub fn leaning_aside(mut self, aside_rad: f64) -> Self {
         self.stance.aside_rad = aside_rad;
         self
     }
 
-    /// The same scene of an arm mounted at `T_world_base`.
+    /// The same arm, mounted at `T_world_base`.
     #[must_use]
     pub fn mounted(self, mount: Pose) -> Self {
         Self { mount, ..self }
@@ -142,7 +142,7 @@ impl<'a> Scene<'a> {
         in_world.seen_from(&self.mount.inverse())
     }
 
-    /// The same scene with the tool half a turn about its axis.
+    /// The same placed arm with the tool half a turn about its axis.
     #[cfg(test)]
     pub(crate) fn half_turned(self) -> Self {
         let across = -self.across;
@@ -151,11 +151,11 @@ impl<'a> Scene<'a> {
 
     /// The same arm among other plates.
     #[must_use]
-    pub fn among<'b>(&self, surroundings: &'b dyn Surroundings, plates: &'b [Plate]) -> Scene<'b>
+    pub fn among<'b>(&self, surroundings: &'b dyn Surroundings, plates: &'b [Plate]) -> PlacedArm<'b>
     where
         'a: 'b,
     {
-        Scene {
+        PlacedArm {
             surroundings,
             plates,
             ..self.clone()
@@ -178,13 +178,13 @@ impl<'a> Scene<'a> {
         Pose::from(&self.tip_rigid(contact, tilt_rad))
     }
 
-    /// [`Scene::tip_pose`] with the tilt of a policy.
+    /// [`PlacedArm::tip_pose`] with the tilt of a policy.
     #[must_use]
     pub fn pose(&self, contact: &Contact, policy: &TiltPolicy) -> Pose {
         self.tip_pose(contact, policy.tilt(self.distance(&contact.point)))
     }
 
-    /// The configuration for [`Scene::pose`] that is found from `near` \[rad\].
+    /// The configuration for [`PlacedArm::pose`] that is found from `near` \[rad\].
     #[must_use]
     pub fn configuration(&self, contact: &Contact, policy: &TiltPolicy, near: &JointVector) -> Option<JointVector> {
         let answer = self.solver.solve(&self.pose(contact, policy), near);
