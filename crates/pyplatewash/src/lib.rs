@@ -6,7 +6,6 @@
 
 mod argument;
 mod arrays;
-mod cell;
 mod certificate;
 mod clearance;
 mod coverage;
@@ -18,6 +17,7 @@ mod exception;
 mod export;
 mod job;
 mod layout;
+mod live_cell;
 mod motion_proof;
 mod page;
 mod paper;
@@ -52,8 +52,6 @@ mod _core {
         _argument_word,
     };
     #[pymodule_export]
-    use crate::cell::{_edit_arguments, CellEditorObject, CellQuestionObject};
-    #[pymodule_export]
     use crate::certificate::{CertificateObject, differences, prove};
     #[pymodule_export]
     use crate::clearance::ClearanceObject;
@@ -67,6 +65,8 @@ mod _core {
     use crate::job::{PaperJobObject, WashJobObject};
     #[pymodule_export]
     use crate::layout::LayoutObject;
+    #[pymodule_export]
+    use crate::live_cell::{_edit_arguments, CellEditorObject, CellQuestionObject};
     #[pymodule_export]
     use crate::motion_proof::prove_motion;
     #[pymodule_export]
