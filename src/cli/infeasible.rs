@@ -113,7 +113,7 @@ pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Du
 
 /// Prints the report on a scenario that cannot be carried out (exit code 3) on standard output, with `--json` only.
 pub fn answer(options: &Options, scenario: &Scenario, error: &Error) -> Result<()> {
-    let failure = error.downcast_ref().filter(|_| options.json);
+    let failure: Option<&Failure> = error.downcast_ref().filter(|_| options.json);
     if let Some(why) = failure.and_then(|failure| failure.report(&scenario.name, scenario.seed)) {
         output::print(&output::json(&InvalidAnswer { valid: false, why })?)?;
     }
