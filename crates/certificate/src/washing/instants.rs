@@ -13,7 +13,7 @@
 
 use crate::motion::tip::{self, Arm, Derivatives, Stretch, TipPiece};
 use crate::motion::tip_limits;
-use crate::washing::shares::Sags;
+use crate::washing::shares::sags::Sags;
 use platewash_bodies::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 
