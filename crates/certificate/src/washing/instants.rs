@@ -68,7 +68,7 @@ impl Instants {
         plate: &Plate,
         (foundation, error_m): (&Foundation, f64),
     ) -> Self {
-        let look = StretchInputs {
+        let inputs = StretchInputs {
             arm,
             plate,
             foundation,
@@ -80,7 +80,7 @@ impl Instants {
             if all.moments.is_empty() {
                 all.see(plate, &stretch, 0);
             }
-            all.add(&look, &stretch, 0);
+            all.add(&inputs, &stretch, 0);
         }
         all
     }
