@@ -96,7 +96,7 @@ impl Passes<'_> {
             let mut before: Option<CellState> = None;
             for look in edges.looks(first as usize..last as usize + 1) {
                 let mut state = CellState::default();
-                let is_near = cell.see(edges, look, reach_m, &mut state) <= reach_m;
+                let is_near = edges.see(&cell, look, reach_m, &mut state) <= reach_m;
                 if let Some(before) = before.filter(|_| is_near)
                     && let Some(gain) = edges.flat(&cell, [&before, &state])
                 {

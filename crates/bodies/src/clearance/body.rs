@@ -1,7 +1,7 @@
 //! Bodies of a world, and their kinds.
 
 use crate::clearance::convex::HullFault;
-use crate::clearance::model::ClearanceError;
+use crate::clearance::error::ClearanceError;
 use crate::clearance::part::{Part, PlacedPart};
 use crate::clearance::tree::Tree;
 use nalgebra::Vector3;

@@ -220,6 +220,9 @@ fn lowest_of_cylinder(part: &PlacedPart<'_>, radius: f64, half: f64, up: Vector)
     part.pose.translation + down_axis * half + across * radius
 }
 
+/// Error of a closed form or a support function \[m\].
+pub(crate) const ROUNDING_M: f64 = 1e-9;
+
 /// Gap between the bounds at which the search ends \[m\].
 pub(crate) const ERROR_M: f64 = 2e-6;
 

@@ -15,7 +15,7 @@
 //! No function here allocates.
 
 use crate::clearance::body::BodyKind;
-use crate::clearance::distance::bracketed;
+use crate::clearance::distance::{ROUNDING_M, bracketed};
 use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
 use crate::clearance::part::{Part, PlacedPart};
@@ -25,9 +25,6 @@ use platewash_kinematics::{BodyPoses, JointVector};
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
-
-/// Error of a closed form or a support function \[m\].
-pub(crate) const ROUNDING_M: f64 = 1e-9;
 
 /// Kind of a pair, for rules that depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

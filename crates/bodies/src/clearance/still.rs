@@ -12,8 +12,9 @@
 
 use crate::clearance::body::{Body, BodyKind, place, world_with};
 use crate::clearance::distance::{Separation, bracketed};
-use crate::clearance::fixed_bodies::{TOUCH_M, depth};
-use crate::clearance::model::{ClearanceError, ClearanceModel, PairClearance, is_clear};
+use crate::clearance::error::ClearanceError;
+use crate::clearance::overlap::{TOUCH_M, depth};
+use crate::clearance::pair_clearance::{PairClearance, is_clear};
 use crate::clearance::part::{Part, PlacedPart};
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
@@ -57,20 +58,7 @@ impl StillPair {
     }
 }
 
-impl ClearanceModel {
-    /// Returns the pairs whose distance no joint changes, with their distances: a link over a half-space that joint 1 turns about its
-    /// normal, and bodies of the tool round about axis 6 beside the link that carries joint 6. Pairs that are checked at each configuration
-    /// are not among them.
-    #[must_use]
-    pub fn still_pairs(&self) -> Vec<StillPair> {
-        let once = self.still.iter().filter(|still| !self.pairs.contains(&still.pair));
-        let measured =
-            once.filter_map(|still| still.measured(&self.robot, &self.bodies, |a, b| self.reduced_by_m(a, b)));
-        measured.collect()
-    }
-}
-
-/// Same as [`ClearanceModel::still_pairs`] for an arm in its workcell, without the other bodies.
+/// Same as [`ClearanceModel::still_pairs`](crate::clearance::ClearanceModel::still_pairs) for an arm in its workcell, without the other bodies.
 ///
 /// # Errors
 /// [`ClearanceError`] for an invalid shape.
@@ -108,7 +96,7 @@ pub(crate) struct Still {
 impl Still {
     /// Measures the pair; `None` where the second body can meet no part of the first before it meets the flange. `reduced_by_m` is the part
     /// of the required clearance that a pair need not keep \[m\].
-    fn measured(
+    pub fn measured(
         &self,
         robot: &RobotModel,
         bodies: &[Body],

@@ -1,6 +1,7 @@
 //! Bundles of moments, of which those far from a point are passed over together.
 
-use crate::contact::{Moment, SpongePose};
+use crate::contact::moment::Moment;
+use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
 use std::ops::Range;
 

@@ -6,8 +6,9 @@
 //! the sponge.
 //! Beyond the rim there is nothing: a part that is there in part counts for the greatest force and not for the least.
 
+use crate::contact::foundation::Foundation;
 use crate::contact::parts::{PartBounds, Size, Spread, SurfaceHit};
-use crate::contact::{Foundation, SpongePose};
+use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{sin, sin_cos};
 use platewash_workcell::surface::Surface;

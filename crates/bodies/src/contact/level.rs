@@ -11,7 +11,8 @@
 //! ∫ W ρ² dA ≤ V d² + 2 d π s³ k / (4 cos τ) + V s² / (2 cos² τ). Columns beyond the rim press nothing: of ∫ max(w, 0) x dA they take no more
 //! than their area times m + k and s.
 
-use crate::contact::{Foundation, HolderVolumes, Press};
+use crate::contact::foundation::Foundation;
+use crate::contact::plate_load::{HolderVolumes, Press};
 use platewash_kinematics::trig::acos;
 use std::f64::consts::PI;
 

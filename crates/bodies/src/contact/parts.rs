@@ -17,7 +17,7 @@
 //!
 //! The bend of a face between two distances from its axis is looked up in a table: the curvatures of narrow rings.
 
-use crate::contact::Foundation;
+use crate::contact::foundation::Foundation;
 use crate::contact::moment::Drift;
 use nalgebra::{Vector2, Vector3};
 use platewash_workcell::surface::{Patch, Surface};

@@ -14,10 +14,10 @@
 //! normal, whose share across the axis is |sin β|, β the slope of the face: at most the greatest one between the distances at which the part
 //! is met. The normals of a face of revolution meet its axis: what turns the plate about it is friction alone, with ρ as its lever.
 
-use crate::contact::SpongePose;
 use crate::contact::columns::{Columns, meet_from};
 use crate::contact::moment::Drift;
 use crate::contact::parts::{Bends, PartBounds, Size, Spread, SurfaceHit};
+use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
 
 /// Upper bounds of what the holder of a plate takes, as volumes of foam, with γ the angle between the sponge's axis and the normal.

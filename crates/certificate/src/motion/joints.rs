@@ -4,8 +4,9 @@
 //! Requirements 12–14, formulas (12.1) and (12.2) in `docs/certificate.md`.
 
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::statements::schedule::Schedule;
 use crate::subject::JointLimits;
 use platewash_kinematics::AXES;

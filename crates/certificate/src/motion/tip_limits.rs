@@ -5,11 +5,11 @@
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Moment, Stretch, TipPiece};
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
+use crate::report::check::{Check, Measure, Sense, WorstCase, finite, tighter};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
-use crate::washing::contact::tighter;
 use crate::washing::face::{Face, Pass, sine_of_tilt};
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{asin, sin};

@@ -3,8 +3,9 @@
 //! Requirement 32 of `docs/certificate.md`.
 
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
+use crate::report::check::{Check, Measure, Sense, WorstCase, finite};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
 

@@ -4,10 +4,11 @@
 //! The file also holds the usual requirements of a washing. A job that requires less is named in the first line.
 
 use crate::report::certificate::{Certificate, Verdict};
-use crate::report::check::{Check, Measure, Sense, Status, Unit};
+use crate::report::check::{Check, Measure, Sense, Status};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::report::words::{number, rounded_bound};
-use crate::washing::contact::PlateContact;
+use crate::washing::plate_contact::PlateContact;
 use platewash_kinematics::words::distinct_decimals;
 use platewash_motion::plan::Plan;
 use platewash_workcell::dry_run;

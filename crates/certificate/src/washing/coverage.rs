@@ -7,55 +7,32 @@
 //! would along the polyline.
 //!
 //! What is pressed is swept: where the share proved to be pressed (requirement 27) reaches the required one, it is the bound.
-//!
-//! Moments of the tip, seen along the axis of a plate, as a polyline that the tip never leaves by much.
 
 use crate::error::ProveError;
-use crate::motion::tip::{Arm, Stretch, TipPiece};
+use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::statements::schedule::Schedule;
 use crate::subject::Subject;
-use crate::washing::contact::{CELLS_M, ContactInputs, PlateContact};
-use crate::washing::face::{Face, norm};
+use crate::washing::face::Face;
 use crate::washing::instants::Instants;
-use crate::washing::reach::ReachedNeighbour;
+use crate::washing::plate_contact::PlateContact;
+use crate::washing::plate_coverage::PlateCoverage;
+use crate::washing::polyline::{MOST_HALVINGS, Polyline};
 use crate::washing::shares::{Fineness, shares};
+use crate::washing::wash_inputs::{ContactInputs, Washing};
 use platewash_bodies::contact::Foundation;
 use platewash_bodies::coverage::coverage;
 use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::job::PATH_TOLERANCE_M;
-use platewash_workcell::plate::Plate;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
-/// The swept share of a plate.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PlateCoverage {
-    /// Index of the plate.
-    pub plate: usize,
-    /// Proved lower bound of the swept share. It is that of the pressed share where that reaches the required one.
-    pub at_least: f64,
-    /// Proved upper bound of the swept share; `None` where it was not needed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_most: Option<f64>,
-    /// Proved lower bound of cos τ while washing.
-    pub cos_tilt: f64,
-    /// Upper bound on the reach of the sponge beyond the rim, at the height of the plate's face, while it comes down, washes and leaves
-    /// \[m\]; negative where it stays within the rim, `None` where nothing is proved.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beyond_rim_m: Option<f64>,
-    /// Reach beyond the rim of a sponge with the same tilt at the tip positions that were computed \[m\].
-    pub beyond_rim_seen_m: f64,
-    /// Reach beyond the rim that the wash path allows \[m\].
-    pub beyond_rim_allowed_m: f64,
-    /// Neighbouring plates that the sponge may touch there.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub touches: Vec<ReachedNeighbour>,
-}
+/// Edges of the smallest cells \[m\]. Each is used where the ones before it do not suffice.
+const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
 /// Results for one wash.
 #[derive(Debug)]
@@ -103,23 +80,6 @@ pub(crate) fn washes(
         })
     });
     washed.map(|washing| washing.judge()).collect()
-}
-
-/// The wash under judgement, with the data it needs.
-pub(crate) struct Washing<'a> {
-    arm: &'a Arm<'a>,
-    pub subject: &'a Subject<'a>,
-    pieces: &'a [TipPiece<'a>],
-    /// Pieces of the approaches to the plate and the retreats from it.
-    around: Vec<&'a [TipPiece<'a>]>,
-    /// Lower bound on the cosine of the angle between the tool and the plate's axis, from approach to retreat.
-    pub around_cosine: f64,
-    pub span: usize,
-    pub plate: &'a Plate,
-    /// Index of the plate.
-    pub index: usize,
-    pub tips: &'a Tips,
-    pub cancel: &'a CancelToken,
 }
 
 impl Washing<'_> {
@@ -224,21 +184,6 @@ impl Washing<'_> {
         };
         Ok(Some(pressed.judge()?))
     }
-
-    /// Checks that every line along the tool's axis meets the face once, and from above: the tilt of the tool from the plate's axis is less
-    /// than a right angle minus the steepest slope.
-    pub fn meets_from_above(&self) -> bool {
-        self.meets_at(self.tips.least_upright_cosine_of(self.span))
-    }
-
-    /// Same check, with a lower bound `cosine` on the cosine of the angle between the tool and the plate's axis.
-    pub fn meets_at(&self, cosine: f64) -> bool {
-        let surface = &self.plate.surface;
-        let steepest = surface.patch([0.0, f64::INFINITY]);
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let slope = steepest.sine[0].abs().max(steepest.sine[1].abs());
-        cosine * steepest.least_cosine() > sine * slope
-    }
 }
 
 /// Checks that every plate is swept to the required share. Reports the plate with the least share.
@@ -254,91 +199,4 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     let bounds = [Some(if all_washed { worst.at_least } else { 0.0 }), worst.at_most];
     let measure = Measure::new(Sense::AtLeast, subject.job.requirements.coverage, Unit::Share, bounds);
     Check::measured(Requirement::Swept, measure, WorstCase::on_plate(worst.plate))
-}
-
-/// Distance between tip and chord above which a stretch is halved \[m\].
-const CHORD_M: f64 = 5e-5;
-
-/// Greatest depth of halving of a piece of a wash.
-pub(crate) const MOST_HALVINGS: u32 = 6;
-
-/// Halvings allowed for any motion besides those of its pieces.
-const SPLITS: usize = 4096;
-
-/// Positions of the tip, seen along the plate's axis, from the plate's pole \[m\].
-#[derive(Debug)]
-pub(crate) struct Polyline {
-    pub points: Vec<[f64; 2]>,
-    /// Upper bound on the distance of the tip from the polyline \[m\].
-    pub off_m: f64,
-    /// Largest distance of a point from the pole \[m\].
-    pub seen_m: f64,
-    /// Upper bound on the distance of the tip from the pole \[m\].
-    pub within_m: f64,
-    /// Distance from the pole that the tip should keep within \[m\].
-    allowed_m: f64,
-    most_halvings: u32,
-    /// Halvings left.
-    splits: usize,
-}
-
-impl Polyline {
-    /// The tip during some pieces over a face. It should keep within `allowed_m` of the pole: where it does, that is proved.
-    pub fn new(arm: &Arm<'_>, pieces: &[TipPiece<'_>], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
-        let mut line = Self {
-            points: Vec::new(),
-            off_m: 0.0,
-            seen_m: 0.0,
-            within_m: 0.0,
-            allowed_m,
-            most_halvings,
-            splits: SPLITS + (pieces.len() << MOST_HALVINGS),
-        };
-        for (i, piece) in pieces.iter().enumerate() {
-            let stretch = piece.stretch();
-            if i == 0 {
-                line.points.push(tip_from_pole(face, &stretch, 0));
-            }
-            line.add(arm, face, &stretch, 0);
-        }
-        line
-    }
-
-    /// Adds a stretch whose first end is there already.
-    fn add(&mut self, arm: &Arm<'_>, face: &Face<'_>, stretch: &Stretch<'_>, depth: u32) {
-        let off_m = stretch.sag(arm.derivatives(stretch).second());
-        let ends = [0, 1].map(|end| tip_from_pole(face, stretch, end));
-        let far_m = ends.map(|[x, y]| norm(x, y)).into_iter().fold(0.0, f64::max);
-        let undecided = far_m <= self.allowed_m && far_m + off_m > self.allowed_m;
-        let halves = if (off_m > CHORD_M || undecided) && depth < self.most_halvings && self.splits > 0 {
-            self.splits -= 1;
-            arm.halves(stretch)
-        } else {
-            None
-        };
-        if let Some(halves) = halves {
-            return halves
-                .both()
-                .iter()
-                .for_each(|half| self.add(arm, face, half, depth + 1));
-        }
-        self.off_m = if off_m.is_nan() {
-            f64::INFINITY
-        } else {
-            self.off_m.max(off_m)
-        };
-        // ‖f‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ for f from the pole to the tip.
-        self.seen_m = self.seen_m.max(far_m);
-        self.within_m = if off_m.is_nan() {
-            f64::INFINITY
-        } else {
-            self.within_m.max(far_m + off_m)
-        };
-        self.points.push(ends[1]);
-    }
-}
-
-/// Returns the tip at an end of a stretch, seen along the plate's axis, from the pole \[m\].
-fn tip_from_pole(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
-    face.project(&stretch.ends[end].position).into()
 }

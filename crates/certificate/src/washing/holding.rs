@@ -26,15 +26,16 @@
 //! there, too, and the friction suffices where (u μ′ P − F)(R P − M) ≥ T P (u = 1, μ′ the coefficient): a parabola in N, which is not below 0
 //! if it is not so at both ends and at its vertex. The least u is found by halving.
 
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, WorstCase, tighter};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::subject::Subject;
-use crate::washing::contact::{ContactInputs, PlateContact, are_of_all_plates, tighter};
+use crate::washing::holder_load::{HolderLoad, RingShares};
 use crate::washing::instants::Instants;
+use crate::washing::plate_contact::{PlateContact, are_of_all_plates};
 use crate::washing::pressing::{FRICTION, Pressing};
+use crate::washing::wash_inputs::ContactInputs;
 use platewash_workcell::job::RingTerms;
-use serde::{Deserialize, Serialize};
-use ts_rs::TS;
 
 /// Acceleration of gravity, down in the world \[m/s²\].
 const GRAVITY_M_S2: f64 = 9.81;
@@ -42,124 +43,74 @@ const GRAVITY_M_S2: f64 = 9.81;
 /// Relative amount by which the bounds of a ring are enlarged: far above their rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// Upper bounds of the load on what holds a plate, from approach to retreat: for every plate height within the stated error and every sponge
-/// stiffness in the stated range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct HolderLoad {
-    /// Friction coefficients of the sponge on the plate, least and greatest: assumptions. The loads below are for each of both.
-    pub sponge_friction: [f64; 2],
-    /// Force of the sponge across the plate's axis \[N\].
-    pub lateral_n: [f64; 2],
-    /// Torque of the sponge about the plate's axis \[N·m\].
-    pub torque_nm: [f64; 2],
-    /// Weight of the plate, along its axis and across it \[N\]; `None` where the job states no mass. It is no part of the force above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub weight_n: Option<[f64; 2]>,
-    /// Bounds of a plate that stands on a ring, for the greatest friction of the sponge.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ring: Option<RingShares>,
+/// Bounds the load from approach to retreat; `None` where nothing is proved.
+pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Option<HolderLoad> {
+    let (plate, subject) = (inputs.washing.plate, inputs.washing.subject);
+    let (volumes, terms) = (&pressing.holder, subject.job.requirements.holder.as_ref());
+    let stiffest = inputs.foundation.stiffness_pa[1] / inputs.foundation.free_height_m;
+    let [least, assumed] = FRICTION;
+    let most = terms.map_or(assumed, |terms| terms.sponge_friction);
+    let sponge_friction = [least.min(most), most];
+    let slope = volumes.slope_m3 / volumes.normal_m3;
+    let lateral_n = sponge_friction.map(|friction| stiffest * volumes.normal_m3 * across(slope, friction));
+    let torque_nm = sponge_friction.map(|friction| stiffest * friction * volumes.turn_m4);
+    let is_known = lateral_n.iter().chain(&torque_nm).all(|bound| bound.is_finite());
+    let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
+    let weight_n = mass_kg.map(|mass_kg| {
+        let (axis, whole_n) = (plate.axis(), mass_kg * GRAVITY_M_S2);
+        [
+            whole_n * axis.dot(&subject.up),
+            whole_n * axis.cross(&subject.up).norm(),
+        ]
+    });
+    let standing = terms.and_then(|terms| terms.ring.as_ref()).zip(weight_n);
+    let on_ring = |weight_n| ring_load(inputs, pressing, stiffest, most, lateral_n[1], weight_n);
+    is_known.then(|| HolderLoad {
+        sponge_friction,
+        lateral_n,
+        torque_nm,
+        weight_n,
+        ring: standing.map(|(ring, weight_n)| on_ring(weight_n).shares(ring)),
+    })
 }
 
-/// Upper bounds of what a ring bears, as shares of what it can. Each is `None` where nothing is proved.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct RingShares {
-    /// Distance from the axis of the centre of what presses the plate down, over the ring's radius. At 1 the plate may tip.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tipping: Option<f64>,
-    /// Force across the axis over the greatest friction: above 1 the plate may slide.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sliding: Option<f64>,
-    /// Needed friction over the greatest one, of that force and the torque together: above 1 the plate may turn or slide.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<f64>,
-}
-
-impl RingShares {
-    /// Returns what the plate may do; `None` if it stays.
-    pub fn fault(&self) -> Option<&'static str> {
-        let is_below = |share: Option<f64>| share.is_some_and(|share| share <= 1.0);
-        match self {
-            _ if !self.tipping.is_some_and(|share| share < 1.0) => Some("it may tip"),
-            _ if !is_below(self.sliding) => Some("it may slide"),
-            _ if !is_below(self.friction) => Some("it may turn"),
-            _ => None,
-        }
+fn ring_load(
+    inputs: &ContactInputs<'_>,
+    pressing: &Pressing,
+    stiffest: f64,
+    friction: f64,
+    lateral_n: f64,
+    weight_n: [f64; 2],
+) -> RingLoad {
+    let (washing, plate, foundation) = (inputs.washing, inputs.washing.plate, inputs.foundation);
+    let volumes = &pressing.holder;
+    // A column that is pressed ends no farther from the tip along the sponge's axis than it may be compressed.
+    let c = foundation.compression_m;
+    let along_m = c.max(pressing.deepest.bound - c);
+    let cosine = washing.tips.least_upright_cosine_of(washing.span);
+    let cosine = washing.around_cosine.min(cosine).max(0.0);
+    let aside_m = along_m * (1.0 - cosine * cosine).max(0.0).sqrt();
+    let reach_m = foundation.radius_m + aside_m;
+    let instants = std::iter::once(inputs.instants).chain(inputs.around);
+    let tip_m = instants.map(Instants::tip_within_m).fold(0.0, f64::max);
+    let farthest_m = plate.rim_m().min(tip_m + reach_m);
+    let [least, most] = plate.surface.patch([0.0, farthest_m]).sine;
+    let aside_m4 = aside_m * volumes.normal_m3;
+    let [bottom_m, top_m] = plate.extent_m();
+    RingLoad {
+        pressed_n: stiffest * volumes.normal_m3,
+        weight_n,
+        sine: most.max(-least),
+        friction,
+        tip_m,
+        reach_m,
+        farthest_m,
+        height_m: top_m - bottom_m,
+        lateral_n,
+        lean_nm: stiffest * (volumes.lean_m4 + aside_m4),
+        twist_nm: stiffest * (friction * (pressing.twist_m4 + aside_m4) + reach_m * volumes.slope_m3),
     }
 }
-
-impl ContactInputs<'_> {
-    /// Bounds the load from approach to retreat; `None` where nothing is proved.
-    pub fn holder_load(&self, pressing: &Pressing) -> Option<HolderLoad> {
-        let (plate, subject) = (self.washing.plate, self.washing.subject);
-        let (volumes, terms) = (&pressing.holder, subject.job.requirements.holder.as_ref());
-        let stiffest = self.foundation.stiffness_pa[1] / self.foundation.free_height_m;
-        let [least, assumed] = FRICTION;
-        let most = terms.map_or(assumed, |terms| terms.sponge_friction);
-        let sponge_friction = [least.min(most), most];
-        let slope = volumes.slope_m3 / volumes.normal_m3;
-        let lateral_n = sponge_friction.map(|friction| stiffest * volumes.normal_m3 * across(slope, friction));
-        let torque_nm = sponge_friction.map(|friction| stiffest * friction * volumes.turn_m4);
-        let is_known = lateral_n.iter().chain(&torque_nm).all(|bound| bound.is_finite());
-        let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
-        let weight_n = mass_kg.map(|mass_kg| {
-            let (axis, whole_n) = (plate.axis(), mass_kg * GRAVITY_M_S2);
-            [
-                whole_n * axis.dot(&subject.up),
-                whole_n * axis.cross(&subject.up).norm(),
-            ]
-        });
-        let standing = terms.and_then(|terms| terms.ring.as_ref()).zip(weight_n);
-        let on_ring = |weight_n| self.ring_load(pressing, stiffest, most, lateral_n[1], weight_n);
-        is_known.then(|| HolderLoad {
-            sponge_friction,
-            lateral_n,
-            torque_nm,
-            weight_n,
-            ring: standing.map(|(ring, weight_n)| on_ring(weight_n).shares(ring)),
-        })
-    }
-
-    fn ring_load(
-        &self,
-        pressing: &Pressing,
-        stiffest: f64,
-        friction: f64,
-        lateral_n: f64,
-        weight_n: [f64; 2],
-    ) -> RingLoad {
-        let (washing, plate, foundation) = (self.washing, self.washing.plate, self.foundation);
-        let volumes = &pressing.holder;
-        // A column that is pressed ends no farther from the tip along the sponge's axis than it may be compressed.
-        let c = foundation.compression_m;
-        let along_m = c.max(pressing.deepest.bound - c);
-        let cosine = washing.tips.least_upright_cosine_of(washing.span);
-        let cosine = washing.around_cosine.min(cosine).max(0.0);
-        let aside_m = along_m * (1.0 - cosine * cosine).max(0.0).sqrt();
-        let reach_m = foundation.radius_m + aside_m;
-        let instants = std::iter::once(self.instants).chain(self.around);
-        let tip_m = instants.map(Instants::tip_within_m).fold(0.0, f64::max);
-        let farthest_m = plate.rim_m().min(tip_m + reach_m);
-        let [least, most] = plate.surface.patch([0.0, farthest_m]).sine;
-        let aside_m4 = aside_m * volumes.normal_m3;
-        let [bottom_m, top_m] = plate.extent_m();
-        RingLoad {
-            pressed_n: stiffest * volumes.normal_m3,
-            weight_n,
-            sine: most.max(-least),
-            friction,
-            tip_m,
-            reach_m,
-            farthest_m,
-            height_m: top_m - bottom_m,
-            lateral_n,
-            lean_nm: stiffest * (volumes.lean_m4 + aside_m4),
-            twist_nm: stiffest * (friction * (pressing.twist_m4 + aside_m4) + reach_m * volumes.slope_m3),
-        }
-    }
-}
-
 /// Load on a ring, as upper bounds. The head of this file explains it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RingLoad {

@@ -13,7 +13,7 @@
 
 use crate::motion::tip::{self, Arm, Derivatives, Stretch, TipPiece};
 use crate::motion::tip_limits;
-use crate::washing::shares::Sags;
+use crate::washing::shares::sags::Sags;
 use platewash_bodies::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 
@@ -68,7 +68,7 @@ impl Instants {
         plate: &Plate,
         (foundation, error_m): (&Foundation, f64),
     ) -> Self {
-        let look = StretchInputs {
+        let inputs = StretchInputs {
             arm,
             plate,
             foundation,
@@ -80,7 +80,7 @@ impl Instants {
             if all.moments.is_empty() {
                 all.see(plate, &stretch, 0);
             }
-            all.add(&look, &stretch, 0);
+            all.add(&inputs, &stretch, 0);
         }
         all
     }

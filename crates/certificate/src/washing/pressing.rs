@@ -221,7 +221,7 @@ const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02, 0.02, 0.02, 0.02];
 const MOST_SAG_M: f64 = 1e-4;
 
 /// Number of column grids: a coarse one and a fine one.
-const LOOKS: usize = 2;
+const GRIDS: usize = 2;
 
 /// Number of bounded quantities, and of those on the sponge, which come first. Each is expressed so that greater is worse, see
 /// [`severities`].
@@ -233,7 +233,7 @@ struct Span {
     from: usize,
     to: usize,
     /// Index of the column grid: 0 is coarse, 1 is fine.
-    look: usize,
+    grid: usize,
     press: Press,
 }
 
@@ -243,9 +243,9 @@ struct Search<'a> {
     instants: &'a Instants,
     turning: TurningFrame<'a>,
     error_m: f64,
-    looks: [Columns; LOOKS],
+    grids: [Columns; GRIDS],
     /// State of the columns by column grid and moment; `None` until it is computed.
-    standings: [Vec<Option<SpongeState>>; LOOKS],
+    standings: [Vec<Option<SpongeState>>; GRIDS],
     spans: Vec<Span>,
     /// Worst value at a single moment, per quantity.
     at_moments: [f64; QUANTITIES],
@@ -297,7 +297,7 @@ fn search(
         instants,
         turning: TurningFrame::new(plate, instants),
         error_m,
-        looks: [Columns::new(foundation), Columns::fine(foundation)],
+        grids: [Columns::new(foundation), Columns::fine(foundation)],
         standings: [vec![None; count], vec![None; count]],
         spans: Vec::new(),
         at_moments: [f64::NEG_INFINITY; QUANTITIES],
@@ -359,50 +359,50 @@ impl Search<'_> {
     /// Refines a stretch, by halving or with more columns. Returns `false` where neither is possible.
     fn refine(&mut self, span: usize) -> bool {
         let Span {
-            from, to, look, press, ..
+            from, to, grid, press, ..
         } = self.spans[span];
-        let finest = look + 1 == LOOKS;
+        let finest = grid + 1 == GRIDS;
         let longer = to - from > 1;
         if longer && (finest || press.sag_m > MOST_SAG_M) {
             let middle = from + (to - from) / 2;
-            self.spans[span] = self.bound_stretch(from, middle, look);
-            let second = self.bound_stretch(middle, to, look);
+            self.spans[span] = self.bound_stretch(from, middle, grid);
+            let second = self.bound_stretch(middle, to, grid);
             self.spans.push(second);
         } else if !finest {
-            self.spans[span] = self.bound_stretch(from, to, look + 1);
+            self.spans[span] = self.bound_stretch(from, to, grid + 1);
         }
         longer || !finest
     }
 
     /// Bounds a stretch with the given column grid.
-    fn bound_stretch(&mut self, from: usize, to: usize, look: usize) -> Span {
-        self.compute_state(from, look);
-        self.compute_state(to, look);
-        let standings = &self.standings[look];
+    fn bound_stretch(&mut self, from: usize, to: usize, grid: usize) -> Span {
+        self.compute_state(from, grid);
+        self.compute_state(to, grid);
+        let standings = &self.standings[grid];
         let press = match (&standings[from], &standings[to]) {
             (Some(a), Some(b)) => {
                 let drift = self.turning.drift(from, to);
-                self.looks[look].bound_load(&self.bends, [a, b], &drift)
+                self.grids[grid].bound_load(&self.bends, [a, b], &drift)
             }
             _ => Press::UNKNOWN,
         };
-        Span { from, to, look, press }
+        Span { from, to, grid, press }
     }
 
     /// Computes the state of the columns at a moment. With the fine grid it also updates the attained values.
-    fn compute_state(&mut self, at: usize, look: usize) {
-        if self.standings[look][at].is_some() {
+    fn compute_state(&mut self, at: usize, grid: usize) {
+        if self.standings[grid][at].is_some() {
             return;
         }
-        let (columns, moment) = (&self.looks[look], &self.instants.moments[at]);
+        let (columns, moment) = (&self.grids[grid], &self.instants.moments[at]);
         let standing = columns.sponge_state(&self.bends, &moment.pose, &self.turning.side(at), self.error_m);
-        if look + 1 == LOOKS {
+        if grid + 1 == GRIDS {
             let (seen, press) = columns.load_at(&self.bends, &standing);
             self.found.see(&seen, moment.t_s, moment.pose.tip.into());
             for (most, found) in self.at_moments.iter_mut().zip(severities(&press)) {
                 *most = most.max(found);
             }
         }
-        self.standings[look][at] = Some(standing);
+        self.standings[grid][at] = Some(standing);
     }
 }

@@ -12,18 +12,20 @@
 
 use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
-use crate::report::check::{Check, Discrepancy, Measure, Sense, Unit, WorstCase};
+use crate::report::check::{Check, Discrepancy, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::statements::schedule::{Schedule, Span};
 use crate::subject::Subject;
-use crate::washing::coverage::{PlateCoverage, Polyline, Wash};
+use crate::washing::coverage::Wash;
 use crate::washing::face::{Face, PLACE_M, norm};
+use crate::washing::plate_coverage::{PlateCoverage, ReachedNeighbour};
+use crate::washing::polyline::Polyline;
 use platewash_kinematics::trig::cos;
 use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::job::{LINE_TOLERANCE_M, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::{millimetres, plate_name};
-use serde::{Deserialize, Serialize};
 
 /// Greatest depth of halving of a piece of an approach or a retreat. The pieces are long there.
 const LINE_HALVINGS: u32 = 12;
@@ -119,15 +121,6 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     let bounds = [worst.beyond_rim_m, Some(worst.beyond_rim_seen_m)];
     let measure = Measure::new(Sense::AtMost, worst.beyond_rim_allowed_m, Unit::Metre, bounds);
     Check::measured(Requirement::Reach, measure, WorstCase::on_plate(worst.plate))
-}
-
-/// Neighbouring plate that the sponge reaches while it works on another plate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct ReachedNeighbour {
-    /// Index of the neighbouring plate.
-    pub plate: usize,
-    /// Upper bound on the reach over its rim \[m\].
-    pub depth_m: f64,
 }
 
 /// Returns an upper bound on the reach of the sponge beyond the rim of a plate, at the height of its face \[m\]. The tip is within `tip_m`

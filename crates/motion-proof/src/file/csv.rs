@@ -3,7 +3,7 @@
 //! Positions are `q1_rad` to `q6_rad` in the arm's order, or columns with the names of its joints; `t_s`, speeds and accelerations may be left
 //! out. Other columns of this program's own tables are not read.
 
-use crate::file::{check_fixed, check_fixed_names};
+use crate::file::fixed_joints::{check_fixed, check_fixed_names};
 use crate::place::ReadError;
 use crate::points::JointPoints;
 use crate::time::ExactTime;

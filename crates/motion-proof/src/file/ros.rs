@@ -4,8 +4,8 @@
 //! Joints are matched by name. A stamp that is not zero becomes a note. Frame and number of a header, tolerances and efforts change nothing of
 //! the positions that are asked of the joints, and are not read.
 
+use crate::file::fixed_joints::{check_fixed, check_fixed_names};
 use crate::file::wrapper::{self, FoundTrajectory, RobotState, number};
-use crate::file::{check_fixed, check_fixed_names};
 use crate::message::{
     Fault, Fields, Kind, NS_PER_S, Node, ParsedNumber, again, documents, list, parse_number, text,
     with_indented_brackets,

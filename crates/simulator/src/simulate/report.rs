@@ -5,7 +5,7 @@ use crate::simulate::error::SimulationError;
 use crate::simulate::execution::Execution;
 use crate::simulate::measures::{self, Effort, SegmentTracking, Tracking};
 use crate::simulate::payload::{PayloadCheck, PayloadVerdict};
-use crate::simulate::text::rounded_for_display;
+use crate::simulate::rounding::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::{JointFriction, RobotModel};
 use platewash_motion::plan::Plan;

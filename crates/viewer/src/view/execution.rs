@@ -3,7 +3,7 @@
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
 use super::numbers::Numbers;
-use super::thinned;
+use super::thin::thinned;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;

@@ -5,7 +5,8 @@
 //! [`directions`], a little too small: they shape a proposal, and nothing else.
 
 use crate::clearance::convex::ConvexHull;
-use crate::clearance::solid::{Cuts, Part, SolidError, cells, distinct, enclosing};
+use crate::clearance::solid::cells::{Cuts, Part, cells, distinct, enclosing};
+use crate::clearance::solid::error::SolidError;
 use parry3d_f64::math::Vector;
 
 /// Cuts of a body that moves.

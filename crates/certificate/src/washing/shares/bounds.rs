@@ -1,9 +1,11 @@
 //! Bounds over a cell: lower bounds of compression, contact time and dose.
 
-use crate::washing::shares::Sags;
-use crate::washing::shares::cell::{Cell, CellState, Lower};
+use crate::washing::shares::cell::{Cell, CellState};
 use crate::washing::shares::doses::{Polynomial, Sums};
-use crate::washing::shares::edges::{Edges, Gain, Touch};
+use crate::washing::shares::edges::{Edges, Gain};
+use crate::washing::shares::lower::Lower;
+use crate::washing::shares::sags::Sags;
+use crate::washing::shares::touch::Touch;
 use platewash_bodies::contact::{Bundles, Foundation, Moment};
 use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::surface::Surface;
@@ -180,7 +182,7 @@ impl Passes<'_> {
         while !looks.is_empty() {
             let (mut length, mut beyond_m, mut contact, mut begins) = (0, 0.0, false, false);
             for (look, state) in looks.iter().zip(&mut all[count..]) {
-                let off_m = cell.see(edges, look, reach_m, state);
+                let off_m = edges.see(cell, look, reach_m, state);
                 let is_near = off_m <= reach_m;
                 if !is_near {
                     beyond_m = off_m - reach_m;

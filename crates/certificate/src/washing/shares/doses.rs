@@ -17,9 +17,10 @@
 //! is a polynomial of the second degree in x. So one sum from the first moment on tells the dose of every place that is in contact all
 //! along a run, as the difference of two.
 
-use crate::washing::shares::Sags;
-use crate::washing::shares::cell::{Cell, CellState, Lower};
+use crate::washing::shares::cell::{Cell, CellState};
 use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window};
+use crate::washing::shares::lower::Lower;
+use crate::washing::shares::sags::Sags;
 use nalgebra::{Matrix3, Vector3, Vector4};
 use platewash_bodies::contact::{Foundation, Moment, SpongePose, at_least_0, both};
 use std::ops::{Add, Sub};

@@ -1,29 +1,12 @@
-//! Times at which the places of a cell leave the sponge, to the second order in the size of the cell.
-//!
-//! Near the moment t₀ at which the middle X of a cell leaves the sponge, let the way from the axis to a point of its patch be
-//! V₀ + B (t − t₀) + J δ + j e (`cell.rs`; J and j across the axis, at one moment), but for ε at most: what the moments looked at are off
-//! that line, what is lost between them, how the patch bends and twice what the axis turns times how far the patch reaches. A place that
-//! leaves at t₀ + g·δ + g_e e − η is V₀ + M δ + m e − B η from the axis then; g = −Jᵀ V₀ / (B·V₀), and g_e alike, make M = J + B gᵀ and m
-//! be across V₀. With μ no less than ‖M δ + m e‖ it is within the sponge, of radius s, as long as
-//!
-//! ‖V₀‖² + μ² − 2 η (B·V₀ − ‖B‖ μ) + η² ‖B‖² ≤ (s − ε)²,
-//!
-//! whose smallest root is taken for η. A line that ends within the sponge and begins there is within it in between.
-//!
-//! Where the foam is released rather than left, its compression w₀ + ẇ (t − t₀) + j·δ + j_e e is such a line itself, so that g = −j/ẇ and
-//! η = ε/|ẇ|. What a cell enters it leaves in reversed time.
-//!
-//! The file also finds out if a cell is in contact at one moment at least.
+//! The moments of a wash over a plate, and the state of a cell at each: the windows in which its places leave or enter.
 
-use crate::washing::shares::Sags;
-use crate::washing::shares::cell::{Cell, CellState, Lower};
-use nalgebra::Vector3;
+use crate::washing::shares::cell::{Cell, CellState};
+use crate::washing::shares::look::Look;
+use crate::washing::shares::lower::Lower;
+use crate::washing::shares::sags::Sags;
 use platewash_bodies::contact::{Foundation, Moment};
 use platewash_workcell::job::ContactThresholds;
 use std::ops::Range;
-
-/// Error of the formulas above due to rounding \[m\].
-const ROUNDING_M: f64 = 1e-12;
 
 /// Inputs for the bounds of moments over a plate.
 pub(crate) struct Edges<'a> {
@@ -31,31 +14,6 @@ pub(crate) struct Edges<'a> {
     pub moments: &'a [Moment],
     pub thresholds: &'a ContactThresholds,
     looks: Vec<Look>,
-}
-
-/// Sponge at a moment, as all cells see it.
-pub(crate) struct Look {
-    pub index: u32,
-    pub t_s: f64,
-    pub tip: Vector3<f64>,
-    pub axis: Vector3<f64>,
-    /// Sine of the angle between the sponge's axis and the plate's, and the magnitude of its cosine.
-    pub tilt: f64,
-    pub upright: f64,
-    /// Angular speed \[rad/s\].
-    pub turning: f64,
-    /// Shift of a point off the axis by the height error, and the compression that it takes \[m\].
-    pub aside_m: f64,
-    lower_m: f64,
-    /// Sags from the moment before, and up to the next one; infinite where nothing is known.
-    pub sags: [Sags; 2],
-}
-
-impl Look {
-    /// Greatest loss of compression over a patch, for every plate height within its error, from that at its stated height \[m\].
-    pub fn shallower_m(&self, sloping_m: f64) -> f64 {
-        sloping_m + self.lower_m
-    }
 }
 
 /// Lower bounds of time and dose that a cell gets in a part of a window.
@@ -70,10 +28,10 @@ pub(crate) struct Gain {
 /// Consecutive moments, in order or in reversed time.
 #[derive(Clone, Copy)]
 pub(crate) struct Window<'a> {
-    state: &'a [CellState],
+    pub(super) state: &'a [CellState],
     pub reversed: bool,
     /// Time of the first moment \[s\].
-    start_s: f64,
+    pub(super) start_s: f64,
 }
 
 /// Times at which the places of a cell leave, counted from the first moment of a window.
@@ -88,13 +46,6 @@ pub(crate) struct LeavingTimes {
     pub spread_s: f64,
     /// First moment at which all places have left.
     pub last: usize,
-}
-
-/// Line in time through the values at two moments.
-struct Line<T> {
-    at_s: f64,
-    value: T,
-    rate: T,
 }
 
 impl Window<'_> {
@@ -171,298 +122,44 @@ impl Edges<'_> {
         &self.look(a.index.min(b.index)).sags[1]
     }
 
-    /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
-    /// moments, and one for entering, if it is at the last two.
-    pub fn gain(&self, cell: &Cell, state: &[CellState]) -> [Option<Gain>; 2] {
-        let leaves = state.len() > 2 && state[1].full;
-        let enters = state.len() > 2 && state[state.len() - 1].full;
-        let one = |reversed| {
-            let first = if reversed { state.last() } else { state.first() };
-            let window = Window {
-                state,
-                reversed,
-                start_s: self.look(first?.index).t_s,
-            };
-            self.one_way(cell, window)
-        };
-        let (left, entered) = (
-            leaves.then(|| one(false)).flatten(),
-            enters.then(|| one(true)).flatten(),
-        );
-        match (left, entered) {
-            // A place that leaves and comes back counts once if both parts have some time in common.
-            (Some(a), Some(b)) if a.until_s > b.until_s => {
-                if a.time.value > b.time.value {
-                    [left, None]
-                } else {
-                    [None, entered]
-                }
-            }
-            both => [both.0, both.1],
-        }
-    }
-
-    fn one_way(&self, cell: &Cell, window: Window<'_>) -> Option<Gain> {
-        let leaving = self.leaving(cell, window)?;
-        let start_s = window.start_s;
-        let farthest_s = leaving.at_s - leaving.sooner_s + leaving.spread_s;
-        Some(Gain {
-            time: Lower {
-                value: leaving.at_s - leaving.sooner_s,
-                slope: leaving.slope,
-                over_height: leaving.over_height,
-                slack: leaving.sooner_s,
-            },
-            dose: self.dose(cell, window, &leaving),
-            until_s: if window.reversed {
-                start_s - farthest_s
-            } else {
-                start_s + farthest_s
-            },
-        })
-    }
-
     /// Time of a state since the first moment of a window \[s\].
     pub fn elapsed_s(&self, window: Window<'_>, state: &CellState) -> f64 {
         (self.look(state.index).t_s - window.start_s).abs()
     }
 
-    fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<LeavingTimes> {
-        let radius_m = self.foundation.radius_m;
-        for k in 1.. {
-            let (before, after) = (window.at(k - 1)?, window.at(k)?);
-            let aside = after.off_m > radius_m;
-            let released = after.compression_m < self.thresholds.compression_m;
-            if !aside && !released {
-                continue;
-            }
-            let times = [before, after].map(|seen| self.elapsed_s(window, seen));
-            let span_s = times[1] - times[0];
-            let axis = self.look(after.index).axis;
-            let share = if aside {
-                crossing(&before.way, &after.way, radius_m)
-            } else {
-                let [from, to] = [before, after].map(|seen| seen.compression_m - self.thresholds.compression_m);
-                from / (from - to)
-            };
-            let at_s = times[0] + share * span_s;
-            return if aside {
-                let line = Line {
-                    at_s,
-                    value: before.way + (after.way - before.way) * share,
-                    rate: (after.way - before.way) / span_s,
-                };
-                self.left_aside(cell, window, &line, &axis)
-            } else {
-                let line = Line {
-                    at_s,
-                    value: self.thresholds.compression_m,
-                    rate: (after.compression_m - before.compression_m) / span_s,
-                };
-                self.release_times(cell, window, &line, &axis)
-            };
+    /// Writes the state of a cell at a moment, and tells the distance of the sponge's axis from the middle \[m\]. Beyond `reach_m` of it, nothing else
+    /// is computed.
+    #[inline]
+    pub fn see(&self, cell: &Cell, look: &Look, reach_m: f64, state: &mut CellState) -> f64 {
+        let axis = &look.axis;
+        let away = cell.point - look.tip;
+        let along = away.dot(axis);
+        let way = away - axis * along;
+        let off_m = way.norm_squared().sqrt();
+        let is_near = off_m <= reach_m;
+        if !is_near {
+            return off_m;
         }
-        None
-    }
-
-    /// Returns the times at which a cell gets beyond the sponge's rim while all of it is pressed.
-    fn left_aside(
-        &self,
-        cell: &Cell,
-        window: Window<'_>,
-        line: &Line<Vector3<f64>>,
-        axis: &Vector3<f64>,
-    ) -> Option<LeavingTimes> {
-        let across = |v: Vector3<f64>| v - axis * v.dot(axis);
-        let error_m = self.thresholds.height_error_m;
-        let (v0, b) = (&line.value, &line.rate);
-        let outwards = v0.dot(b);
-        let columns = [cell.tangents()[0], cell.tangents()[1], Vector3::z()].map(across);
-        let rates = columns.map(|column| -column.dot(v0) / outwards);
-        let moved = [0, 1, 2].map(|i| columns[i] + b * rates[i]);
-        let mu = cell.reach_m * (moved[0].norm_squared() + moved[1].norm_squared()).sqrt() + error_m * moved[2].norm();
-        let spread_s = cell.reach_m * length(rates[0], rates[1]) + error_m * rates[2].abs();
-        let last = self.all_left(window, line.at_s + spread_s)?;
-        let off = |state: &CellState| (state.way - v0 - b * (self.elapsed_s(window, state) - line.at_s)).norm();
-        let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
-        let reach_m = cell.max_distance_m() + error_m;
-        let lost_m = ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
-        let free_m = self.foundation.radius_m - lost_m;
-        let (speed, slow) = (b.norm_squared(), outwards - b.norm() * mu);
-        let beyond = v0.norm_squared() + mu * mu - free_m * free_m;
-        let root = slow * slow - speed * beyond;
-        if !(free_m > 0.0 && slow > 0.0 && root >= 0.0) {
-            return None;
-        }
-        let sooner_s = ((slow - root.sqrt()) / speed).max(0.0) * (1.0 + 1e-12);
-        let begins_m = (v0 - b * line.at_s).norm() + cell.tangent_m + error_m * columns[2].norm();
-        let pressed = window
-            .states_until(last)
-            .all(|seen| seen.pressed_m >= sags.compression_m);
-        (pressed && begins_m <= free_m && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
-            at_s: line.at_s,
-            sooner_s,
-            slope: [rates[0], rates[1]],
-            over_height: rates[2],
-            spread_s,
-            last,
-        })
-    }
-
-    /// Returns the times at which the foam on a cell is released while all of it is within the sponge.
-    fn release_times(
-        &self,
-        cell: &Cell,
-        window: Window<'_>,
-        line: &Line<f64>,
-        axis: &Vector3<f64>,
-    ) -> Option<LeavingTimes> {
-        let error_m = self.thresholds.height_error_m;
-        let falls = -line.rate;
-        if falls.is_nan() || falls <= 0.0 {
-            return None;
-        }
-        // The compression falls by a·x.
-        let [gx, gy] = cell.along(axis).map(|v| -v / falls);
-        let ge = -axis.z / falls;
-        let spread_s = cell.reach_m * length(gx, gy) + error_m * ge.abs();
-        let last = self.all_left(window, line.at_s + spread_s)?;
-        let off = |state: &CellState| {
-            (state.compression_m - line.value - line.rate * (self.elapsed_s(window, state) - line.at_s)).abs()
+        let across = if cell.is_level {
+            look.tilt
+        } else {
+            let [gx, gy] = cell.along(axis);
+            (gx * gx + gy * gy).sqrt()
         };
-        let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
-        let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.max_distance_m() + error_m);
-        let sooner_s = lost_m / falls * (1.0 + 1e-12);
-        let within = window.states_until(last).all(|seen| seen.inside_m >= sags.aside_m);
-        // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.
-        (within && line.at_s - spread_s - sooner_s >= 0.0).then_some(LeavingTimes {
-            at_s: line.at_s,
-            sooner_s,
-            slope: [gx, gy],
-            over_height: ge,
-            spread_s,
-            last,
-        })
-    }
-
-    /// Returns the first moment of a window later than a given time; `None` if there is none.
-    fn all_left(&self, window: Window<'_>, after_s: f64) -> Option<usize> {
-        for k in 1.. {
-            let seen = window.at(k)?;
-            if self.elapsed_s(window, seen) >= after_s {
-                return Some(k);
-            }
-        }
-        None
-    }
-
-    /// Returns the greatest distance of the states up to a moment from a line, the greatest difference from `axis`, and the greatest sags.
-    fn deviation_from_line(
-        &self,
-        window: Window<'_>,
-        last: usize,
-        axis: &Vector3<f64>,
-        off: impl Fn(&CellState) -> f64,
-    ) -> (f64, f64, Sags) {
-        let greater = |most: f64, found: f64| if found > most { found } else { most };
-        let (mut off_m, mut turned_squared, mut most) = (0.0, 0.0, Sags::default());
-        let mut before: Option<&CellState> = None;
-        for seen in window.states_until(last) {
-            off_m = greater(off_m, off(seen));
-            turned_squared = greater(turned_squared, (self.look(seen.index).axis - axis).norm_squared());
-            if let Some(before) = before {
-                let sags = self.sags(before, seen);
-                most.compression_m = greater(most.compression_m, sags.compression_m);
-                most.aside_m = greater(most.aside_m, sags.aside_m);
-            }
-            before = Some(seen);
-        }
-        (off_m, turned_squared.sqrt(), most)
+        let sloping_m = across * cell.reach_m + look.upright * cell.bend_m;
+        let compression_m = self.foundation.compression_m - along;
+        state.index = look.index;
+        state.compression_m = compression_m;
+        state.sloping_m = sloping_m;
+        state.way = way;
+        state.off_m = off_m;
+        state.inside_m = self.foundation.radius_m - off_m - cell.farther_m(look);
+        state.pressed_m = compression_m - look.shallower_m(sloping_m) - self.thresholds.compression_m;
+        off_m
     }
 }
 
 /// Length of a vector of two components.
-fn length(x: f64, y: f64) -> f64 {
+pub(super) fn length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
-}
-
-/// Parameter, 0 to 1, at which the line between two vectors gets longer than a radius.
-fn crossing(from: &Vector3<f64>, to: &Vector3<f64>, radius_m: f64) -> f64 {
-    let step = to - from;
-    let (a, b, c) = (
-        step.norm_squared(),
-        from.dot(&step),
-        from.norm_squared() - radius_m * radius_m,
-    );
-    let root = (b * b - a * c).max(0.0).sqrt();
-    // The greater root, without cancelling.
-    let share = if b > 0.0 { -c / (b + root) } else { (root - b) / a };
-    share.clamp(0.0, 1.0)
-}
-
-/// State of a cell that is nowhere wholly in contact, at the moments that suit its contact best.
-#[derive(Default)]
-pub(crate) struct Touch {
-    /// True if a part of the cell may be in contact at some moment.
-    some: bool,
-    /// Lower bound over the cell that is not below 0 where a place is in contact.
-    bound: Lower,
-    /// Distance from the middle of the cell at which that bound gets below 0 \[m\]; `None` before the first such moment.
-    spare_m: Option<f64>,
-    /// Greatest compression of the whole cell while it is within the sponge \[m\].
-    pub compression_m: f64,
-}
-
-impl Touch {
-    /// Returns a bound over the cell that is not below 0 where a place is in contact.
-    pub fn bound(&self, is_large: bool) -> Lower {
-        let bound = match self.spare_m {
-            Some(_) => self.bound,
-            None => Lower::flat(-1.0, 0.0),
-        };
-        // Other moments may suit other places of it.
-        let more = self.some && (is_large || self.spare_m.is_none());
-        Lower {
-            slack: if more { f64::INFINITY } else { bound.slack },
-            ..bound
-        }
-    }
-
-    /// Updates the state with a moment. The squared lengths of the vectors P (X + J δ + b ẑ + e ẑ − p) are at most those of P (X + J δ −
-    /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
-    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, state: &CellState) {
-        let (inside_m, pressed_m) = (state.inside_m, state.pressed_m);
-        let look = edges.look(state.index);
-        let shallower_m = look.shallower_m(state.sloping_m);
-        if inside_m >= 0.0 {
-            self.compression_m = self.compression_m.max(state.compression_m - shallower_m);
-        }
-        self.some |= inside_m >= -2.0 * cell.max_distance_m() && pressed_m >= -2.0 * state.sloping_m;
-        let (tangent_m, axis) = (cell.tangent_m, &look.axis);
-        let bound = if pressed_m >= 0.0 {
-            let free_m = (edges.foundation.radius_m - (cell.farther_m(look) - tangent_m)).max(0.0);
-            Lower {
-                value: free_m * free_m - state.off_m * state.off_m - tangent_m * tangent_m,
-                slope: cell.along(&state.way).map(|v| -2.0 * v),
-                over_height: 0.0,
-                slack: 2.0 * (tangent_m * tangent_m + 2.0 * edges.foundation.radius_m * cell.bend_m),
-            }
-        } else if inside_m >= 0.0 {
-            let slope = cell.along(axis).map(|v| -v);
-            let sloping_m = (slope[0] * slope[0] + slope[1] * slope[1]).sqrt() * cell.reach_m;
-            let lost_m = shallower_m - sloping_m;
-            Lower {
-                value: state.compression_m - lost_m - edges.thresholds.compression_m,
-                slope,
-                over_height: 0.0,
-                slack: 2.0 * axis.z.abs() * cell.bend_m,
-            }
-        } else {
-            return;
-        };
-        let spare_m = bound.value / bound.steepness();
-        if self.spare_m.is_none_or(|most| spare_m > most) {
-            (self.bound, self.spare_m) = (bound, Some(spare_m));
-        }
-    }
 }

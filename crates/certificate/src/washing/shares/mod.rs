@@ -3,7 +3,7 @@
 //! Seen along its axis, the face is cut into squares (`cell.rs`), which are halved where more is likely to keep what is wanted than is
 //! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
 //! between which all of it is in contact count by what two sums differ (`doses.rs`) and are not looked at again in its quarters. What is
-//! left are windows in which places of the cell leave the sponge or get under it (`edges.rs`): together they give lower bounds of time
+//! left are windows in which places of the cell leave the sponge or get under it (`leaving.rs`): together they give lower bounds of time
 //! and dose that are affine over the cell (`bounds.rs` puts them together), so that of a cell at the edge of what is wanted the part counts that keeps it.
 //!
 //! A place that is not shown to get an amount counts as not getting it, with the greatest area that it may have. So the shares are lower
@@ -13,12 +13,19 @@ pub(crate) mod bounds;
 pub(crate) mod cell;
 pub(crate) mod doses;
 pub(crate) mod edges;
+pub(crate) mod leaving;
+pub(crate) mod look;
+pub(crate) mod lower;
+pub(crate) mod sags;
 #[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests;
+pub(crate) mod touch;
 
 use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
-use crate::washing::shares::cell::{Cell, Lower};
+use crate::washing::shares::cell::Cell;
+use crate::washing::shares::lower::Lower;
+use crate::washing::shares::sags::Sags;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Foundation, Moment};
 use platewash_bodies::coverage::{SMALLEST_CELL, reaches};
@@ -32,18 +39,6 @@ const WORTH: f64 = 0.02;
 /// Greatest edge of the first cells, as a part of the sponge's radius, and below their greatest number along an edge of the face.
 const FIRST_CELLS: f64 = 0.4;
 const MOST_FIRST_CELLS: f64 = 128.0;
-
-/// Bounds on the difference between a quantity and the line through its values at two moments: h²/8 times the bound of the second
-/// derivative, h the time between them.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sags {
-    /// Sag of the compression at any point in contact \[m\].
-    pub compression_m: f64,
-    /// Sag of the distance of such a point from the sponge's axis \[m\].
-    pub aside_m: f64,
-    /// Sag of the sliding way over such a point: h times the error of its velocity across the axis \[m\].
-    pub slide_m: f64,
-}
 
 /// Resolution at which a face is bounded.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,8 @@
 
 use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
 use crate::washing::shares::cell::Cell;
-use crate::washing::shares::{Fineness, Sags, shares};
+use crate::washing::shares::sags::Sags;
+use crate::washing::shares::{Fineness, shares};
 use nalgebra::{Rotation3, Unit, Vector3};
 use platewash_bodies::contact::{Foundation, Moment, SpongePose};
 use platewash_workcell::job::ContactThresholds;

@@ -1,6 +1,6 @@
 use crate::clearance::ClearanceModel;
 use crate::clearance::body::obstacle_body;
-use crate::clearance::far::*;
+use crate::clearance::crowd::*;
 use nalgebra::Vector3;
 use platewash_fixtures::{kitchen_plate, kitchen_tool, workcell};
 use platewash_kinematics::geometry::Shape;
