@@ -224,7 +224,7 @@ impl ScenarioFile {
         let (plan, arm) = (&washing.planned.plan, &washing.arm);
         let certificate = prove_with(plan, arm, &options.cancel).map_err(Failure::from)?;
         let region = scenario.task_region(arm);
-        if let Some(page) = page::of(options, plan, arm, Some(&certificate), None, &region)? {
+        if let Some(page) = page::render(options, plan, arm, Some(&certificate), None, &region)? {
             files.add("page.html", page);
         }
         files.add("plan.json", plan.to_json().map_err(Failure::from)?);

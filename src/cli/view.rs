@@ -66,7 +66,7 @@ fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode> {
     let listener = arguments.serve.listen(options)?;
     let page = html(options, arguments)?;
     let url = listener.url();
-    let site = Site::of(Page::Fixed(page));
+    let site = Site::from_page(Page::Fixed(page));
     let server = listener.serve(site).map_err(internal)?;
     options.print(&PageAnswer::Url(&url), || format!("{url}\n"))?;
     arguments.serve.open(options, &url);

@@ -49,7 +49,7 @@ pub fn built() -> Result<()> {
         ("links of the website", "links"),
     ];
     for (name, script) in scripts {
-        Step::of(name, node.npm(folder, &["run", "--silent", script])).run()?;
+        Step::from_command(name, node.npm(folder, &["run", "--silent", script])).run()?;
     }
     formulas_of_page(&node, folder)?;
     removed(&target().join("site"))?;
@@ -61,7 +61,7 @@ fn formulas_of_page(node: &Node, folder: &Path) -> Result<()> {
     let new = folder.join("formulas.json");
     let out = new.to_string_lossy();
     let line = ["mathml.mjs", &out, "pages/docs/certificate.md", "pages/docs/contact.md"];
-    Step::of("formulas of the page", node.node(folder, &line)).run()?;
+    Step::from_command("formulas of the page", node.node(folder, &line)).run()?;
     let kept = root().join("crates/viewer/page/src/formulas.json");
     let read = |file: &Path| fs::read_to_string(file).with_context(|| file.display().to_string());
     if read(&new)? == read(&kept)? {

@@ -31,7 +31,7 @@ pub fn folder() -> Result<PathBuf> {
     let folder = target().join("playground");
     let (module, out) = (module.to_string_lossy(), folder.to_string_lossy());
     let line = ["build.mjs", "--playground", &module, "--out", &out];
-    Step::of("playground", node.node(workshop.folder(), &line)).run()?;
+    Step::from_command("playground", node.node(workshop.folder(), &line)).run()?;
     Ok(folder)
 }
 
@@ -57,7 +57,7 @@ pub fn tested() -> Result<()> {
     let module = module()?;
     let node = Node::found(Packages::All)?;
     let line = ["--test", "--test-reporter=spec", "tests/playground/same.mjs"];
-    let step = Step::of("module and command side by side", node.node(&root(), &line));
+    let step = Step::from_command("module and command side by side", node.node(&root(), &line));
     with_command(step).with("PLATEWASH_MODULE", module).run()
 }
 

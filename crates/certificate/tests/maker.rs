@@ -273,7 +273,7 @@ impl<'a> Maker<'a> {
         }
         let order = self.recipe.order.clone();
         let parts = PlanParts {
-            provenance: Provenance::of("made"),
+            provenance: Provenance::new("made"),
             wash_paths: order.iter().map(|plate| self.recipe.path(*plate)).collect(),
             order,
             segments,

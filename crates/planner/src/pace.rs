@@ -38,7 +38,7 @@ pub struct Pace {
 
 impl Pace {
     /// The pace of a wash of `plate` along `curve`.
-    pub(crate) fn of(
+    pub(crate) fn measure(
         placed: &PlacedArm<'_>,
         plate: &Plate,
         terms: &JobTerms,
@@ -50,7 +50,7 @@ impl Pace {
             least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * speed_m_s),
             path_s: length_m / speed_m_s,
             length_m,
-            limits: LimitShares::of(placed, motion, limits),
+            limits: LimitShares::measure(placed, motion, limits),
         }
     }
 }
@@ -70,7 +70,7 @@ pub struct LimitShares {
 
 impl LimitShares {
     /// The shares of a motion, by moments that are evenly apart.
-    pub(crate) fn of(placed: &PlacedArm<'_>, motion: &Trajectory, limits: &MotionLimits) -> Self {
+    pub(crate) fn measure(placed: &PlacedArm<'_>, motion: &Trajectory, limits: &MotionLimits) -> Self {
         let tip = limits
             .tip
             .map_or([f64::INFINITY; 2], |tip| [tip.speed_m_s, tip.acceleration_m_s2]);

@@ -105,13 +105,13 @@ impl ClearanceObject {
     ) -> PyResult<Self> {
         let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
         let read = |name: &str, plate: &Bound<'_, PyAny>| {
-            Ok((PlateFields::of(name, plate)?.plate(py)?, plate.clone().unbind()))
+            Ok((PlateFields::read(name, plate)?.plate(py)?, plate.clone().unbind()))
         };
         let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
         let (plates, given): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
         let model = robot.get().model().clone();
         let held = match &tool {
-            Some(tool) => ToolFields::of(tool)?.on(py, &model)?,
+            Some(tool) => ToolFields::read(tool)?.on(py, &model)?,
             None => Tool::from(StraightTool::default()),
         };
         let inner = alone(py, || {

@@ -134,7 +134,7 @@ pub fn _wash_curve_on<'py>(
     chord_error_m: &Bound<'py, PyAny>,
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>)> {
     let curve = curve_of(curve)?;
-    let surface = PlateFields::of("plate", plate)?.plate(py)?.surface;
+    let surface = PlateFields::read("plate", plate)?.plate(py)?.surface;
     let range = [1e-8 * curve.radius_m, curve.radius_m];
     let theta = curve.parameters(
         &surface,

@@ -120,7 +120,7 @@ impl DynamicsObject {
         let py = robot.py();
         let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
         let model = robot.get().model();
-        let held = tool.as_ref().map(|tool| ToolFields::of(tool)?.on(py, model));
+        let held = tool.as_ref().map(|tool| ToolFields::read(tool)?.on(py, model));
         let held = held.transpose()?;
         let gravity = match gravity_m_s2 {
             Some(given) => arrays::fixed::<3>("gravity_m_s2", given)?,

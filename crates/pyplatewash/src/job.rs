@@ -154,7 +154,7 @@ impl WashJobObject {
     ///
     /// Raises InputError for plates that are none.
     fn on_plates(&self, py: Python<'_>, plates: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::of(name, plate)?.plate(py);
+        let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::read(name, plate)?.plate(py);
         let plates = argument::each("plates", plates, "a list of Plates", read)?;
         let inner = self.inner.on_plates(plates.clone());
         Ok(Self {

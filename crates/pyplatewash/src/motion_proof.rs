@@ -85,7 +85,7 @@ pub fn prove_motion<'py>(
         None => Robot::built_in(py)?,
     };
     let (arm, meshes) = (robot.get().model().clone(), robot.get().mesh_places());
-    let tool = tool.map(|tool| ToolFields::of(tool)?.tool(py)).transpose()?;
+    let tool = tool.map(|tool| ToolFields::read(tool)?.tool(py)).transpose()?;
     let mount = mount.map_or_else(|| Ok(Pose::identity()), read_mount)?;
     let text = obstacles.map(obstacle_text).transpose()?;
     let motion = points.motion(&arm, choice);

@@ -150,9 +150,9 @@ pub fn _configuration_page(
     if !q.iter().all(|v| v.is_finite()) {
         return Err(exception::input(py, "q", "is not finite"));
     }
-    let tool = tool.map(|tool| ToolFields::of(tool)?.on(py, robot.model()));
+    let tool = tool.map(|tool| ToolFields::read(tool)?.on(py, robot.model()));
     let tool = tool.transpose()?;
-    let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::of(name, plate)?.plate(py);
+    let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::read(name, plate)?.plate(py);
     let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
     let plates = plates.transpose()?.unwrap_or_default();
     let bundle = bundle(py)?;

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 #[pyfunction]
 pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     match kind {
-        "tool" => ToolFields::of(value)?.tool(py).map(|_| ()),
-        "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
+        "tool" => ToolFields::read(value)?.tool(py).map(|_| ()),
+        "plate" => PlateFields::read("plate", value)?.plate(py).map(|_| ()),
         "foot" => check_foot(py, value),
         "ik_settings" => robot::settings(value).map(|_| ()),
         "paper_spiral" => curves::spiral_of(value).map(|_| ()),

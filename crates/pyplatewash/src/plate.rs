@@ -52,7 +52,7 @@ impl PlateFields {
     ///
     /// # Errors
     /// `InputTypeError` for what is no `Plate`, or a field of a wrong type.
-    pub fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let number = |field| argument::field((name, "a Plate"), value, ("plate", field), argument::number);
         let length = |field| {
             argument::field((name, "a Plate"), value, ("plate", field), |name, length| {
@@ -203,7 +203,7 @@ fn profile(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Knots>> {
 /// all, its radius \[m\] and its quaternion.
 #[pyfunction]
 pub fn _plate_made<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<PlateValues<'py>> {
-    let fields = PlateFields::of("plate", plate)?;
+    let fields = PlateFields::read("plate", plate)?;
     let surface = fields.surface(py)?;
     let [w, x, y, z] = fields.quaternion_wxyz;
     Ok((knots(py, &surface)?, surface.rim_m(), (w, x, y, z)))

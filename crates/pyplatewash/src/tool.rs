@@ -36,7 +36,7 @@ impl ToolFields {
     ///
     /// # Errors
     /// `InputTypeError` for what is no `Tool`, or a field of a wrong type.
-    pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub fn read(value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let number = |field| argument::field(("tool", TOOL), value, ("tool", field), argument::number);
         let com_m = argument::field(("tool", TOOL), value, ("tool", "com_m"), |name, value| {
             (!value.is_none()).then(|| argument::number(name, value)).transpose()

@@ -32,7 +32,7 @@ pub fn cell_site(editor: Editor, bundle: Bundle) -> Result<Site, ServerError> {
     let page = Page::Made(Box::new(move || pages.served_page(&bundle).map_err(Into::into)));
     Ok(Site {
         service: Some(Arc::new(CellService { editor, token })),
-        ..Site::of(page)
+        ..Site::from_page(page)
     })
 }
 

@@ -32,7 +32,7 @@ pub(super) fn read(
     fixed: &FixedJoints,
 ) -> Result<(JointPoints, Vec<usize>), ReadError> {
     let text = with_bare_header(text);
-    let columns = Columns::of(&text, arm, fixed);
+    let columns = Columns::from_header(&text, arm, fixed);
     let read = columns.table(&text).and_then(|table| {
         let is_there = |name: &str| table.places(&[name]).is_some();
         let known = check_fixed_names(arm, fixed, is_there);
@@ -85,7 +85,7 @@ struct Columns {
 
 impl Columns {
     /// Names in the table of an arm: those of its joints where the header has one of them.
-    fn of(text: &str, arm: &RobotModel, fixed: &FixedJoints) -> Self {
+    fn from_header(text: &str, arm: &RobotModel, fixed: &FixedJoints) -> Self {
         let named = |name: &str| [name.to_owned(), format!("{name}_rad_s"), format!("{name}_rad_s2")];
         let names = arm.joints().each_ref().map(|joint| joint.name.as_str());
         let header = number_table::header(text, true);

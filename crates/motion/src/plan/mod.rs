@@ -61,7 +61,7 @@ pub struct Provenance {
 impl Provenance {
     /// Returns the provenance of a scenario planned by this version.
     #[must_use]
-    pub fn of(scenario: &str) -> Self {
+    pub fn new(scenario: &str) -> Self {
         Self {
             scenario: scenario.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -118,7 +118,7 @@ impl Patterns {
         arm_m_s2: f64,
         cancel: &CancelToken,
     ) -> Self {
-        let (surface, promise) = (&plate.surface, Promise::of(terms, plate));
+        let (surface, promise) = (&plate.surface, Promise::new(terms, plate));
         let limits = TipLimits {
             speed_m_s: terms.wash_speed_of(plate),
             acceleration_m_s2: terms.wash_acceleration_m_s2().min(arm_m_s2),

@@ -140,7 +140,7 @@ impl Promise {
     /// Promise of a job on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and
     /// touches others.
     #[must_use]
-    pub fn of(terms: &JobTerms, plate: &Plate) -> Self {
+    pub fn new(terms: &JobTerms, plate: &Plate) -> Self {
         let surface = &plate.surface;
         let (requirements, sponge) = (&terms.requirements, &terms.workcell.tool.sponge);
         let foundation = foundation(sponge);

@@ -90,7 +90,7 @@ fn keeps_the_stated_number_of_rings() {
             terms.workcell.tool.sponge.radius_m = sponge_m;
             // Without a promise about contact the test sees the curves alone.
             terms.requirements.contact = None;
-            let promise = Promise::of(&terms, &plate(&surface));
+            let promise = Promise::new(&terms, &plate(&surface));
             for turns in [None, Some(1.0), Some(2.0), Some(7.0), Some(99.0)] {
                 for path_radius_m in [None, Some(1e-4), Some(0.05)] {
                     let settings = PlannerSettings {
@@ -199,7 +199,7 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                     .filter(|(t, _)| during(t))
                     .map(|(_, q)| *q)
                     .collect();
-                let promise = Promise::of(job.terms(), plate);
+                let promise = Promise::new(job.terms(), plate);
                 promise
                     .sampled(&placed, plate, &along, 0.25)
                     .shortfall(&Margin::ARM)

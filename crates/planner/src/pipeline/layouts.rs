@@ -55,7 +55,7 @@ fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> R
     match WashJob::new(arm.clone(), terms) {
         Err(standing @ (JobError::Standing(_) | JobError::StillNear { .. })) => Ok(Some(standing.to_string())),
         job => {
-            let unwashable = Pipeline::of(&job?, watch)?.first_unwashable()?;
+            let unwashable = Pipeline::from_job(&job?, watch)?.first_unwashable()?;
             Ok(unwashable)
         }
     }

@@ -35,7 +35,7 @@ pub fn plan(job: &WashJob) -> Result<PlannedJob, PlanError> {
 /// # Errors
 /// As [`plan`], and [`PlanError::Cancelled`].
 pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<PlannedJob, PlanError> {
-    planned(job, Pipeline::of(job, watch)?)
+    planned(job, Pipeline::from_job(job, watch)?)
 }
 
 /// Plans as [`plan_with`], for callers that do not wait: where a plate cannot be washed, no other place is searched for, even if
@@ -116,7 +116,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
     let wash_paths: Vec<WashPath> = visits.iter().map(stated).collect();
     pipeline.check_tilt(&placed, &whole, &wash_paths)?;
     let parts = PlanParts {
-        provenance: Provenance::of(job.name()),
+        provenance: Provenance::new(job.name()),
         order,
         wash_paths,
         segments: whole.segments,
@@ -130,7 +130,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
         cone_rad: visit.path.cone_rad,
         curve: visit.path.curve,
         wash_s: duration(&visit.wash.motion),
-        pace: Pace::of(
+        pace: Pace::measure(
             &placed,
             &pipeline.plates[visit.path.plate],
             job.terms(),
@@ -145,7 +145,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
             kind: transit.kind,
             duration_s: duration(motion),
             least_s: least_time(&from, &to, &pipeline.transit),
-            limits: LimitShares::of(&placed, motion, &pipeline.transit),
+            limits: LimitShares::measure(&placed, motion, &pipeline.transit),
         }
     });
     Ok(PlannedJob {

@@ -61,7 +61,7 @@ pub(crate) struct Pipeline<'a> {
 
 impl<'a> Pipeline<'a> {
     /// A job as its arm sees it.
-    pub fn of(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
+    pub fn from_job(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
         let (seen, mount) = (job.seen_from_base(), &job.terms().workcell.mount);
         Self::new(job.arm(), (seen, mount), &seen.plates, watch)
     }
@@ -146,7 +146,7 @@ impl<'a> Pipeline<'a> {
 
     /// A job as it stands: no other place is looked for.
     pub fn here(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
-        let pipeline = Self::of(job, watch)?;
+        let pipeline = Self::from_job(job, watch)?;
         let place_search = match pipeline.place_search {
             PlaceSearch::Within(_) => PlaceSearch::Later,
             never => never,

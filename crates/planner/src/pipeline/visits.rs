@@ -262,7 +262,7 @@ impl Pipeline<'_> {
     fn sampled(&self, placed: &PlacedArm<'_>, turn: &Turn) -> Option<SampledWash> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
-        let promise = Promise::of(self.terms, plate);
+        let promise = Promise::new(self.terms, plate);
         let speed_m_s = turn.pattern.speed_share * self.terms.wash_speed_of(plate);
         Some(promise.sampled(placed, plate, &turn.washing.q, speed_m_s))
     }

@@ -137,7 +137,7 @@ fn motion_home(plan: &Plan, start: &Start<'_>, way: Option<Way>, transit: &Trans
     let terms = recovery.terms(&plan.job, start.at, near);
     terms.validate().map_err(JobError::from)?;
     let parts = PlanParts {
-        provenance: Provenance::of(&format!("{}-home", plan.provenance.scenario)),
+        provenance: Provenance::new(&format!("{}-home", plan.provenance.scenario)),
         order: Vec::new(),
         wash_paths: Vec::new(),
         segments,

@@ -122,7 +122,7 @@ mod tests {
             let tip = robot.tool_frame(ToolFrame::Flange).unwrap();
             let model = TipModel::new(&robot, &tip);
             let path = JointPath::through(vec![0.0, 1.0], vec![q, q + step], Ends::NotAKnot).unwrap();
-            let grid = Grid::of(&path, Some(model)).unwrap();
+            let grid = Grid::new(&path, Some(model)).unwrap();
             let limits = MotionLimits {
                 velocity: JointVector::repeat(2.0),
                 acceleration: JointVector::repeat(30.0),

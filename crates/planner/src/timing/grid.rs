@@ -34,7 +34,7 @@ pub(crate) struct Grid<'a> {
 
 impl<'a> Grid<'a> {
     /// The samples of the path.
-    pub fn of(path: &'a JointPath, tip: Option<TipModel<'a>>) -> Result<Self, TimingError> {
+    pub fn new(path: &'a JointPath, tip: Option<TipModel<'a>>) -> Result<Self, TimingError> {
         let u = path.parameters();
         let mut grid = Self {
             path,

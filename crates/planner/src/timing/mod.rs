@@ -81,5 +81,5 @@ pub fn time_optimal_slowed(
         });
     }
     let tip = limits.tip.map(|_| TipModel::new(robot, tip));
-    Rounds::new(Grid::of(path, tip)?, limits, slow_stretches).run()
+    Rounds::new(Grid::new(path, tip)?, limits, slow_stretches).run()
 }

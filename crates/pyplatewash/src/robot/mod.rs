@@ -109,7 +109,7 @@ impl Robot {
                 frame.map_err(|e| exception::input(py, "frame", &e.to_string()))
             }
             (None, Some(tool)) => {
-                let tool = ToolFields::of(tool)?.on(py, &self.model)?;
+                let tool = ToolFields::read(tool)?.on(py, &self.model)?;
                 Ok(tool.tip_frame(&self.model))
             }
             (Some(_), Some(_)) => Err(exception::input(

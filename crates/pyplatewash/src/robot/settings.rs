@@ -31,7 +31,7 @@ struct Fields {
 }
 
 impl Fields {
-    fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn read(value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let at = |field| (("settings", "an IkSettings"), value, ("settings", field));
         let number = |field| {
             let (whole, value, place) = at(field);
@@ -65,7 +65,7 @@ impl Fields {
 /// # Errors
 /// `InputTypeError` for what is no `IkSettings`, or a field of a wrong type; `InputError` for one out of its range.
 pub fn settings(value: &Bound<'_, PyAny>) -> PyResult<IkSettings> {
-    let settings = IkSettings::from(Fields::of(value)?);
+    let settings = IkSettings::from(Fields::read(value)?);
     settings.validate().map_err(|e| {
         let problem = format!("must be {}; found {}", e.expected, e.found);
         exception::input(value.py(), &format!("settings.{}", e.name), &problem)

@@ -56,7 +56,7 @@ impl Foam {
     /// Energy \[J/m²\] and pressure \[Pa\], its derivative, of a column compressed so far \[m\].
     #[inline]
     #[must_use]
-    pub fn of(&self, compression_m: f64) -> (f64, f64) {
+    pub fn energy_and_pressure(&self, compression_m: f64) -> (f64, f64) {
         if !self.is_pressed(compression_m) {
             return (0.0, 0.0);
         }

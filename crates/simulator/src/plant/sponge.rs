@@ -254,7 +254,7 @@ impl SpongeOnPlates {
             if share == 0.0 {
                 continue;
             }
-            let (energy, mut pressure) = self.foam.of(w);
+            let (energy, mut pressure) = self.foam.energy_and_pressure(w);
             let away = column.point - pose.tip;
             if let Some([speed, turning]) = twist {
                 let closing = -normal.dot(&(speed + turning.cross(&away))) / cosine;

@@ -81,7 +81,7 @@ pub(crate) enum Seal {
 }
 
 impl Seal {
-    pub(crate) fn of(plan: &Plan) -> Self {
+    pub(crate) fn from_plan(plan: &Plan) -> Self {
         if plan.is_sealed() { Self::Whole } else { Self::Broken }
     }
 }
@@ -135,7 +135,7 @@ impl SimulationReport {
         settings: &SimulationSettings,
         execution: &Execution,
     ) -> Result<Self, SimulationError> {
-        Self::judge(plan, robot, settings, execution, Seal::of(plan))
+        Self::judge(plan, robot, settings, execution, Seal::from_plan(plan))
     }
 
     /// Report of a plan with the given state of its hash.
@@ -190,7 +190,7 @@ impl SimulationReport {
             plates,
             tracking,
             segments: measures::by_segment(execution, &plan.segments, &tip_errors),
-            effort: Effort::of(execution),
+            effort: Effort::measure(execution),
             payload,
             assumptions: assumptions(plan, settings, robot.friction()),
         })

@@ -110,7 +110,7 @@ impl<'a> Subject<'a> {
         let mut track: Track = vec![Vec::new(); self.plan.segments.len()];
         for sample in execution.samples.iter().step_by(stride).chain(execution.samples.last()) {
             if let Some(way) = track.get_mut(sample.segment) {
-                way.push(tips.of(&sample.state.q, sample.t_s));
+                way.push(tips.tip(&sample.state.q, sample.t_s));
             }
         }
         self.followed = Some(checked(track)?);
