@@ -1,10 +1,8 @@
 //! Changes between two texts of a program, line by line; points by the lines that name them.
 
-use crate::compare::Step;
-use crate::compare::by_line;
-use crate::compare::rounding_s;
 use crate::program::ProgramFile;
 use crate::reading::{Reading, number_length};
+use crate::step::{Step, by_line, rounding_s};
 use platewash_workcell::words::{shortened, without_mark};
 use serde::Serialize;
 use similar::{Algorithm, DiffTag, capture_diff_slices};

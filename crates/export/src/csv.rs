@@ -4,12 +4,13 @@
 //! each row, so that the table itself shows the share of the plan's speed at which it runs.
 
 use crate::comment::wrapped;
-use crate::dialect::{Dialect, Points, ReadError};
+use crate::dialect::language::{Dialect, Points};
 use crate::program::{Place, Point, Program, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use platewash_kinematics::words::fixed;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_motion::csv::{MAX_ROWS, STATE};
+use platewash_motion_proof::ReadError;
 use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
 
 /// End of a table's name.

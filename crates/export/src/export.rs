@@ -1,8 +1,9 @@
 //! A certified plan becomes a program, which is read back and judged before it is handed over.
 
-use crate::dialect::{Dialect, ReadError, start_within_deg};
+use crate::dialect::language::Dialect;
+use crate::dialect::start_within::start_within_deg;
+use crate::joint_3::Joint3;
 use crate::judgement::{self, ProgramJudgement};
-use crate::maker_joints::Joint3;
 use crate::points::Source;
 use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
@@ -13,6 +14,7 @@ use platewash_certificate::{Certified, ProveError};
 use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_motion::plan::Plan;
+use platewash_motion_proof::ReadError;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::workcell::ArmId;
 

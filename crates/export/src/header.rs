@@ -1,12 +1,12 @@
 //! Head of a program: its kind, its plan, its proof, and the assumptions of the proof. One statement per entry.
 
-use crate::dialect::{Dialect, START_WITHIN, start_within_deg};
+use crate::dialect::language::Dialect;
+use crate::dialect::start_within::{START_WITHIN, start_within_deg};
 use crate::judgement::{Case, ProgramJudgement};
-use crate::maker_joints;
 use crate::points::Source;
 use crate::program::Point;
 use crate::settings::ExportSettings;
-use crate::tool_frame;
+use crate::{maker_joints, tool_frame};
 use nalgebra::{UnitQuaternion, Vector3};
 use platewash_certificate::{Certificate, Certified, Check, Requirement, Sense, Unit};
 use platewash_kinematics::tool_mount::ToolMount;
@@ -53,7 +53,7 @@ pub(crate) fn lines(
     let within_deg = start_within_deg(&plan.job).to_string();
     let assumed = dialect.assumptions().iter();
     lines.extend(assumed.map(|words| format!("- {}", words.replace(START_WITHIN, &within_deg))));
-    let joint_3 = maker_joints::assumption(dialect, source.arm, settings, points);
+    let joint_3 = maker_joints::assumption(dialect, source.arm, (settings.joint_3, settings.speed_share), points);
     lines.extend(joint_3.map(|words| format!("- {words}")));
     let rests_on = &certified.certificate().rests_on.assumptions;
     lines.extend(rests_on.iter().map(|words| format!("- {words}")));

@@ -9,62 +9,12 @@
 //! in its own joints moves evenly in the description's. Points, corners and speeds are therefore chosen and judged in the description's joints,
 //! and a program alone has the maker's. Sizes do not carry over: if axes 2 and 3 of the maker are off by d each, joint 3 is off by up to 2 d.
 
-use crate::dialect::Dialect;
+use crate::dialect::language::Dialect;
+use crate::joint_3::Joint3;
 use crate::program::Point;
 use crate::refusal::Refusal;
-use crate::settings::ExportSettings;
+use platewash_kinematics::RobotModel;
 use platewash_kinematics::words::{decimals_up, fixed};
-use platewash_kinematics::{JointVector, RobotModel};
-
-/// Count of axis 3 by a controller.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Joint3 {
-    /// On its own: the description's joint 3.
-    #[default]
-    Independent,
-    /// Together with axis 2: the sum of the description's joints 2 and 3.
-    WithJoint2,
-}
-
-impl Joint3 {
-    /// Both, in the order in which messages name them.
-    pub const ALL: [Self; 2] = [Self::WithJoint2, Self::Independent];
-
-    /// The word for it in settings and on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Independent => "independent",
-            Self::WithJoint2 => "with-joint-2",
-        }
-    }
-
-    /// The count of that name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|count| count.name() == name)
-    }
-
-    /// Turns positions or speeds of the description's joints into those of the maker's, in any unit of angle.
-    #[must_use]
-    pub fn convert(self, description: &JointVector) -> JointVector {
-        self.shifted(description, 1.0)
-    }
-
-    /// Turns positions or speeds of the maker's joints into those of the description's, in any unit of angle.
-    #[must_use]
-    pub fn convert_back(self, maker: &JointVector) -> JointVector {
-        self.shifted(maker, -1.0)
-    }
-
-    fn shifted(self, joints: &JointVector, sign: f64) -> JointVector {
-        let mut joints = *joints;
-        if self == Self::WithJoint2 {
-            joints[2] += sign * joints[1];
-        }
-        joints
-    }
-}
 
 /// An arm of ABB of which the count of axis 3 is publicly known, or publicly doubtful.
 #[derive(Debug)]
@@ -160,15 +110,15 @@ pub(crate) fn check(dialect: &dyn Dialect, arm: &RobotModel, stated: Option<Join
 pub(crate) fn assumption(
     dialect: &dyn Dialect,
     arm: &RobotModel,
-    settings: &ExportSettings,
+    (joint_3, speed_share): (Option<Joint3>, f64),
     points: &[Point],
 ) -> Option<String> {
     let listed = listed(arm.name());
-    match (dialect.has_maker_joints(), settings.joint_3) {
+    match (dialect.has_maker_joints(), joint_3) {
         (true, Some(Joint3::WithJoint2)) => {
             let against = listed.filter(|arm| arm.joint_3 == SERIAL);
             let against = against.map_or_else(String::new, |arm| format!(" Independent by {}.", arm.source));
-            Some(coupled(settings.speed_share, points) + &against)
+            Some(coupled(speed_share, points) + &against)
         }
         (true, None) if listed.is_some() => None,
         (true, _) => Some("rax_3 is counted on its own, as the description's joint 3.".to_owned()),
@@ -208,7 +158,6 @@ fn coupled(speed_share: f64, points: &[Point]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
 
     #[test]
     fn arms_are_known_by_any_spelling_of_their_name() {
@@ -255,24 +204,6 @@ mod tests {
                 listed(&format!("abb_irb{}", arm.model)).map(|found| found.model),
                 Some(arm.model)
             );
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn converted_joints_come_back_and_lines_stay_lines(
-            a in proptest::array::uniform6(-6.0..6.0_f64),
-            b in proptest::array::uniform6(-6.0..6.0_f64),
-            part in 0.0..1.0_f64,
-        ) {
-            let [a, b] = [a, b].map(JointVector::from);
-            for count in Joint3::ALL {
-                prop_assert!((count.convert_back(&count.convert(&a)) - a).amax() < 1e-14);
-                let between = count.convert(&a).lerp(&count.convert(&b), part);
-                prop_assert!((between - count.convert(&a.lerp(&b, part))).amax() < 1e-14);
-                prop_assert_eq!(Joint3::named(count.name()), Some(count));
-            }
-            prop_assert_eq!(Joint3::WithJoint2.convert(&a)[2], a[2] + a[1]);
         }
     }
 }

@@ -5,7 +5,7 @@
 //! √(‖J q̈‖ / 8 tol). The resulting deviation is measured on the interpreted motion, corners and all, and points are packed more
 //! closely where it is too large.
 
-use crate::dialect::Points;
+use crate::dialect::language::Points;
 use crate::judgement::{TimedPoint, rounded_motions};
 use crate::program::Point;
 use crate::refusal::Refusal;

@@ -1,8 +1,6 @@
 //! A program in no dialect, as it is handed over; text files of a program, and places in them.
 
-use crate::dialect::Dialect;
-use crate::maker_joints::Joint3;
-use crate::rapid::{Rapid, text_of_latin_1};
+use crate::joint_3::Joint3;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::Plan;
 pub use platewash_motion_proof::Place;
@@ -94,30 +92,6 @@ impl ProgramFile {
                     1,
                     format!("expected a file whose name ends in {ending}"),
                 ))
-            }
-        }
-    }
-
-    /// Makes a file of its bytes: UTF-8, or for a module of RAPID also ISO 8859-1.
-    ///
-    /// # Errors
-    /// [`ReadError`] with the first line that is not UTF-8.
-    pub fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, ReadError> {
-        let file = |text| Self {
-            name: name.to_owned(),
-            text,
-        };
-        match String::from_utf8(bytes) {
-            Ok(text) => Ok(file(text)),
-            Err(error) => {
-                let (position, bytes) = (error.utf8_error().valid_up_to(), error.into_bytes());
-                let module = file(text_of_latin_1(&bytes));
-                if Rapid.is_in(&module) {
-                    return Ok(module);
-                }
-                let line = 1 + bytes.iter().take(position).filter(|byte| **byte == b'\n').count();
-                let reason = format!("not UTF-8 text (byte {position} of the file); save it in UTF-8");
-                Err(ReadError::at(name, line, reason))
             }
         }
     }

@@ -3,10 +3,10 @@
 //! Text of a program as words, numbers, texts and signs. RAPID and URScript share it.
 
 use crate::controller_settings::ReadSetting;
-use crate::dialect::ReadError;
 use crate::program::{Place, ProgramFile};
 use nalgebra::UnitQuaternion;
 use platewash_kinematics::{JointVector, Pose};
+use platewash_motion_proof::ReadError;
 use platewash_workcell::words::shortened;
 
 /// Motion of a program, as read from its text.

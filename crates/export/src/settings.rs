@@ -1,7 +1,8 @@
 //! How a plan is handed over, and these settings as lines of a program's head, so that it can be made again and compared.
 
-use crate::dialect::Dialect;
-use crate::maker_joints::{self, Joint3};
+use crate::dialect::language::Dialect;
+use crate::joint_3::Joint3;
+use crate::maker_joints;
 use crate::program::ProgramFile;
 use crate::refusal::Refusal;
 use platewash_certificate::Requirement;

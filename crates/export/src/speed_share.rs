@@ -1,6 +1,6 @@
 //! Share of the plan's speed that follows from a program's times, where it states none.
 
-use crate::dialect::Points;
+use crate::dialect::language::Points;
 use crate::reading::Reading;
 use platewash_motion::plan::Plan;
 

@@ -4,7 +4,7 @@ use platewash_certificate::{Certified, certify};
 use platewash_export::dialect::{Dialect, by_name};
 use platewash_export::program::{Point, Program, ProgramFile};
 use platewash_export::reading::{Reading, SegmentShape};
-use platewash_export::ros2::write::LEAD_IN_S;
+use platewash_export::ros2::times::LEAD_IN_S;
 use platewash_export::{ExportSettings, Joint3, ProgramComparison, compare, export};
 use platewash_fixtures as fixtures;
 use platewash_kinematics::RobotModel;

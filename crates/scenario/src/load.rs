@@ -3,9 +3,10 @@
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::keys::line::{byte_of, line_at};
 use crate::keys::listed::{Misfit, check_list, check_value};
+use crate::keys::stated::first_stated;
+use crate::keys::table::{KEYS, LISTS};
 use crate::keys::unknown::unknown;
 use crate::keys::value::describe;
-use crate::keys::{KEYS, LISTS, first_stated};
 use crate::resolve::surroundings::in_folder;
 use crate::scenario::{Scenario, check_seed};
 use crate::sections::motion::Program;

@@ -487,7 +487,11 @@ mod tests {
             &MIN_DISTANCE,
         ];
         for grid in all {
-            assert!(crate::keys::KEYS.iter().any(|key| key.path == grid.key), "{}", grid.key);
+            assert!(
+                crate::keys::table::KEYS.iter().any(|key| key.path == grid.key),
+                "{}",
+                grid.key
+            );
             let mut scenario = Scenario::load("kitchen").unwrap();
             (grid.set)(&mut scenario, 0.125);
             assert_eq!((grid.get)(&scenario), Some(0.125), "{}", grid.key);

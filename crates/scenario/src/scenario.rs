@@ -104,6 +104,32 @@ impl Scenario {
         let of_plates = self.plate_paths().into_iter().chain(read);
         of_arm.chain(meshes).chain(of_plates).map(PathBuf::as_path)
     }
+
+    /// The files of plates and soils that the text names.
+    pub(crate) fn plate_paths(&self) -> Vec<&PathBuf> {
+        let layout = &self.layout;
+        let of_layout = [
+            &layout.plate_mesh,
+            &layout.plate_points,
+            &layout.plate_file,
+            &self.wash.soil_file,
+        ];
+        let of_sections = self.plate.iter().flat_map(|row| [&row.mesh, &row.points]);
+        of_layout.into_iter().chain(of_sections).flatten().collect()
+    }
+
+    /// Same as [`Self::plate_paths`], to change them.
+    pub(crate) fn plate_paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let layout = &mut self.layout;
+        let of_layout = [
+            &mut layout.plate_mesh,
+            &mut layout.plate_points,
+            &mut layout.plate_file,
+            &mut self.wash.soil_file,
+        ];
+        let of_sections = self.plate.iter_mut().flat_map(|row| [&mut row.mesh, &mut row.points]);
+        of_layout.into_iter().chain(of_sections).flatten()
+    }
 }
 
 /// Refuses a seed above [`MAX_SEED`], by the name of the key that states it.

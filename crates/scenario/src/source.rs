@@ -1,7 +1,7 @@
 //! The text of a scenario: of a file, or of one that comes with the program.
 
 use crate::error::{Problem, ScenarioError};
-use crate::keys::unknown::nearest;
+use crate::keys::likeness::nearest;
 use platewash_kinematics::urdf::file::{self, FileError};
 use platewash_scenarios::SHIPPED;
 use std::path::{Path, PathBuf};

@@ -2,12 +2,12 @@
 //!
 //! Values of a motion: joint targets, zones and tools.
 
-use crate::dialect::ReadError;
 use crate::program::{Place, ProgramFile};
-use crate::rapid::is_taken;
+use crate::rapid::names::is_taken;
 use crate::reading::{self, Line, ReadTool, Token};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash_kinematics::{JointVector, Pose};
+use platewash_motion_proof::ReadError;
 use std::collections::HashMap;
 use std::fmt;
 

@@ -8,14 +8,16 @@
 //! Numbers are IEEE singles, as on the controller. Joints are the maker's in the text, and the description's in the reading.
 
 use crate::controller_settings::{Accepted, SettingList};
-use crate::dialect::{ReadError, START_WITHIN_DEG};
-use crate::maker_joints::Joint3;
+use crate::dialect::start_within::START_WITHIN_DEG;
+use crate::joint_3::Joint3;
 use crate::program::{Place, ProgramFile};
+use crate::rapid::names;
 use crate::rapid::parse::{self, Cursor, Data, Modules, PlacedToken, Procedure, Value, modules};
-use crate::rapid::write::{MOST, RUNNING, SHARE, checks};
-use crate::rapid::{self};
+use crate::rapid::write::checks;
+use crate::rapid::write::names::{MOST, RUNNING, SHARE};
 use crate::reading::{MOST_LINES, ReadPoint, ReadTool, Reading, SegmentShape, Token};
 use platewash_kinematics::JointVector;
+use platewash_motion_proof::ReadError;
 use std::collections::HashMap;
 
 /// The checks before the first motion, in small letters.
@@ -285,7 +287,7 @@ impl Modules {
     /// Speed data, in words.
     fn speed(&self, cursor: &mut Cursor<'_>) -> Result<String, ReadError> {
         if let Some(Token::Word(name)) = cursor.peek()
-            && rapid::is_speed(&name.to_ascii_lowercase())
+            && names::is_speed(&name.to_ascii_lowercase())
         {
             cursor.next("a speed")?;
             return Ok(name.to_ascii_lowercase());
@@ -304,7 +306,7 @@ impl Modules {
             return Ok((None, "fine".to_owned()));
         }
         if let Some(Token::Word(name)) = cursor.peek()
-            && let Some(mm) = rapid::zone_mm(&name.to_ascii_lowercase())
+            && let Some(mm) = names::zone_mm(&name.to_ascii_lowercase())
         {
             cursor.next("a zone")?;
             return Ok((Some(f64::from(mm) / 1e3), name.to_ascii_lowercase()));

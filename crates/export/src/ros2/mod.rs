@@ -1,24 +1,29 @@
 //! ROS 2: a plan as messages for joint_trajectory_controller, and a player that sends them.
 //!
 //! Positions and speeds at every knot and nothing else: between two points the controller draws the cubic that has both, which is the
-//! plan's own. The first point is [`write::LEAD_IN_S`] after the goal is taken, so that the arm is led to it and does not jump.
+//! plan's own. The first point is [`times::LEAD_IN_S`] after the goal is taken, so that the arm is led to it and does not jump.
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | contents of a message | here |
-//! | messages as YAML and JSON; times in them; the script that sends a goal | `write`, `play.py` |
+//! | contents of a message; times in it | `message`, `times` |
+//! | messages as YAML and JSON; the script that sends a goal | `write`, `play.py` |
 //! | numbers as they are written | `number` |
 //! | a message, as a tree of values, as a reading | `read`, `platewash_motion_proof::message` |
 
+mod message;
 pub(crate) mod number;
 pub(crate) mod read;
-pub mod write;
+pub mod times;
+pub(crate) mod write;
 
-use crate::dialect::{Dialect, Points, ReadError, start_within_deg};
+use crate::dialect::language::{Dialect, Points};
+use crate::dialect::start_within::start_within_deg;
 use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
-use platewash_kinematics::{AXES, JointVector, RobotModel};
-use platewash_motion_proof::message::{Language, NS_PER_S};
+use crate::ros2::message::{GOAL_RAD, Message};
+use platewash_kinematics::{AXES, RobotModel};
+use platewash_motion_proof::ReadError;
+use platewash_motion_proof::message::Language;
 
 /// The file that holds the `trajectory_msgs/JointTrajectory` as JSON.
 pub const TRAJECTORY_JSON: &str = "joint_trajectory.json";
@@ -103,7 +108,7 @@ impl Dialect for Ros2 {
 
 /// Notes at the head of a message, besides those of every program.
 fn message_notes(program: &Program<'_>) -> Vec<String> {
-    let lead_in_s = write::LEAD_IN_S;
+    let lead_in_s = times::LEAD_IN_S;
     vec![
         "trajectory_msgs/JointTrajectory: positions in rad, velocities in rad/s; no accelerations, no effort."
             .to_owned(),
@@ -136,69 +141,10 @@ fn goal_notes(message: &Message) -> Vec<String> {
     ]
 }
 
-/// Delay of a joint beyond which the controller aborts \[s\].
-const LATE_S: f64 = 0.05;
-
-/// Least tolerance of the path \[rad\].
-const LEAST_PATH_RAD: f64 = 0.02;
-
-/// Tolerance of the goal \[rad\].
-pub(crate) const GOAL_RAD: f64 = 0.01;
-
-/// Delay beyond the planned end at which the goal may still be reached \[ns\].
-pub(crate) const GOAL_TIME_NS: i64 = NS_PER_S;
-
-/// Tolerances are whole multiples of one radian by this.
-const STEPS_PER_RAD: f64 = 1000.0;
-
-/// A point of a trajectory.
-#[derive(Debug)]
-pub(crate) struct MessagePoint {
-    pub(crate) q_rad: JointVector,
-    pub(crate) qd_rad_s: JointVector,
-    /// Time from the start of the message \[ns\].
-    pub(crate) time_ns: i64,
-}
-
-/// A trajectory with its tolerances.
-#[derive(Debug)]
-pub(crate) struct Message {
-    pub(crate) joint_names: Vec<String>,
-    pub(crate) points: Vec<MessagePoint>,
-    /// Tolerance of the path, joint by joint \[rad\].
-    pub(crate) path_rad: [f64; AXES],
-}
-
-impl Message {
-    /// Message of a program.
-    pub(crate) fn of(program: &Program<'_>) -> Self {
-        let share = program.speed_share;
-        let times = write::nanoseconds(program.points.iter().map(|point| point.t_s / share));
-        let points = program.points.iter().zip(times).map(|(point, time_ns)| MessagePoint {
-            q_rad: point.q_rad,
-            qd_rad_s: point.qd_rad_s * share,
-            time_ns,
-        });
-        let points: Vec<_> = points.collect();
-        let speeds = program.points.iter().map(|point| point.qd_rad_s.abs());
-        let fastest = speeds.fold(JointVector::zeros(), |fastest, speeds| fastest.sup(&speeds)) * share;
-        Self {
-            joint_names: program.arm.joints().iter().map(|joint| joint.name.clone()).collect(),
-            points,
-            path_rad: <[f64; AXES]>::from(fastest).map(path_tolerance_rad),
-        }
-    }
-}
-
-/// The tolerance of the path for a joint of that greatest speed \[rad\].
-fn path_tolerance_rad(speed_rad_s: f64) -> f64 {
-    let late = (LATE_S * speed_rad_s).max(LEAST_PATH_RAD);
-    (late * STEPS_PER_RAD).ceil() / STEPS_PER_RAD
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+
+    use crate::ros2::message::path_tolerance_rad;
 
     #[test]
     fn the_tolerance_of_the_path_is_that_of_a_late_joint() {

@@ -5,11 +5,12 @@
 //! not read.
 
 use crate::controller_settings::{Accepted, SettingList};
-use crate::dialect::ReadError;
 use crate::program::{Place, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
-use crate::ros2::write::{self, LEAD_IN_NS, LEAD_IN_S, seconds_between};
+use crate::ros2::times::{LEAD_IN_NS, LEAD_IN_S, seconds_between};
+use crate::ros2::write;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
+use platewash_motion_proof::ReadError;
 use platewash_motion_proof::message::number;
 use platewash_motion_proof::message::{
     Fault, Fields, Kind, NS_PER_S, Node, ParsedNumber, again, document, entries, list, parse_number, text,

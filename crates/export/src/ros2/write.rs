@@ -1,13 +1,11 @@
 //! The messages as YAML and JSON, a point a line.
 //!
 //! The script that sends a goal: always the same, it says nothing of a plan.
-//!
-//! Times in messages: whole nanoseconds after the lead-in, strictly increasing.
 
-use crate::dialect::START_WITHIN_DEG;
+use crate::dialect::start_within::START_WITHIN_DEG;
 use crate::program::{Program, ProgramFile};
+use crate::ros2::message::{GOAL_RAD, GOAL_TIME_NS, Message, MessagePoint};
 use crate::ros2::number::{float, quoted};
-use crate::ros2::{GOAL_RAD, GOAL_TIME_NS, Message, MessagePoint};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_motion_proof::message::{Fault, Language, NS_PER_S};
 use platewash_workcell::words::printable;
@@ -171,32 +169,10 @@ pub(crate) fn check(file: &ProgramFile) -> Result<f64, Fault> {
     Fault::err(line, reason)
 }
 
-/// Time at which the first point is reached, where the plan begins \[s\]. A controller moves there from the arm's current
-/// position: a first point at 0 s would be a step.
-pub const LEAD_IN_S: f64 = 0.5;
-
-/// The same time \[ns\].
-pub(crate) const LEAD_IN_NS: i64 = NS_PER_S / 2;
-
-/// Times of a program \[s\] as times of its messages \[ns\]: rounded, and a nanosecond later where that would not be after the one before.
-pub(crate) fn nanoseconds(times_s: impl Iterator<Item = f64>) -> Vec<i64> {
-    let mut all: Vec<i64> = Vec::new();
-    for t_s in times_s {
-        let rounded = LEAD_IN_NS.saturating_add((t_s * NS_PER_S as f64).round() as i64);
-        let next = all.last().map_or(i64::MIN, |last| last.saturating_add(1));
-        all.push(rounded.max(next));
-    }
-    all
-}
-
-/// Time between two of them \[s\].
-pub(crate) fn seconds_between(from_ns: i128, to_ns: i128) -> f64 {
-    (to_ns - from_ns) as f64 / NS_PER_S as f64
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ros2::times::{LEAD_IN_NS, LEAD_IN_S, nanoseconds, seconds_between};
     use proptest::prelude::*;
 
     #[test]

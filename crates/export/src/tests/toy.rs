@@ -1,11 +1,12 @@
 //! The plainest of dialects: a line a point, with its time, its joints in radians and whether the arm stops.
 
 use crate::comment::wrapped;
-use crate::dialect::{Dialect, Points, ReadError};
+use crate::dialect::language::{Dialect, Points};
 use crate::program::{Place, Program, ProgramFile};
 use crate::reading::{ReadPoint, Reading, SegmentShape};
 use crate::refusal::Refusal;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_motion_proof::ReadError;
 use platewash_workcell::job::JobTerms;
 
 #[derive(Debug)]

@@ -14,12 +14,13 @@ mod controller;
 mod read;
 mod write;
 
-use crate::dialect::{Dialect, Points, ReadError};
+use crate::dialect::language::{Dialect, Points};
 use crate::program::{Program, ProgramFile};
 use crate::reading::Reading;
 use crate::refusal::Refusal;
 use crate::tool_frame;
 use platewash_kinematics::RobotModel;
+use platewash_motion_proof::ReadError;
 use platewash_workcell::job::JobTerms;
 
 /// Time between two points \[s\]: a control cycle of the CB3 series, four of the e-Series.

@@ -4,11 +4,12 @@
 //! comments. The check of the start is read as it is written. Everything else is refused with its line: loops, other conditions,
 //! threads, functions with parameters, and computed values.
 
-use crate::dialect::{ReadError, START_WITHIN_DEG};
+use crate::dialect::start_within::START_WITHIN_DEG;
 use crate::program::{Place, ProgramFile};
 use crate::reading::{self, Line, MOST_LINES, Reading, Token};
 use crate::urscript::controller::{Controller, Value};
 use platewash_kinematics::{AXES, JointVector};
+use platewash_motion_proof::ReadError;
 use std::collections::BTreeMap;
 
 /// Largest excess of the limit of the check over [`START_WITHIN_DEG`], for its digits.

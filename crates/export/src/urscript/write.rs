@@ -4,7 +4,7 @@
 //! `def` to its `end`. A stretch of the plan is a function of its own.
 
 use crate::comment::wrapped;
-use crate::dialect::start_within_deg;
+use crate::dialect::start_within::start_within_deg;
 use crate::program::Program;
 use platewash_kinematics::rotation::{RigidTransform, rotation_vector};
 use platewash_kinematics::words::fixed;

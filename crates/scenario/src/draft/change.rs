@@ -1,14 +1,16 @@
 //! Change of a text where a key gets a value, or loses it.
 
-use crate::draft::{EditError, Target, elements};
-use crate::keys::KEYS;
+use crate::draft::edit_error::EditError;
+use crate::draft::elements::merge;
+use crate::draft::stop::Stop;
+use crate::draft::target::Target;
+use crate::draft::value::{json, parsed, replace_value, same, text_of};
 use crate::keys::key::Domain;
 use crate::keys::line::line_at;
-use crate::keys::toml_text::{in_style_of, on_one_line, on_rows};
-use crate::keys::value::json_of;
+use crate::keys::table::KEYS;
+use crate::keys::toml_text::{on_one_line, on_rows};
 use serde_json::Value as Json;
-use toml::de::DeValue;
-use toml_edit::{Document, DocumentMut, InlineTable, Item, Key, KeyMut, RawString, Table, Value};
+use toml_edit::{Document, DocumentMut, InlineTable, Item, Key, KeyMut, Table, Value};
 
 /// The mark of the encoding that a text may begin with.
 const MARK: char = '\u{feff}';
@@ -18,18 +20,6 @@ const MOST_ON_A_LINE: usize = 4;
 
 /// Longest part of a line that is quoted in a message.
 const LONGEST: usize = 40;
-
-/// Reason that a text is not changed.
-pub(crate) enum Stop {
-    /// The value is there already.
-    Same,
-    /// Something else stands where the key would go.
-    Blocked,
-    /// A list has no such section.
-    NoRow(&'static str),
-    /// Something else would be changed, too.
-    Unplaced,
-}
 
 /// The text in which a key has a value, or none; `None` where it is the same text.
 pub(crate) fn changed(text: &str, target: &Target, value: Option<&Json>) -> Result<Option<String>, EditError> {
@@ -347,10 +337,6 @@ fn tables_of(table: &mut Table) -> Vec<&mut Table> {
     all
 }
 
-pub(crate) fn text_of(raw: Option<&RawString>) -> String {
-    raw.and_then(RawString::as_str).unwrap_or_default().to_owned()
-}
-
 /// A value on its own, at a key that had none.
 fn fresh(value: &Json, domain: Domain) -> Result<Value, Stop> {
     match (domain, value) {
@@ -381,51 +367,6 @@ fn replace(old: &mut Value, value: &Json, domain: Domain) -> Result<(), Stop> {
         false => merge(old, value)?,
     }
     Ok(())
-}
-
-/// Puts a value in the place of another, element by element where both are lists.
-pub(crate) fn merge(old: &mut Value, value: &Json) -> Result<(), Stop> {
-    if let (Value::Array(old), Json::Array(new)) = (&mut *old, value) {
-        return elements::merge(old, new);
-    }
-    let new = parsed(&in_style_of(&bare_text(old), value))?;
-    replace_value(old, new);
-    Ok(())
-}
-
-/// Puts a value in the place of another, whose decoration stays.
-fn replace_value(old: &mut Value, mut new: Value) {
-    *new.decor_mut() = old.decor().clone();
-    *old = new;
-}
-
-pub(crate) fn parsed(text: &str) -> Result<Value, Stop> {
-    text.parse().map_err(|_| Stop::Unplaced)
-}
-
-/// A value's text without the text around it.
-fn bare_text(value: &Value) -> String {
-    let mut bare = value.clone();
-    bare.decor_mut().clear();
-    bare.to_string()
-}
-
-pub(crate) fn json(value: &Value) -> Json {
-    DeValue::parse(&bare_text(value)).map_or(Json::Null, |value| json_of(value.get_ref()))
-}
-
-/// Compares two values as readers of the file see them: numbers to the bit, and a whole number with a point equals the one
-/// without.
-pub(crate) fn same(a: &Json, b: &Json) -> bool {
-    match (a, b) {
-        (Json::Number(a), Json::Number(b)) => a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits),
-        (Json::Object(a), Json::Object(b)) => {
-            a.len() == b.len() && a.iter().all(|(name, a)| b.get(name).is_some_and(|b| same(a, b)))
-        }
-        (Json::Array(a), Json::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
-        (Json::Null, _) | (_, Json::Null) => false,
-        _ => a == b,
-    }
 }
 
 /// Error of a key whose place is taken: it names the last thing on the way to it that is there.

@@ -1,14 +1,15 @@
-//! Elements of lists that change, come and go; the other elements keep their layout and their comments.
+//! A value in the place of another: elements of lists change, come and go, and the other elements keep their layout and their comments.
 //!
 //! `toml_edit` keeps the text between two elements, also a comment behind the comma, before the second one.
 
-use crate::draft::change::{Stop, json, merge as merge_value, parsed, same, text_of};
-use crate::keys::toml_text::on_one_line;
+use crate::draft::stop::Stop;
+use crate::draft::value::{bare_text, json, parsed, replace_value, same, text_of};
+use crate::keys::toml_text::{in_style_of, on_one_line};
 use serde_json::Value as Json;
-use toml_edit::Array;
+use toml_edit::{Array, Value};
 
 /// Puts elements in the place of others: those at the beginning and at the end that are the same stay.
-pub(crate) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
+pub(crate) fn merge_elements(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
     let was: Vec<Json> = old.iter().map(json).collect();
     let most = was.len().min(new.len());
     let before = was.iter().zip(new).take_while(|(a, b)| same(a, b)).count();
@@ -17,7 +18,7 @@ pub(crate) fn merge(old: &mut Array, new: &[Json]) -> Result<(), Stop> {
     let both = most - behind;
     for at in before..both {
         if let Some(element) = old.get_mut(at).filter(|_| !same(&was[at], &new[at])) {
-            merge_value(element, &new[at])?;
+            merge(element, &new[at])?;
         }
     }
     for at in (both..was.len() - behind).rev() {
@@ -89,5 +90,15 @@ fn insert(array: &mut Array, at: usize, value: &Json) -> Result<(), Stop> {
     }
     array.insert_formatted(at, element);
     set_gap(array, at + 1, next);
+    Ok(())
+}
+
+/// Puts a value in the place of another, element by element where both are lists.
+pub(crate) fn merge(old: &mut Value, value: &Json) -> Result<(), Stop> {
+    if let (Value::Array(old), Json::Array(new)) = (&mut *old, value) {
+        return merge_elements(old, new);
+    }
+    let new = parsed(&in_style_of(&bare_text(old), value))?;
+    replace_value(old, new);
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! The reference of scenario keys (`docs/scenario.md`), made from the table and the types' defaults.
 
 use crate::keys::key::Key;
+use crate::keys::table::{KEYS, LISTS};
 use crate::keys::toml_text::on_one_line;
 use crate::keys::value::values_of;
-use crate::keys::{KEYS, LISTS};
 use crate::scenario::Scenario;
 use std::fmt::Write;
 
@@ -103,7 +103,7 @@ mod tests {
             let mut keys: Vec<_> = list
                 .keys
                 .iter()
-                .map(|key| crate::keys::own_name(key).to_owned())
+                .map(|key| crate::keys::key::own_name(key).to_owned())
                 .collect();
             leaves.sort();
             keys.sort();

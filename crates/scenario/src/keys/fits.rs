@@ -2,7 +2,7 @@
 
 use crate::error::Problem;
 use crate::keys::key::{Domain, Key};
-use crate::keys::unknown::nearest;
+use crate::keys::likeness::nearest;
 use platewash_kinematics::words::{is_hidden, rounded};
 use platewash_workcell::surface::MOST_KNOTS;
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! The table of keys as data, for programs that draw a form of it.
 
-use crate::keys::KEYS;
 use crate::keys::key::Domain;
+use crate::keys::table::KEYS;
 use crate::keys::value::values_of;
 use crate::scenario::Scenario;
 use serde::Serialize;

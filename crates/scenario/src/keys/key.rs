@@ -118,3 +118,8 @@ impl Domain {
         }
     }
 }
+
+/// The name of a key within its section.
+pub(crate) fn own_name(key: &Key) -> &'static str {
+    key.path.rsplit('.').next().unwrap_or(key.path)
+}

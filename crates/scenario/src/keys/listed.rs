@@ -2,9 +2,10 @@
 
 use crate::error::Problem;
 use crate::keys::fits::check;
+use crate::keys::key::{Key, own_name};
+use crate::keys::table::List;
 use crate::keys::unknown::hint;
 use crate::keys::value::{describe, json_of};
-use crate::keys::{Key, List, own_name};
 use platewash_workcell::words::printable;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

@@ -1,7 +1,8 @@
 //! Keys that do not exist, and the word that was probably intended.
 
 use crate::error::Problem;
-use crate::keys::{KEYS, LISTS};
+use crate::keys::likeness::nearest;
+use crate::keys::table::{KEYS, LISTS};
 use platewash_workcell::words::printable;
 use std::collections::BTreeSet;
 
@@ -32,18 +33,6 @@ pub(crate) fn unknown(key: &str) -> Problem {
     };
     let key = printable(key);
     Problem::UnknownKey { key, hint }
-}
-
-/// Less like any word than this, nothing is suggested.
-const LEAST_LIKENESS: f64 = 0.6;
-
-/// Returns the most similar one of the known words, where it is similar enough.
-pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let ranked = known.map(|other| (strsim::normalized_damerau_levenshtein(other, word), other));
-    let nearest = ranked.max_by(|a, b| a.0.total_cmp(&b.0));
-    nearest
-        .filter(|(likeness, _)| *likeness > LEAST_LIKENESS)
-        .map(|(_, other)| other)
 }
 
 /// Hint on a name that does not exist among `known`, which `in_full` writes out. It names the radius for a diameter, otherwise

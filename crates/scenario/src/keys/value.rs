@@ -1,6 +1,6 @@
 //! A value of a file or of an edit: as JSON, in words.
 
-use crate::keys::KEYS;
+use crate::keys::table::KEYS;
 use crate::scenario::Scenario;
 use platewash_workcell::words::quoted;
 use serde_json::{Number, Value};

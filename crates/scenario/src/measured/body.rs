@@ -3,7 +3,7 @@
 //! A facet is level along a line, and the profile is bent: with the greatest second derivative M of its height, over the facet's longest edge
 //! L, seen along the axis, the difference is at most M L²/6 more than at the corners. Facets are halved until that is small, and it is added.
 
-use crate::measured::NOISE_M;
+use crate::measured::bounds::NOISE_M;
 use nalgebra::Vector3;
 use platewash_workcell::plate::{Foot, LEAST_PLATE_M};
 use platewash_workcell::surface::Surface;

@@ -1,6 +1,7 @@
 //! Errors of a measured plate, and places on it.
 
-use crate::measured::{FaceSide, LEAST_PLATE_M, MOST_DEVIATION_M, MOST_PLATE_M};
+use crate::measured::bounds::{LEAST_PLATE_M, MOST_DEVIATION_M, MOST_PLATE_M};
+use crate::measured::side::FaceSide;
 use platewash_workcell::words::millimetres;
 
 /// Place on a measured plate.

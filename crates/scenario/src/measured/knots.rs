@@ -4,8 +4,8 @@
 //! times the share of the knot in u. Knots are put in one by one, each at the place where it makes the sum of squares least, and all are moved
 //! then; as many stay as the Bayesian information criterion asks for.
 
-use crate::measured::NOISE_M;
 use crate::measured::algebra::cholesky;
+use crate::measured::bounds::NOISE_M;
 use platewash_kinematics::trig::{asin, ln};
 use platewash_workcell::surface::{Knot, MOST_KNOTS, Meridian, Surface};
 

@@ -2,9 +2,9 @@
 
 use crate::measured::algebra::Moments;
 use crate::measured::axis::{Cloud, Fitted, Frame};
+use crate::measured::bounds::is_coordinate;
 use crate::measured::error::MeasuredError;
 use crate::measured::face::{corners, height_at, outermost};
-use crate::measured::is_coordinate;
 use nalgebra::{Point3, Vector3};
 
 /// Cells along the longest side of the box around a mesh: corners in one cell are one vertex. They are odd in number, so that one lies in the

@@ -3,13 +3,15 @@
 use crate::measured::algebra::{Moments, median};
 use crate::measured::axis::{Cloud, Fitted, Frame};
 use crate::measured::body::{Extremes, Ruler};
+use crate::measured::bounds::{MOST_DEVIATION_M, is_coordinate};
+use crate::measured::error::{MeasuredError, Place};
 use crate::measured::face::{check_slope, outermost, relief};
+use crate::measured::file::File;
 use crate::measured::knots::{Profile, rings};
-use crate::measured::side::Side;
-use crate::measured::{
-    FIRST_KNOTS, FaceSide, File, MOST_DEVIATION_M, MeasuredError, MeasuredPlate, Place, Unit, is_coordinate,
-    out_of_round_m, smooth_enough, sparing,
-};
+use crate::measured::plate::{MeasuredPlate, out_of_round_m, smooth_enough};
+use crate::measured::profile_fit::{FIRST_KNOTS, sparing};
+use crate::measured::side::{FaceSide, Side};
+use crate::measured::unit::Unit;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_workcell::words::millimetres;
@@ -74,7 +76,7 @@ pub fn from_ball_centres(
 /// Returns the plate whose face was touched in points. Its rim is at the outermost one: touch the rim all round.
 ///
 /// # Errors
-/// [`MeasuredError`]: too few points, points that fix no axis or no profile, whose outermost ones are on no circle, or that deviate by more than [`MOST_DEVIATION_M`](crate::measured::MOST_DEVIATION_M).
+/// [`MeasuredError`]: too few points, points that fix no axis or no profile, whose outermost ones are on no circle, or that deviate by more than [`MOST_DEVIATION_M`].
 pub fn from_points(
     points: &[Point3<f64>],
     unit: Option<Unit>,

@@ -1,7 +1,7 @@
 //! Unit of a file, and points in text.
 
+use crate::measured::bounds::{LEAST_PLATE_M, MOST_PLATE_M};
 use crate::measured::error::MeasuredError;
-use crate::measured::{LEAST_PLATE_M, MOST_PLATE_M};
 use nalgebra::Point3;
 use platewash_workcell::number_table::{NumberTable, TableError, TableShape};
 use platewash_workcell::words::without_mark;

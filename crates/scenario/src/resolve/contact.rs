@@ -1,7 +1,7 @@
 //! Requirements of `[wash]` on the contact of sponge and plate, with their defaults, and keys of it that contradict each other.
 
 use crate::error::{Problem, conflict};
-use crate::keys::first_stated;
+use crate::keys::stated::first_stated;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::tool::ASSUMED_STIFFNESS_KPA;

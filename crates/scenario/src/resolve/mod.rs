@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | the arm; the tool on it | `arm`; `tool_on_arm` |
 //! | the link that a mount and touched places count from | `mount` |
-//! | places of the plates; plates and soils out of files | `placement`; `plate_files` |
+//! | places of the plates; plates and soils out of files | `placement`; `plate_files`, `read_plates` |
 //! | bodies around the arm; meshes as convex bodies | `surroundings`; `solids` |
 //! | requirements of contact and contact speed | `contact` |
 //! | keys with a narrower range in a certified job than in the paper's program | `certified` |
@@ -16,6 +16,7 @@ pub(crate) mod contact;
 pub(crate) mod mount;
 pub(crate) mod placement;
 pub(crate) mod plate_files;
+pub(crate) mod read_plates;
 pub(crate) mod solids;
 pub(crate) mod surroundings;
 pub(crate) mod tool_on_arm;

@@ -1,7 +1,7 @@
 //! The `[floor]` and `[table]` sections.
 
 use crate::error::{Problem, conflict};
-use crate::keys::first_stated;
+use crate::keys::stated::first_stated;
 use crate::sections::body_shape::pose;
 use platewash_keys::Section;
 use platewash_kinematics::Pose;

@@ -1,19 +1,18 @@
 //! A program in the words of RAPID: modules, each with its head as comments.
 //!
 //! Lines of a module: ASCII, line feeds, no blanks at the end.
-//!
-//! Names in a module: unique, no keywords, 32 characters at most.
 
 mod motion;
+pub(crate) mod names;
+mod number;
 mod start;
 
 use crate::comment::wrapped;
-use crate::dialect::start_within_deg;
-use crate::maker_joints::Joint3;
+use crate::dialect::start_within::start_within_deg;
+use crate::joint_3::Joint3;
 use crate::program::{Program, ProgramFile};
-use crate::rapid::is_taken;
 use crate::rapid::write::motion::{Routine, routines};
-use platewash_kinematics::words::fixed;
+use crate::rapid::write::names::{SHARE, file, module, module_part};
 
 /// Most targets of a module; more go to modules of their own.
 const MOST_TARGETS: usize = 4000;
@@ -93,80 +92,4 @@ fn head_of_part(files: &[String], part: usize) -> String {
     let (number, count) = (part + 1, files.len());
     let head = format!("Module {number} of {count}. It needs the others; {first} has main and says what this is.");
     wrapped("  !", [&*head])
-}
-
-/// A number with at most that many decimals, without zeros at its end.
-pub fn number(value: f64, decimals: usize) -> String {
-    let text = fixed(value, decimals);
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
-
-/// The share of the plan's speed that the program states.
-pub const SHARE: &str = "pwShare";
-
-/// The largest share of the speed that the program takes.
-pub const MOST: &str = "pwShareMost";
-
-/// The share of the speed of a run.
-pub const RUNNING: &str = "pwRunning";
-
-/// Prefix of all names that the program defines.
-pub const PREFIX: &str = "pw";
-
-/// Names of modules and data that controllers have already, and that of the routine that is started.
-const OF_THE_CONTROLLER: [&str; 8] = ["main", "user", "base", "reg1", "reg2", "reg3", "reg4", "reg5"];
-
-/// The name of the module with `main`.
-pub fn module(program: &str) -> String {
-    let lower = program.to_lowercase();
-    let is_the_controllers = OF_THE_CONTROLLER.contains(&lower.as_str());
-    if is_taken(program) || is_the_controllers || lower.starts_with(PREFIX) {
-        return format!("m_{program}");
-    }
-    program.to_owned()
-}
-
-/// The name of a further module.
-pub fn module_part(module: &str, part: usize) -> String {
-    format!("{module}_{part}")
-}
-
-/// The name of the file of a module, 0 the one with `main`.
-pub fn file(module: &str, part: usize) -> String {
-    match part {
-        0 => format!("{module}.mod"),
-        _ => format!("{}.mod", module_part(module, part)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rapid::write::motion::free_name;
-    use std::collections::HashSet;
-
-    #[test]
-    fn writes_numbers_without_trailing_zeros() {
-        let told = [150.0, 0.25, -1e-9, 1e-9, 100.0, 12.3456789].map(|value| number(value, 6));
-        assert_eq!(told, ["150", "0.25", "0", "0", "100", "12.345679"]);
-        assert_eq!(number(100.0, 0), "100");
-    }
-
-    #[test]
-    fn names_are_free_and_unique() {
-        let names = ["kitchen", "Task", "main", "pwTool", "Fine", "movel", "pose"].map(module);
-        assert_eq!(
-            names,
-            ["kitchen", "m_Task", "m_main", "m_pwTool", "m_Fine", "m_movel", "m_pose"]
-        );
-        let mut taken = HashSet::new();
-        let words = ["Wash", "Wash", "Return", "Motion"];
-        assert_eq!(
-            words.map(|word| free_name(&mut taken, word, 3)),
-            ["pwWash3", "pwWash3_2", "pwReturn3", "pwMotion3"]
-        );
-    }
 }

@@ -1,10 +1,10 @@
 //! The motion: a routine a segment, a line a target.
 
 use crate::comment::wrapped;
-use crate::maker_joints::Joint3;
+use crate::joint_3::Joint3;
 use crate::program::{Point, Program};
-use crate::rapid::write::{PREFIX, RUNNING};
-use crate::rapid::zone_named;
+use crate::rapid::names::zone_named;
+use crate::rapid::write::names::{RUNNING, free_name};
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::fixed;
 use platewash_motion::trajectory::{PlanSegment, SegmentKind};
@@ -100,18 +100,6 @@ fn words(segment: Option<&PlanSegment>) -> (&'static str, String) {
         SegmentKind::Transit => ("Transit", format!("To {plate}")),
         SegmentKind::Return => ("Return", format!("From {plate} to the end")),
     }
-}
-
-/// A name that no routine before has, after a kind of segment and the number of its plate, counted from 1.
-pub fn free_name(taken: &mut HashSet<String>, word: &str, number: usize) -> String {
-    let first = format!("{PREFIX}{word}{number}");
-    let mut name = first.clone();
-    let mut again = 1_u32;
-    while !taken.insert(name.clone()) {
-        again += 1;
-        name = format!("{first}_{again}");
-    }
-    name
 }
 
 /// Returns the line for a point. Where the arm is there already it waits.

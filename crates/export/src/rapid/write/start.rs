@@ -2,11 +2,11 @@
 //!
 //! The tool as RAPID states it: tip frame and load, in mm, kg and kg·m².
 
-use crate::dialect::{START_WITHIN, start_within_deg};
-use crate::maker_joints::Joint3;
+use crate::dialect::start_within::{START_WITHIN, start_within_deg};
+use crate::joint_3::Joint3;
 use crate::program::Program;
 use crate::rapid::write::motion::{OWN_ZONE, Routine, target, zone};
-use crate::rapid::write::number;
+use crate::rapid::write::number::number;
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 use platewash_workcell::tool::{Tool, ToolMass};
 

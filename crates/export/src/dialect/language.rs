@@ -1,13 +1,9 @@
-//! A dialect, a language of robot programs, and all of them. Another one is one file, one fixture and one line here.
+//! A language of robot programs: how it is recognised, written and read.
 
-use crate::csv::Csv;
 use crate::program::Program;
 use crate::program::ProgramFile;
-use crate::rapid::Rapid;
 use crate::reading::Reading;
 use crate::refusal::Refusal;
-use crate::ros2::Ros2;
-use crate::urscript::UrScript;
 use platewash_kinematics::RobotModel;
 pub use platewash_motion_proof::ReadError;
 use platewash_workcell::job::JobTerms;
@@ -24,11 +20,11 @@ pub trait Dialect: Debug + Sync {
     /// Choice of the plan's points that it is given.
     fn points(&self) -> Points;
 
-    /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry. [`START_WITHIN`] in one
-    /// stands for the largest distance from the start.
+    /// Assumptions about the controller, and points that nobody has tried on one; one sentence per entry.
+    /// [`START_WITHIN`](crate::dialect::START_WITHIN) in one stands for the largest distance from the start.
     fn assumptions(&self) -> &'static [&'static str];
 
-    /// Returns true where its programs state joints as the arm's controller counts them ([`Joint3`](crate::maker_joints::Joint3)), not as the description does.
+    /// Returns true where its programs state joints as the arm's controller counts them ([`Joint3`](crate::Joint3)), not as the description does.
     fn has_maker_joints(&self) -> bool {
         false
     }
@@ -66,33 +62,4 @@ pub enum Points {
     },
     /// All knots of the plan.
     Knots,
-}
-
-/// All dialects.
-pub static DIALECTS: [&dyn Dialect; 4] = [&Rapid, &Ros2, &UrScript, &Csv];
-
-/// The dialect of that name.
-#[must_use]
-pub fn by_name(name: &str) -> Option<&'static dyn Dialect> {
-    DIALECTS.into_iter().find(|dialect| dialect.name() == name)
-}
-
-/// The names of all dialects, with commas between.
-#[must_use]
-pub fn names() -> String {
-    DIALECTS.map(Dialect::name).join(", ")
-}
-
-/// Place in an assumption for the largest distance of the arm from the start \[°\].
-pub const START_WITHIN: &str = "{start_within_deg}";
-
-/// Largest distances of the arm from the start of a plan, joint by joint \[°\]: at home, and after a stop, where the sponge may be at a plate.
-/// Programs check it where they can. The way from there to the start is not proved.
-pub const START_WITHIN_DEG: [f64; 2] = [0.5, 0.1];
-
-/// Largest distance of the arm from the start of a job's plan, joint by joint \[°\].
-#[must_use]
-pub fn start_within_deg(job: &JobTerms) -> f64 {
-    let [at_home, after_stop] = START_WITHIN_DEG;
-    if job.is_motion_home() { after_stop } else { at_home }
 }
