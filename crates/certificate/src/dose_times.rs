@@ -85,7 +85,7 @@ pub fn dose_times(
 }
 
 impl Passes<'_> {
-    /// Earliest time at which the dose of a place is proved, infinite where it is not \[s\].
+    /// Earliest time at which the dose ∫ σ dl of a place (requirement 29) is proved, infinite where it is not \[s\].
     fn dose_time_s(&self, place: [f64; 2]) -> f64 {
         let (edges, cell) = (&self.edges, Cell::new(self.surface, place, HALF_M));
         let reach_m = self.reach_m(&cell);

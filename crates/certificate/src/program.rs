@@ -202,14 +202,14 @@ impl<'a> StretchPair<'a> {
         Self { motion, plan }
     }
 
-    /// Deviation at both ends \[m\].
+    /// Deviation ‖p₁ − p₂‖ at both ends \[m\].
     fn ends_m(&self) -> [f64; 2] {
         [0, 1].map(|k| (self.motion.ends[k].position - self.plan.ends[k].position).norm())
     }
 }
 
-/// Checks the deviation of the tip of a motion from that of a plan, for as long as both last, against a tolerance \[m\]. Segments are those
-/// of the motion.
+/// Checks ‖p₁ − p₂‖, the deviation of the tip of a motion from that of a plan, for as long as both last, against a tolerance \[m\]: formula (34.1).
+/// Segments are those of the motion.
 pub(crate) fn check(arm: &Arm<'_>, motion: &[Piece], schedule: &Schedule, plan: &[Piece], tolerance_m: f64) -> Check {
     let mut tracker = BoundTracker::new(tolerance_m, RESOLUTION * tolerance_m);
     let parts = common(arm, motion, plan);
@@ -247,6 +247,7 @@ fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<[Tip
     all
 }
 
+/// Bounds ‖p₁ − p₂‖ over a stretch by formula (34.1) and, where needed, over its halves.
 fn refine(arm: &Arm<'_>, both: &StretchPair<'_>, tracker: &mut BoundTracker, depth: u32) {
     let [from, to] = both.ends_m();
     let greater = if from > to || from.is_nan() { from } else { to };

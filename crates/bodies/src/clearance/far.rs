@@ -78,8 +78,8 @@ impl MovingPart<'_> {
         self.obstacles.get(obstacle).map(|standing| standing.pair)
     }
 
-    /// Upper bound on the displacement of the part's points from the configuration of `poses` \[m\], while each joint is within `drift`
-    /// \[rad\] of it.
+    /// Upper bound on the displacement of the part's points from the configuration of `poses` \[m\], Σ ρ |Δq| of formula (24.2) in
+    /// `docs/certificate.md`. `drift` is |Δq| \[rad\].
     #[must_use]
     pub fn displaced(&self, poses: &BodyPoses, drift: &JointVector) -> f64 {
         let point = poses.rigid(&self.part.frame()).translation;
@@ -87,7 +87,7 @@ impl MovingPart<'_> {
         lever::within(&here, drift, &self.greatest).dot(drift)
     }
 
-    /// Returns lower bounds of the distances from some obstacles \[m\], by their index in the list.
+    /// Returns lower bounds g of the distances from some obstacles \[m\], for formula (24.2), by their index in the list.
     pub fn gaps<'b>(&'b self, poses: &BodyPoses, obstacles: &'b [usize]) -> impl Iterator<Item = f64> + 'b {
         let placed = self.part.place(poses);
         let of = move |obstacle: &PlacedObstacle<'_>| {

@@ -1,4 +1,6 @@
 //! Sponge as an elastic foundation.
+//!
+//! Formula (27.1) in `docs/contact.md`.
 
 use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
@@ -43,13 +45,14 @@ impl Foundation {
         Self::of(&tool.sponge).filter(|_| tool.is_present())
     }
 
-    /// Compression w at a point of a face \[m\]; below 0 where the free face does not reach it.
+    /// Compression w at a point of a face \[m\], formula (27.1). `pose` has p and a, `point` is x. The compression is below 0 where the
+    /// free face does not reach it.
     #[must_use]
     pub fn compression(&self, pose: &SpongePose, point: &Vector3<f64>) -> f64 {
         self.compression_m + (pose.tip - point).dot(&pose.axis)
     }
 
-    /// Forces of a volume of compressed foam, for the least and the greatest stiffness \[N\].
+    /// Forces F = E V/H of a volume of compressed foam, for the least and the greatest stiffness E \[N\], formula (31.1). `volume_m3` is V.
     #[must_use]
     pub fn forces_n(&self, volume_m3: f64) -> [f64; 2] {
         self.stiffness_pa.map(|pa| pa * volume_m3 / self.free_height_m)

@@ -24,20 +24,20 @@ impl Moment {
     }
 }
 
-/// Upper bounds on the motion of a sponge over a stretch of time.
+/// Upper bounds on the motion of a sponge over a stretch of time: h, V, A, ω, a₁ and a₂ of formula (28.1) in `docs/contact.md` and its derivation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
     /// Length h of the stretch \[s\].
     pub length_s: f64,
-    /// Speed of the tip \[m/s\].
+    /// Speed V of the tip \[m/s\].
     pub tip_m_s: f64,
-    /// Acceleration of the tip \[m/s²\].
+    /// Acceleration A of the tip \[m/s²\].
     pub tip_m_s2: f64,
     /// Angular speed ω of the tool \[rad/s\].
     pub turning: f64,
-    /// Rate of change of the axis, a unit vector \[1/s\].
+    /// Rate of change a₁ of the axis, a unit vector \[1/s\].
     pub axis: f64,
-    /// Second derivative of any unit vector that turns with the tool \[1/s²\].
+    /// Second derivative a₂ of any unit vector that turns with the tool \[1/s²\].
     pub bending: f64,
 }
 

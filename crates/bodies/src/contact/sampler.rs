@@ -1,4 +1,6 @@
 //! Amounts that single points of a plate's face get from a wash: measured, not bounded.
+//!
+//! The amounts of requirements 27 to 29 and formula (27.1) in `docs/contact.md`.
 
 use crate::contact::bundles::Bundles;
 use crate::contact::foundation::Foundation;
@@ -77,7 +79,7 @@ impl ContactSampler {
         &self.moments
     }
 
-    /// Returns the amounts at a point \[m\], plate frame.
+    /// Returns the greatest w of formula (27.1), the time in contact and the dose ∫ σ dl at a point. `point` is x \[m\], plate frame.
     #[must_use]
     pub fn at(&self, point: &Vector3<f64>) -> Dwell {
         self.until(point, |_| false)
@@ -145,6 +147,7 @@ impl ContactSampler {
         }
     }
 
+    /// Returns w of formula (27.1) at a point and its depth within the rim, with the plate where both are least. `point` is x \[m\].
     fn instant(&self, index: usize, point: &Vector3<f64>) -> Instant {
         let SpongePose { tip, axis } = &self.moments[index].pose;
         let [aside_m, lower_m] = self.prepared[index].moved_m;
@@ -172,7 +175,7 @@ impl ContactSampler {
         both(at_least_0(pressed)?, inside)
     }
 
-    /// Adds time and dose for the part of the time between two moments that is in contact, with the speeds of sliding at both.
+    /// Adds time and dose ∫ σ dl for the part of the time between two moments that is in contact, with the speeds of sliding at both.
     fn add_between(&self, dwell: &mut Dwell, ends: [&Instant; 2], [from, to]: [f64; 2], slide_m_s: [f64; 2]) {
         let [first, last] = ends.map(|end| self.moments[end.index].t_s);
         let along_s = (to - from) * (last - first);

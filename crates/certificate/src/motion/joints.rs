@@ -30,7 +30,7 @@ impl Extreme {
     }
 }
 
-/// Checks the three requirements, in the order position, speed, acceleration.
+/// Checks the three requirements, in the order position, speed, acceleration: the extremes of formula (12.1) with the rounding of formula (12.2).
 pub(crate) fn checks(pieces: &[Piece], limits: &JointLimits, schedule: Option<&Schedule>) -> [Check; 3] {
     let (speed, acceleration) = (&limits.speed_rad_s, &limits.acceleration_rad_s2);
     let [lower, upper] = &limits.position_rad;

@@ -53,7 +53,7 @@ enum TiltNormal {
 }
 
 impl Tips {
-    /// Bounds all quantities. Without a schedule the whole motion counts as not washing.
+    /// Bounds all quantities, formulas (15.1) to (20.1). Without a schedule the whole motion counts as not washing.
     pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[TipPiece<'_>], schedule: Option<&Schedule>) -> Self {
         let (job, limits) = (subject.job, &subject.job.limits);
         let pair = |speed: f64, acceleration: f64| {
@@ -135,7 +135,7 @@ impl Tips {
         tips
     }
 
-    /// Lower bound on cos τ during a span; 0 where nothing is known.
+    /// Lower bound on cos τ during a span, from formula (19.1); 0 where nothing is known.
     pub fn least_cosine_of(&self, span: usize) -> f64 {
         let tilt = self.tilt.iter().find(|(index, _)| *index == span);
         tilt.map_or(0.0, |(_, tracker)| cosine(tracker.bound))
@@ -147,7 +147,8 @@ impl Tips {
         upright.map_or_else(|| self.least_cosine_of(span), |(_, tracker)| cosine(tracker.bound))
     }
 
-    /// Upper bound on the height of the tip over or under the face during the wash of a span \[m\]; infinite where nothing is known.
+    /// Upper bound on |z − f|, the height of the tip over or under the face during the wash of a span \[m\], formula (20.1); infinite where nothing
+    /// is known.
     pub fn greatest_height_of(&self, span: usize) -> f64 {
         let height = self.height.iter().find(|(index, _)| *index == span);
         height.map_or(f64::INFINITY, |(_, tracker)| {
@@ -267,7 +268,7 @@ fn angle(sine: f64) -> f64 {
     if sine <= 1.0 { asin(sine) } else { std::f64::consts::PI }
 }
 
-/// Lower bound on cos τ from an upper bound on sin τ; 0 where the bound says nothing.
+/// Lower bound on cos τ. `sine` is an upper bound on sin τ; the result is 0 where it says nothing.
 fn cosine(sine: f64) -> f64 {
     if sine >= 0.0 {
         (1.0 - sine * sine).max(0.0).sqrt()
@@ -293,7 +294,7 @@ fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
     }
 }
 
-/// Bounds the sine of the tilt during the pieces.
+/// Bounds sin τ, the sine of the tilt, during the pieces: formula (19.1). `against` tells n.
 fn tilted(
     arm: &Arm<'_>,
     mut tracker: BoundTracker,
@@ -319,12 +320,14 @@ fn tilted(
     tracker
 }
 
-/// Upper bound on the speed of the tool's axis over a stretch, whose second derivative is not above `second` \[1/s\].
+/// Upper bound on ‖ȧ‖, the speed of the tool's axis, over a stretch \[1/s\]: its value at the ends, and h/2 times `second`. `second` is sup ‖ä‖ of
+/// formula (0.4) \[1/s²\].
 pub(crate) fn turning(stretch: &Stretch<'_>, second: f64) -> f64 {
     let [from, to] = stretch.ends.map(|m| m.turning.cross(&m.axis).norm());
     from.max(to) + 0.5 * stretch.length_s() * second
 }
 
+/// Bounds the tip's speed, formula (15.1), and its acceleration, formula (16.1), over some spans.
 fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spans: &[&[TipPiece<'_>]]) {
     observe(arm, speed, spans, &|m| m.speed.norm(), &|s| {
         s.sag(arm.derivatives(s).third())
@@ -336,6 +339,7 @@ fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spa
     });
 }
 
+/// Bounds a quantity over some spans by formula (0.1). `value` is the quantity at a moment, `beyond` is its rise within a stretch.
 fn observe(
     arm: &Arm<'_>,
     tracker: &mut BoundTracker,

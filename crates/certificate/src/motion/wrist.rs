@@ -24,7 +24,8 @@ struct Visit {
 }
 
 impl Visit {
-    /// Distance from 0 on the better side \[rad\], with its piece; negative where the joint passes 0 by as much.
+    /// Distance from 0 on the better side, the greater of min q₅ and −max q₅ \[rad\], with its piece; negative where the joint passes 0 by as much.
+    /// The extremes are those of formula (12.1).
     fn margin(&self) -> (f64, usize) {
         if self.least.0 >= -self.most.0 {
             self.least

@@ -22,7 +22,7 @@ use nalgebra::Vector3;
 const SMALLEST_CELL_M: f64 = 6.25e-5;
 
 impl ContactInputs<'_> {
-    /// Bounds the contact.
+    /// Bounds the contact: the shares of 27 to 29, strain (30.1), force (31.1), friction torque (31.2) and the holder's load (33.1), (33.2).
     ///
     /// # Errors
     /// [`ProveError::Cancelled`].
@@ -83,7 +83,7 @@ impl ContactInputs<'_> {
         })
     }
 
-    /// Bounds the load before or after the wash.
+    /// Bounds the load before or after the wash (30 and 31).
     fn around(&self, instants: &Instants, wash: &Pressing) -> Pressing {
         let (plate, foundation, error_m) = (self.washing.plate, self.foundation, self.wanted.height_error_m);
         if plate.surface.is_flat() {
@@ -95,7 +95,7 @@ impl ContactInputs<'_> {
         }
     }
 
-    /// Computes the shares, refined until they suffice or the smallest cells are reached.
+    /// Computes the shares of 27 to 29, refined until they suffice or the smallest cells are reached.
     fn shares(&self) -> Shares {
         let wanted = self.wanted;
         let asked = wanted.thresholds();

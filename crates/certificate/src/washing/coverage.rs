@@ -48,7 +48,7 @@ pub(crate) struct Wash {
     pub contact: Option<PlateContact>,
 }
 
-/// Coverage of every plate that is washed, and contact with it where the job asks for that.
+/// Coverage of every plate that is washed, formula (26.1), and contact with it where the job asks for that.
 ///
 /// # Errors
 /// [`ProveError::Coverage`] for lengths that make no sense, [`ProveError::Cancelled`].
@@ -113,8 +113,8 @@ impl Washing<'_> {
         })
     }
 
-    /// Bounds the share of a disc that the sponge sweeps: with cos τ at its lower bound, at least the share swept by a disc of radius s cos
-    /// τ.
+    /// Bounds the share of a disc that the sponge sweeps: at least that which a disc of the radius s cos τ − Δ sweeps along the polyline, formula
+    /// (26.1). `line` has Δ, `swept` has the lower bound on cos τ.
     fn sweep(&self, line: &Polyline, swept: &mut PlateCoverage) -> Result<(), ProveError> {
         let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
         let share = |radius_m: f64, cell_m: f64| {

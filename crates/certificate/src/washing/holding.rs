@@ -13,14 +13,14 @@
 //! p the pressure at r, has the sum A P, and about c the torque B ∫ p |r − c|² = B P (R² − |c|²): the friction that holds the plate is nowhere
 //! more than (F + T/(R − |c|))/P of the pressure. That it is no more than the coefficient, with |c| < R, suffices: such friction is in
 //! balance with the load, whatever the pressure. So much is needed for every N from 0 to its greatest. With the tip at d from the axis, the
-//! columns within s of it, S the greatest |sin β| under the sponge, W and G the plate's weight along its axis and across it, and z the height
+//! columns within ς of it, S the greatest |sin β| under the sponge, W and G the plate's weight along its axis and across it, and z the height
 //! of the plate over its ring:
 //!
-//! - P ≥ W + (√(1 − S²) − μ S) N, and of each column at most k p, k = min(1 + μ S, √(1 + μ²));
+//! - P ≥ W + (√(1 − S²) − μ S) N, and of each column at most κ p, κ = min(1 + μ S, √(1 + μ²));
 //! - F ≤ f + G, f ≤ h(S) N, and f is no more than the load above;
-//! - |c| P ≤ M = min(ρ k N, d k N + O) + z F, with ρ the greatest distance from the axis that the sponge reaches on the plate and O the moment
-//!   of what is pressed about the tip, at most s k N;
-//! - |tip − c| P ≤ W d + O + z F, so that T P ≤ (W d + O + z F) f + M G + t P, with t the torque about the tip, at most s h(S) N.
+//! - |c| P ≤ M = min(ρ κ N, d κ N + O) + z F, with ρ the greatest distance from the axis that the sponge reaches on the plate and O the moment
+//!   of what is pressed about the tip, at most ς κ N;
+//! - |tip − c| P ≤ W d + O + z F, so that T P ≤ (W d + O + z F) f + M G + t P, with t the torque about the tip, at most ς h(S) N.
 //!
 //! Where a second bound of f, O or t holds for every N, the lesser one counts: each is a line over some intervals of N. P, F and M are lines
 //! there, too, and the friction suffices where (u μ′ P − F)(R P − M) ≥ T P (u = 1, μ′ the coefficient): a parabola in N, which is not below 0
@@ -43,7 +43,8 @@ const GRAVITY_M_S2: f64 = 9.81;
 /// Relative amount by which the bounds of a ring are enlarged: far above their rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// Bounds the load from approach to retreat; `None` where nothing is proved.
+/// Bounds the load from approach to retreat: the force across the plate's axis, formula (33.1), and the torque about it, formula (33.2). `pressing`
+/// has the integrals. `None` where nothing is proved.
 pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Option<HolderLoad> {
     let (plate, subject) = (inputs.washing.plate, inputs.washing.subject);
     let (volumes, terms) = (&pressing.holder, subject.job.requirements.holder.as_ref());
@@ -74,6 +75,8 @@ pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Op
     })
 }
 
+/// Collects the load on a ring for formula (33.5). `stiffest` is E/H \[Pa/m\], `friction` is μ, `lateral_n` is the bound of formula (33.1),
+/// `weight_n` is W and G.
 fn ring_load(
     inputs: &ContactInputs<'_>,
     pressing: &Pressing,
@@ -111,12 +114,12 @@ fn ring_load(
         twist_nm: stiffest * (friction * (pressing.twist_m4 + aside_m4) + reach_m * volumes.slope_m3),
     }
 }
-/// Load on a ring, as upper bounds. The head of this file explains it.
+/// Load on a ring, as upper bounds: the symbols of formula (33.5).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RingLoad {
     /// Greatest force along normals, N \[N\].
     pub pressed_n: f64,
-    /// Weight of the plate along its axis and across it \[N\].
+    /// Weight of the plate along its axis and across it, W and G \[N\].
     pub weight_n: [f64; 2],
     /// Greatest |sin β| under the sponge, S.
     pub sine: f64,
@@ -124,7 +127,7 @@ pub(crate) struct RingLoad {
     pub friction: f64,
     /// Distance of the tip from the axis, d \[m\].
     pub tip_m: f64,
-    /// Distance of the columns from the tip, seen along the plate's axis, s \[m\].
+    /// Distance of the columns from the tip, seen along the plate's axis, ς \[m\].
     pub reach_m: f64,
     /// Distance of the columns from the axis, ρ \[m\].
     pub farthest_m: f64,
@@ -136,7 +139,7 @@ pub(crate) struct RingLoad {
     pub twist_nm: f64,
 }
 
-/// Greatest force across the plate's axis of what is pressed along a normal, h(|sin β|).
+/// Greatest force across the plate's axis over what is pressed along a normal, h(x) of formula (33.1). `sine` is x = |sin β|, `friction` is μ.
 fn across(sine: f64, friction: f64) -> f64 {
     let cosine = (1.0 - sine * sine).sqrt();
     if friction * sine <= cosine {
@@ -171,7 +174,7 @@ fn share(demand: f64, supply: f64) -> f64 {
     }
 }
 
-/// Bounds over an interval of N.
+/// Bounds of formula (33.5) over an interval of N.
 struct Stretch {
     ends: [f64; 2],
     /// Lower bound of P.
@@ -185,7 +188,7 @@ struct Stretch {
 }
 
 impl RingLoad {
-    /// Bounds the shares of what a ring can bear.
+    /// Bounds the shares of what a ring can bear, formula (33.4). `ring` has R and μ′.
     pub fn shares(&self, ring: &RingTerms) -> RingShares {
         let stretches = self.stretches();
         let greatest = |of: &dyn Fn(&Stretch, f64) -> f64| {
@@ -228,7 +231,7 @@ impl RingLoad {
         }
     }
 
-    /// The intervals of N in which each bound is one line.
+    /// The intervals of N in which each bound of formula (33.5) is one line.
     fn stretches(&self) -> Vec<Stretch> {
         let [down_n, across_n] = self.weight_n;
         let (sine, friction, most) = (self.sine, self.friction, self.pressed_n);
@@ -276,7 +279,8 @@ impl RingLoad {
 }
 
 impl Stretch {
-    /// True if friction of a coefficient holds the plate on a ring, whatever N in the interval. The plate must not tip.
+    /// True if formula (33.4) holds for every N in the interval: the plate does not slide. `radius_m` is R, `friction` is the coefficient that is
+    /// tried for μ′. The plate must not tip.
     fn is_held(&self, radius_m: f64, friction: f64) -> bool {
         let spare = sum([(friction, self.pressed), (-1.0, self.lateral)]);
         let inside = sum([(radius_m, self.pressed), (-1.0, self.moment)]);

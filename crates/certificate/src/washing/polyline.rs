@@ -16,7 +16,7 @@ const SPLITS: usize = 4096;
 #[derive(Debug)]
 pub(crate) struct Polyline {
     pub points: Vec<[f64; 2]>,
-    /// Upper bound on the distance of the tip from the polyline \[m\].
+    /// Upper bound Δ on the distance of the tip from the polyline \[m\], formula (26.1) in `docs/certificate.md`.
     pub off_m: f64,
     /// Largest distance of a point from the pole \[m\].
     pub seen_m: f64,
@@ -51,7 +51,7 @@ impl Polyline {
         line
     }
 
-    /// Adds a stretch whose first end is there already.
+    /// Adds a stretch whose first end is there already, or its halves. The tip leaves the chord by at most h²/8 · sup ‖p̈‖, formula (0.1).
     fn add(&mut self, arm: &Arm<'_>, face: &Face<'_>, stretch: &Stretch<'_>, depth: u32) {
         let off_m = stretch.sag(arm.derivatives(stretch).second());
         let ends = [0, 1].map(|end| tip_from_pole(face, stretch, end));

@@ -1,5 +1,7 @@
 //! Load on the sponge while it washes: strain, contact force, and friction torque about its axis.
 //!
+//! Formulas (30.1) to (31.2) in `docs/contact.md`, as compressions and volumes of foam.
+//!
 //! The foam presses with E w / H over a column of the cross-section dA, along the sponge's axis: with the volume V = ∫ max(w, 0) dA the
 //! force along the axis is E V / H, whatever way the surface faces, as long as there is no friction. Friction μ acts on what the plate
 //! presses along its normal, which is 1/cos γ as much, at a lever of at most r: its torque about the axis is no more than
@@ -25,7 +27,7 @@ use platewash_bodies::contact::{
 };
 use platewash_workcell::plate::Plate;
 
-/// Friction between a wet sponge and a plate, least and greatest: an assumption.
+/// Friction coefficient μ between a wet sponge and a plate, least and greatest: an assumption.
 pub(crate) const FRICTION: [f64; 2] = [0.3, 1.0];
 
 /// Proved bounds of a wash on a disc.
@@ -57,11 +59,12 @@ pub(crate) struct Extreme {
 /// Load on the sponge during a wash, as compression and volumes of foam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pressing {
-    /// Greatest compression \[m\].
+    /// Greatest compression, H times the strain of formula (30.1) \[m\].
     pub deepest: Extreme,
-    /// Volume of compressed foam \[m³\]: the least, with the plate at its lowest, and the greatest, with the plate at its highest.
+    /// Volume V of compressed foam, formula (31.1) \[m³\]: the least, with the plate at its lowest, and the greatest, with the plate at its
+    /// highest.
     pub volume: [Extreme; 2],
-    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\].
+    /// Upper bound on ∫ max(w, 0) r / cos γ dA, the friction torque of formula (31.2) divided by μ E/H \[m⁴\].
     pub twist_m4: f64,
     /// Upper bounds of what the plate's holder takes.
     pub holder: HolderVolumes,
@@ -92,7 +95,7 @@ impl Pressing {
         all
     }
 
-    /// Bounds the load during a wash on a disc.
+    /// Bounds the load during a wash on a disc, formulas (30.1) to (31.2). `known` has the worst |z| without δ, cos τ, distance d and δ.
     pub fn on_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, known: &DiscWashBounds) -> Self {
         let mut all = Self::new();
         let rim_m = plate.rim_m();
@@ -126,8 +129,8 @@ impl Pressing {
         all
     }
 
-    /// Bounds the load before or after the wash, on a disc that may lie higher by `error_m`. Each stretch is bounded from the two moments
-    /// at its ends. With h the length of the stretch, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖, and the axis no
+    /// Bounds the load before or after the wash on a disc, formulas (30.1) to (31.2). `error_m` is δ. Each stretch is bounded from the two
+    /// moments at its ends. With h the length of the stretch, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖, and the axis no
     /// farther from the nearer end than h/2 times its greatest speed.
     pub fn around_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Self {
         let mut all = Self::new();
@@ -254,13 +257,13 @@ struct Search<'a> {
     found: Pressing,
 }
 
-/// Bounds the load during a wash on any face, which may lie higher or lower by `error_m`.
+/// Bounds the load during a wash on any face, in columns (30, 31 on a profile). `error_m` is δ.
 pub(crate) fn on_face(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Pressing {
     search(plate, error_m, foundation, instants, [f64::NEG_INFINITY; QUANTITIES])
 }
 
-/// Bounds the load before or after a wash on any face. Refines until the load is shown to be no higher than in `wash`, otherwise as far as
-/// [`on_face`] does.
+/// Bounds the load before or after a wash on any face, in columns. `error_m` is δ. Refines until the load is shown to be no higher than in
+/// `wash`, otherwise as far as [`on_face`] does.
 pub(crate) fn around_face(
     plate: &Plate,
     foundation: &Foundation,

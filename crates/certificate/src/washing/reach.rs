@@ -1,6 +1,6 @@
 //! Reach of the sponge beyond the rims.
 //!
-//! Requirement 25, formula (25.1) in `docs/certificate.md`.
+//! Requirement 25, formula (25.1) in `docs/certificate.md`; also formulas (8.1) and (24.1) there.
 //!
 //! Two questions are answered: which plates the sponge may touch while it works on another, and its reach beyond the rim of that one.
 //!
@@ -48,7 +48,8 @@ impl ReachInputs<'_> {
     }
 }
 
-/// Fills in the reach of the sponge beyond the rim of each plate, and the plates it may touch there.
+/// Fills in both sides of formula (25.1), the reach of the sponge beyond the rim of each plate and the one that the wash path implies, and the
+/// plates it may touch there.
 pub(crate) fn fill_in_reach(subject: &Subject<'_>, washes: &mut [Wash], inputs: &ReachInputs<'_>) {
     let most_tilted = cos(subject.tilt_rad);
     for wash in washes {
@@ -88,8 +89,9 @@ fn outward_m(subject: &Subject<'_>, plate: usize) -> f64 {
     path.lift_m * ends[0].max(ends[1]).max(0.0)
 }
 
-/// Returns an upper bound on the distance of the tip from the pole of a plate, seen along its axis, in its wash and in all approaches and
-/// retreats at the plate, and the greatest distance found \[m\]. The bound is infinite where nothing is proved.
+/// Returns an upper bound on sup ‖p_xy‖ of formula (25.1), the distance of the tip from the pole of a plate, seen along its axis, in its wash and
+/// in all approaches and retreats at the plate, and the greatest distance found \[m\]. The bound is infinite where nothing is proved. `radius_m`
+/// is R.
 fn tip_m(allowed_m: f64, radius_m: f64, plate: &Plate, wash: &Wash, inputs: &ReachInputs<'_>) -> [f64; 2] {
     let along_path_m = (inputs.path_deviation_m).map_or(f64::INFINITY, |off_m| radius_m + PLACE_M + off_m);
     let tips = inputs.spans_at(wash.swept.plate).map(|(i, span)| match span.kind {
@@ -123,9 +125,9 @@ pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check 
     Check::measured(Requirement::Reach, measure, WorstCase::on_plate(worst.plate))
 }
 
-/// Returns an upper bound on the reach of the sponge beyond the rim of a plate, at the height of its face \[m\]. The tip is within `tip_m`
-/// of the plate's centre, and cos τ is not below `cos_tilt`; without a bound of the tilt the result is infinite. For a tip at a depth d
-/// below the face, the side wall at the face is d tan τ farther out: other requirements keep d within the tolerance of the lines.
+/// Returns an upper bound on the reach of the sponge beyond the rim of a plate, at the height of its face \[m\], formula (25.1). `tip_m` is
+/// sup ‖p_xy‖, `cos_tilt` is a lower bound on cos τ; without one the result is infinite. For a tip at a depth d below the face, the side wall at
+/// the face is d tan τ farther out: other requirements keep d within the tolerance of the lines, 1 mm.
 ///
 /// On a face that is no disc, τ is the angle between the tool's axis and the plate's, and all heights up to the highest one of the face
 /// count. With the tip at a distance ρ from the plate's axis, the side wall reaches (top − f(ρ)) tan τ farther. That grows with ρ more
@@ -141,7 +143,8 @@ pub(crate) fn beyond_rim_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, cos
     }
 }
 
-/// Returns the reach of the sponge from the tip at the heights of a face, given the reach `level_m` at the height of the tip \[m\].
+/// Returns the reach of the sponge from the tip at the heights of a face \[m\]. `level_m` is the reach at the height of the tip,
+/// (s + 1 mm sin τ) / cos τ of formula (25.1); `sine` and `cosine` are bounds of sin τ and cos τ.
 fn raised_m(subject: &Subject<'_>, plate: &Plate, tip_m: f64, [sine, cosine]: [f64; 2], level_m: f64) -> f64 {
     let surface = &plate.surface;
     if surface.is_flat() {
@@ -173,7 +176,7 @@ pub(crate) fn reached_neighbours(subject: &Subject<'_>, plate: usize, beyond_rim
     depths.filter(|touched| touched.depth_m > 0.0).collect()
 }
 
-/// True if the sponge, at any tilt, may come nearer to `plate` than the clearance while it works on `working_on`. The sponge keeps clear of
+/// True if the sponge, at any tilt, may come nearer to `plate` than the clearance while it works on `working_on`: formula (24.1). It keeps clear of
 /// a plate whose face is higher, that stands at an angle, or that lies under the one it works on, except the other face of the same disc.
 /// The contact speed and the reach beyond the rim are bounded at the height of the plate being worked on and below.
 pub(crate) fn is_within_reach(subject: &Subject<'_>, working_on: usize, plate: usize) -> bool {
@@ -205,7 +208,7 @@ pub(crate) struct SweptNeighbours {
     pub overlapping: Vec<Discrepancy>,
 }
 
-/// Finds plates of which more than the rim may be swept while another one is washed. The tilt of the tool is limited by its own
+/// Finds plates of which more than the rim may be swept while another one is washed, formula (8.1). The tilt of the tool is limited by its own
 /// requirement. On a face that is no disc that tilt is about the normal; `upright_cosine` then gives the bound proved about the plate's
 /// axis.
 pub(crate) fn swept(subject: &Subject<'_>, upright_cosine: impl Fn(usize) -> f64) -> SweptNeighbours {

@@ -1,4 +1,6 @@
 //! Bounds over a cell: lower bounds of compression, contact time and dose.
+//!
+//! Requirements 27 to 29 in `docs/contact.md`.
 
 use crate::washing::shares::cell::{Cell, CellState};
 use crate::washing::shares::doses::{Polynomial, Sums};
@@ -103,8 +105,9 @@ impl<'a> Passes<'a> {
 }
 
 impl Passes<'_> {
-    /// Bounds a cell through some windows of moments, on top of the amounts `kept` that are known already. Returns `None` where those
-    /// bounds are enough: where `shares_below`, the shares of the cell that they leave without the wanted amounts, are 0.
+    /// Bounds compression, time and dose of a cell (27 to 29) through some windows of moments, on top of the amounts `kept` that are known
+    /// already. Returns `None` where those bounds are enough: where `shares_below`, the shares of the cell that they leave without the
+    /// wanted amounts, are 0.
     pub(crate) fn bounds(
         &self,
         cell: &Cell,
@@ -260,7 +263,7 @@ impl Passes<'_> {
         }
     }
 
-    /// Returns the dose that all of a cell gets.
+    /// Returns a lower bound on the dose that all of a cell gets in runs of moments in which it is wholly in contact: the difference of two sums.
     fn dose(&self, cell: &Cell, amounts: &CellAmounts) -> Lower {
         let (value, gradient) = amounts.dose.at(&cell.point);
         let error_m = self.edges.thresholds.height_error_m;

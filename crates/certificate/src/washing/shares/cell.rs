@@ -35,7 +35,7 @@ pub(crate) struct CellState {
     pub index: u32,
     /// True if all of the cell is in contact from the moment before to this one.
     pub full: bool,
-    /// Compression over the middle \[m\].
+    /// Compression w over the middle, formula (27.1) \[m\].
     pub compression_m: f64,
     /// Greatest loss of compression over the patch, with the plate at its stated height \[m\].
     pub sloping_m: f64,
@@ -57,6 +57,7 @@ impl CellState {
 }
 
 impl Cell {
+    /// Returns the square about a middle, with X, G, r and K of its patch: see the head of this file. `half` is half of the edge \[m\].
     pub fn new(surface: &Surface, [x, y]: [f64; 2], half: f64) -> Self {
         let reach_m = half * std::f64::consts::SQRT_2;
         let middle = Vector2::new(x, y);
@@ -80,7 +81,7 @@ impl Cell {
         }
     }
 
-    /// Upper bound on the distance of a point of the patch from X \[m\].
+    /// Upper bound on the distance of a point of the patch from X \[m\]: r √(1 + G²) + ½ K r².
     pub fn max_distance_m(&self) -> f64 {
         self.tangent_m + self.bend_m
     }

@@ -54,7 +54,8 @@ impl Factors {
 }
 
 impl Edges<'_> {
-    /// Returns the dose of a cell from the first moment of a window until its places leave.
+    /// Returns a lower bound on the dose of a cell from the first moment of a window until its places leave \[Pa·m\]: E/H times Q(t₀ + u)
+    /// of the head of this file, E the least stiffness. `leaving` has t₀ and u = g·δ + g_e e − η (`leaving.rs`).
     pub(crate) fn dose(&self, cell: &Cell, window: Window<'_>, leaving: &LeavingTimes) -> Lower {
         let LeavingTimes {
             at_s,
@@ -104,7 +105,7 @@ impl Edges<'_> {
         }
     }
 
-    /// Pressure of the softest foam per compression \[Pa/m\].
+    /// Pressure of the softest foam per compression, E/H of formula (27.1) \[Pa/m\].
     fn pressure(&self) -> f64 {
         self.foundation.stiffness_pa[0] / self.foundation.free_height_m
     }
@@ -245,7 +246,7 @@ fn common(pressed: [f64; 2], inside: [f64; 2]) -> Option<[f64; 2]> {
     both(at_least_0(pressed)?, at_least_0(inside)?)
 }
 
-/// Mean of the product of two lines.
+/// Mean of the product of two lines: (w₀ + w₁)(v₀ + v₁)/4 + (w₁ − w₀)(v₁ − v₀)/12. `from` is w₀ and v₀, `to` is w₁ and v₁.
 fn mean_product(from: &Factors, to: &Factors) -> f64 {
     let (w, v) = (from.compression_m + to.compression_m, from.speed_m_s + to.speed_m_s);
     let (dw, dv) = (to.compression_m - from.compression_m, to.speed_m_s - from.speed_m_s);
@@ -305,6 +306,8 @@ impl Sums {
 }
 
 impl Polynomial {
+    /// Returns a lower bound on the dose between two moments h apart, as a polynomial of the place: E/H times the integral of the head of this
+    /// file, E the least stiffness. `sags` are those of formula (28.1).
     fn of_pair(foundation: &Foundation, ends: [&Moment; 2], sags: &Sags) -> Self {
         let whole_s = ends[1].t_s - ends[0].t_s;
         let slides = ends.map(|end| across(&end.speed, &end.pose.axis));

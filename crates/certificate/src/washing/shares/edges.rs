@@ -127,8 +127,8 @@ impl Edges<'_> {
         (self.look(state.index).t_s - window.start_s).abs()
     }
 
-    /// Writes the state of a cell at a moment, and tells the distance of the sponge's axis from the middle \[m\]. Beyond `reach_m` of it, nothing else
-    /// is computed.
+    /// Writes the state of a cell at a moment, with the compression w of formula (27.1) in `docs/contact.md`, and tells the distance of the
+    /// sponge's axis from the middle \[m\]. Beyond `reach_m` of it, nothing else is computed.
     #[inline]
     pub fn see(&self, cell: &Cell, look: &Look, reach_m: f64, state: &mut CellState) -> f64 {
         let axis = &look.axis;

@@ -119,7 +119,9 @@ impl Edges<'_> {
         None
     }
 
-    /// Returns the times at which a cell gets beyond the sponge's rim while all of it is pressed.
+    /// Returns the times at which a cell gets beyond the sponge's rim while all of it is pressed: t₀, η, g and g_e of the head of this
+    /// file. `line` is V₀ + B (t − t₀): its value is V₀, its rate is B. In the code, `columns` is J and j, `rates` is g and g_e, `moved` is
+    /// M and m, `lost_m` is ε.
     fn left_aside(
         &self,
         cell: &Cell,
@@ -163,7 +165,8 @@ impl Edges<'_> {
         })
     }
 
-    /// Returns the times at which the foam on a cell is released while all of it is within the sponge.
+    /// Returns the times at which the foam on a cell is released while all of it is within the sponge: t₀, η, g and g_e of the head of this file.
+    /// `line` is w₀ + ẇ (t − t₀): its value is w₀, its rate is ẇ. In the code, `lost_m` is ε.
     fn release_times(
         &self,
         cell: &Cell,

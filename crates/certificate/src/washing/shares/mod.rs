@@ -1,5 +1,7 @@
 //! Shares of a plate's face that are pressed, and for how long and with which dose: bounds over cells of the face.
 //!
+//! Requirements 27 to 29, formulas (27.1) and (28.1) in `docs/contact.md`.
+//!
 //! Seen along its axis, the face is cut into squares (`cell.rs`), which are halved where more is likely to keep what is wanted than is
 //! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
 //! between which all of it is in contact count by what two sums differ (`doses.rs`) and are not looked at again in its quarters. What is
@@ -71,8 +73,9 @@ pub struct Shares {
     pub dose: Share,
 }
 
-/// Bounds the shares of a face that get the wanted amounts through some moments in order. `sags[k]` belongs to the interval between the
-/// moments k and k + 1; nothing is known of an interval without one.
+/// Bounds the shares of a face that get the wanted amounts through some moments in order (27 to 29). `sags[k]`, of formula (28.1), belongs to the
+/// interval between the moments k and k + 1; nothing is known of an interval without one. `foundation` has s, H, c and E, `thresholds` has c_min
+/// and δ.
 #[must_use]
 pub fn shares(
     surface: &Surface,
