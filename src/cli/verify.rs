@@ -116,7 +116,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
                 headline: paper_headline(&plan),
                 process: plan.process,
                 duration_s: plan.duration_s(),
-                hash: HashFinding::of(&plan),
+                hash: HashFinding::check(&plan),
                 scenario: plan.provenance.scenario,
             }
         }

@@ -6,6 +6,7 @@
 use crate::clearance::exclusions::{bodies_named_twice, bodies_without_shape};
 use crate::clearance::pairs::{self, PairBound, PairRule};
 use crate::error::ProveError;
+use crate::judged_job::{self, JointLimits};
 use crate::motion::joints;
 use crate::motion::piece::Piece;
 use crate::prove::{long_enough, timeline};
@@ -13,7 +14,6 @@ use crate::report::certificate::World;
 use crate::report::check::{Check, Measure, Sense, Status, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::subject::{self, JointLimits};
 use platewash_bodies::assembly;
 use platewash_bodies::clearance::{ClearanceModel, FixedOverlap, standing_overlaps};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
@@ -126,11 +126,11 @@ pub fn prove_arm_motion(
 ) -> Result<ArmMotionProof, ProveError> {
     check_rules(rules)?;
     check_workcell(workcell, 0).map_err(ProveError::Rules)?;
-    subject::check(workcell)?;
+    judged_job::check(workcell)?;
     if let Some(name) = bodies_named_twice(arm, workcell, 0).into_iter().next() {
         return Err(ProveError::NameTwice { name });
     }
-    let world = World::of(&workcell.mount);
+    let world = World::from_mount(&workcell.mount);
     let seen = workcell.seen_from_base().into_owned();
     let excluded = assembly::own_exclusions(&seen, arm)?;
     // Pairs that should not meet are looked at, too.

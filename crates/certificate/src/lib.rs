@@ -8,8 +8,8 @@
 //! | --- | --- |
 //! | all requirements, in the order of the report | `prove` |
 //! | a certificate that only a proof can make | `certified` |
-//! | the job that is judged, with its limits and its bodies | `subject` |
-//! | what the plan states | `statements` |
+//! | the job that is judged, with its limits and its bodies | `judged` |
+//! | what the plan states | `plan_statements` |
 //! | the motion: joints, tip, wrist | `motion` |
 //! | clearance of every pair of bodies | `clearance` |
 //! | the tip and the sponge on the plates: coverage, contact, load, contact speed, reach | `washing` |
@@ -23,12 +23,12 @@ mod certified;
 mod clearance;
 mod dose_times;
 mod error;
+mod judged_job;
 mod motion;
+mod plan_statements;
 mod program;
 mod prove;
 mod report;
-mod statements;
-mod subject;
 mod washing;
 
 pub use crate::arm_motion::{ArmMotionProof, MotionRules, Timing, prove_arm_motion};

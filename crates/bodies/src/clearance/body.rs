@@ -213,7 +213,7 @@ pub(crate) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError>
 /// Returns the body of a plate. The parts of `like` are reused if it has the same shape.
 pub(crate) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Body {
     let known = like.and_then(|body| body.tree.as_ref());
-    let (tree, parts) = Tree::of(plate, known).map_or_else(
+    let (tree, parts) = Tree::from_plate(plate, known).map_or_else(
         || {
             // It has a volume.
             let (shape, pose) = plate.enclosure();

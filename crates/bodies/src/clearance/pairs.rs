@@ -187,7 +187,7 @@ impl TouchingPairs {
     ///
     /// # Errors
     /// [`ClearanceError`] for an invalid shape.
-    pub fn of(robot: &RobotModel) -> Result<Self, ClearanceError> {
+    pub fn find(robot: &RobotModel) -> Result<Self, ClearanceError> {
         let found = exclusions(&robot.clone().without_disabled_pairs(), &Tool::none(robot), &[])?;
         let of = |reason: ExclusionReason| {
             let found = found.iter().filter(move |e: &&Exclusion| e.reason == reason);

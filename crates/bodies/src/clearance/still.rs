@@ -109,7 +109,7 @@ impl Still {
         if let Some(flange) = &self.mounted_on {
             let middle = Part::ball(0.0, *flange);
             let middle = middle.place(&poses);
-            let plane = Plane::of(flange, &poses);
+            let plane = Plane::from_flange(flange, &poses);
             here.retain(|part| bracketed(part, &middle).1 > TOUCH_M || plane.reach_m(part) > THROUGH_M);
         }
         let mut nearest: Option<Separation> = None;
@@ -185,7 +185,7 @@ struct Plane {
 }
 
 impl Plane {
-    fn of(flange: &Frame, poses: &BodyPoses) -> Self {
+    fn from_flange(flange: &Frame, poses: &BodyPoses) -> Self {
         let RigidTransform { rotation, translation } = poses.rigid(flange);
         let vector = |v: Vector3<f64>| Vector::new(v.x, v.y, v.z);
         Self {
@@ -208,7 +208,7 @@ impl Plane {
 /// True if a body of the tool does not reach behind the flange, and the flange faces away from the link that carries joint 6.
 fn is_in_front(robot: &RobotModel, body: &Body, flange: &Frame) -> bool {
     let poses = robot.fk(&JointVector::zeros());
-    let plane = Plane::of(flange, &poses);
+    let plane = Plane::from_flange(flange, &poses);
     let [x, y, z] = poses.bodies()[CARRIER].translation.into();
     let faces_away = plane.out.dot(plane.at - Vector::new(x, y, z)) > 0.0;
     faces_away

@@ -32,7 +32,7 @@ struct Bundle {
 impl Bundles {
     /// Bundles some moments in order.
     #[must_use]
-    pub fn of(moments: &[Moment]) -> Self {
+    pub fn new(moments: &[Moment]) -> Self {
         let mut all = Vec::new();
         Bundle::add(&mut all, moments, 0..moments.len(), &SIZES);
         Self(all)

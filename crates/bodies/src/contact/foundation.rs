@@ -22,7 +22,7 @@ pub struct Foundation {
 impl Foundation {
     /// Returns the foundation of a sponge with a stated stiffness; `None` without one.
     #[must_use]
-    pub fn of(sponge: &Sponge) -> Option<Self> {
+    pub fn from_sponge(sponge: &Sponge) -> Option<Self> {
         sponge
             .stiffness_pa
             .map(|stiffness_pa| Self::stiff(sponge, stiffness_pa))
@@ -42,7 +42,7 @@ impl Foundation {
     /// Returns the foundation of a tool's sponge; `None` without a tool or a stated stiffness.
     #[must_use]
     pub fn of_tool(tool: &Tool) -> Option<Self> {
-        Self::of(&tool.sponge).filter(|_| tool.is_present())
+        Self::from_sponge(&tool.sponge).filter(|_| tool.is_present())
     }
 
     /// Compression w at a point of a face \[m\], formula (27.1). `pose` has p and a, `point` is x. The compression is below 0 where the

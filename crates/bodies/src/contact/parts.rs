@@ -273,7 +273,7 @@ pub struct Bends<'a> {
 impl<'a> Bends<'a> {
     /// Computes the table of a face.
     #[must_use]
-    pub fn of(surface: &'a Surface) -> Self {
+    pub fn new(surface: &'a Surface) -> Self {
         let rim_m = surface.rim_m();
         let width_m = rim_m / RINGS as f64;
         // Wider than the ring by more than what is rounded where a distance finds its ring.
@@ -373,7 +373,7 @@ mod tests {
             let surface = Surface::shipped(platewash_workcell::surface::SHIPPED_PROFILES[profile]).unwrap();
             let (far, ring) = (near + wide, 1.01 * surface.rim_m() / RINGS as f64);
             prop_assume!(far > 0.0);
-            let found = Bends::of(&surface).between([near, far]);
+            let found = Bends::new(&surface).between([near, far]);
             let exact = surface.patch([near.max(0.0), far]).curvature;
             let wider = surface.patch([(near - ring).max(0.0), far + ring]).curvature;
             // If sin β / ρ is constant, it is rounded differently everywhere.

@@ -67,7 +67,7 @@ impl ContactSampler {
         Self {
             foundation,
             prepared: moments.iter().map(prepared).collect(),
-            bundles: Bundles::of(&moments),
+            bundles: Bundles::new(&moments),
             moments,
             thresholds,
         }

@@ -3,12 +3,12 @@
 //!
 //! Requirements 12–14, formulas (12.1) and (12.2) in `docs/certificate.md`.
 
+use crate::judged_job::JointLimits;
 use crate::motion::piece::Piece;
+use crate::plan_statements::schedule::Schedule;
 use crate::report::check::{Check, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::statements::schedule::Schedule;
-use crate::subject::JointLimits;
 use platewash_kinematics::AXES;
 
 /// The worst joint so far, compared by margin for positions, and by share of the limit for speeds and accelerations.

@@ -2,12 +2,12 @@
 //!
 //! Requirement 32 of `docs/certificate.md`.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::piece::Piece;
+use crate::plan_statements::schedule::{Schedule, Span};
 use crate::report::check::{Check, Measure, Sense, WorstCase, finite};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::statements::schedule::{Schedule, Span};
-use crate::subject::Subject;
 
 /// Index of joint 5.
 const JOINT: usize = 4;
@@ -36,8 +36,8 @@ impl Visit {
 }
 
 /// The requirement, where the job has it.
-pub(crate) fn check(subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Option<Check> {
-    let limit = subject.job.requirements.wrist_rad?;
+pub(crate) fn check(judged: &JudgedJob<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Option<Check> {
+    let limit = judged.job.requirements.wrist_rad?;
     let Some(schedule) = schedule else {
         return Some(Check::not_judged(Requirement::Wrist));
     };

@@ -43,7 +43,7 @@ pub struct HashFinding {
 impl HashFinding {
     /// Checks the hash of a plan.
     #[must_use]
-    pub fn of(plan: &Plan) -> Self {
+    pub fn check(plan: &Plan) -> Self {
         let computed = plan.seal().ok();
         let is_same = computed.is_some() && plan.hash == computed;
         Self {
@@ -155,7 +155,7 @@ pub(crate) struct World(Option<Pose>);
 
 impl World {
     /// Returns the world in which an arm is mounted at `T_world_base`.
-    pub fn of(mount: &Pose) -> Self {
+    pub fn from_mount(mount: &Pose) -> Self {
         Self((*mount != Pose::identity()).then_some(*mount))
     }
 

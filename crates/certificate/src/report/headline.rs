@@ -47,18 +47,18 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
     let basis = &certificate.rests_on;
     let left_out = basis.recovery.as_ref().map_or(0, |recovery| recovery.left_out.len());
     let duration = seconds(certificate.duration_s);
-    let subject = match basis.plates.len() - left_out.min(basis.plates.len()) {
+    let judged = match basis.plates.len() - left_out.min(basis.plates.len()) {
         0 => format!("home in {duration}"),
         plates => format!("{} in {duration}", count_with_noun(plates, "plate")),
     };
     let judged = match certificate.verdict {
         Verdict::Pass => format!(
-            "PROVED{}: {subject}{}",
+            "PROVED{}: {judged}{}",
             certificate.but_for(),
             achieved_text(certificate)
         ),
         Verdict::Fail => format!(
-            "NOT PROVED: {subject}; {}{}",
+            "NOT PROVED: {judged}; {}{}",
             broken(certificate),
             certificate.and_waived()
         ),

@@ -3,17 +3,17 @@
 //! Requirements 27–31, formulas (27.1) to (31.2) in `docs/contact.md`.
 
 use crate::error::ProveError;
+use crate::judged_job::JudgedJob;
 use crate::motion::piece::Piece;
+use crate::plan_statements::schedule::Schedule;
 use crate::report::check::{Check, Measure, Sense, WorstCase, finite, tighter};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::statements::schedule::Schedule;
-use crate::subject::Subject;
+use crate::washing::face_shares::{Fineness, Share, Shares, shares};
 use crate::washing::holding::holder_load;
 use crate::washing::instants::Instants;
 use crate::washing::plate_contact::{PlateContact, ProvedExtreme, ProvedShare, are_of_all_plates};
 use crate::washing::pressing::{self, DiscWashBounds, Extreme, FRICTION, Pressing};
-use crate::washing::shares::{Fineness, Share, Shares, shares};
 use crate::washing::wash_inputs::ContactInputs;
 use nalgebra::Vector3;
 
@@ -114,12 +114,12 @@ impl ContactInputs<'_> {
 
 /// Checks the contact requirements, where the job has any.
 pub(crate) fn checks(
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     pieces: &[Piece],
     schedule: Option<&Schedule>,
     all: &[PlateContact],
 ) -> Vec<Check> {
-    let Some(wanted) = &subject.job.requirements.contact else {
+    let Some(wanted) = &judged.job.requirements.contact else {
         return Vec::new();
     };
     let asked = [
@@ -129,7 +129,7 @@ pub(crate) fn checks(
         Requirement::Strain,
         Requirement::ContactForce,
     ];
-    if !are_of_all_plates(subject, all) {
+    if !are_of_all_plates(judged, all) {
         return asked.map(Check::not_judged).into();
     }
     let share = |requirement, of: fn(&PlateContact) -> &ProvedShare| {
@@ -142,10 +142,10 @@ pub(crate) fn checks(
     let strain = (Requirement::Strain, wanted.strain, Sense::AtMost, Unit::Share);
     // Plates with the same window of forces are judged together.
     let window = |plate: usize| {
-        let own = subject
+        let own = judged
             .plates()
             .get(plate)
-            .and_then(|plate| subject.job.contact_of(plate));
+            .and_then(|plate| judged.job.contact_of(plate));
         own.map_or(wanted.force_n, |own| own.force_n)
     };
     let mut windows: Vec<[f64; 2]> = Vec::new();

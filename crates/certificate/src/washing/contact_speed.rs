@@ -25,15 +25,15 @@
 //!
 //! A plate that may lie higher touches earlier: H less the error of its height.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Derivatives, Moment, Stretch, TipPiece};
 use crate::motion::tip_limits::{self, Tips};
+use crate::plan_statements::schedule::{Schedule, Span};
 use crate::report::check::{Check, Discrepancy, WorstCase, tighter};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::statements::schedule::{Schedule, Span};
-use crate::subject::Subject;
 use crate::washing::face::Face;
 use crate::washing::instants;
 use nalgebra::Vector3;
@@ -60,22 +60,22 @@ struct ContactSpeedLimit<'a> {
 /// Checks that the retreat of a motion home begins and goes on with the sponge at the face that it leaves; `None` for other plans. Behind
 /// the plate, or beside it and lower, a way along the normal would lead into it.
 pub(crate) fn from_face(
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     along: &[TipPiece<'_>],
     schedule: Option<&Schedule>,
     tips: &Tips,
 ) -> Option<Check> {
-    let retreat = subject.job.recovery.as_ref().and_then(Recovery::retreat)?;
+    let retreat = judged.job.recovery.as_ref().and_then(Recovery::retreat)?;
     let requirement = Requirement::ContactHeight;
     let spans = schedule?.spans.iter().enumerate();
     let (index, span) = spans.clone().find(|(_, span)| span.kind == SegmentKind::Retreat)?;
-    let (Some(plate), Some(first)) = (subject.plates().get(retreat.plate), along.get(span.pieces.start)) else {
+    let (Some(plate), Some(first)) = (judged.plates().get(retreat.plate), along.get(span.pieces.start)) else {
         return Some(Check::not_judged(requirement));
     };
     // The tip keeps to the line up from where it begins.
     let height_m = plate.height_of(&first.stretch().ends[0].position) - LINE_TOLERANCE_M;
     let cosine = tips.least_upright_cosine_of(index);
-    if subject.job.workcell.tool.is_over_face(height_m, cosine) {
+    if judged.job.workcell.tool.is_over_face(height_m, cosine) {
         return Some(Check::stated(requirement, Vec::new()));
     }
     let found = format!(
@@ -94,7 +94,7 @@ pub(crate) fn from_face(
 /// Checks the contact speed on every plate that the sponge comes down on or leaves.
 pub(crate) fn check(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: Option<&Schedule>,
     tips: &Tips,
@@ -102,18 +102,18 @@ pub(crate) fn check(
     let Some(schedule) = schedule else {
         return Check::not_judged(Requirement::ContactSpeed);
     };
-    let wanted = &subject.job.requirements;
-    let judged = |limit: &ContactSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
-    let limit = subject.job.wash_speed_m_s();
+    let wanted = &judged.job.requirements;
+    let judge_limit = |limit: &ContactSpeedLimit<'_>| judge(arm, judged, (pieces, along), schedule, tips, limit);
+    let limit = judged.job.wash_speed_m_s();
     if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
-        return judged(&ContactSpeedLimit {
+        return judge_limit(&ContactSpeedLimit {
             kinds: &[SegmentKind::Approach, SegmentKind::Retreat],
             limit,
             is_free: false,
         });
     }
     let of = |kind, stated: Option<f64>| {
-        judged(&ContactSpeedLimit {
+        judge_limit(&ContactSpeedLimit {
             kinds: &[kind],
             limit: stated.map_or(limit, |stated| stated.min(limit)),
             is_free: stated.is_some(),
@@ -127,7 +127,7 @@ pub(crate) fn check(
 
 fn judge(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: &Schedule,
     tips: &Tips,
@@ -139,12 +139,12 @@ fn judge(
     let spans = || schedule.spans.iter().enumerate().filter(|(_, span)| touching(span));
     // A plate that is not there is found elsewhere.
     let rim = |index: usize, span: &Span| {
-        let plate = subject.plates().get(span.plate)?;
-        let sponge = &subject.job.workcell.tool.sponge;
+        let plate = judged.plates().get(span.plate)?;
+        let sponge = &judged.job.workcell.tool.sponge;
         let far = if touch.is_free {
             FarFace {
                 beyond_m: sponge.compression_m,
-                error_m: subject.job.height_error_of(plate),
+                error_m: judged.job.height_error_of(plate),
             }
         } else {
             FarFace {
@@ -244,7 +244,7 @@ impl<'a> Rim<'a> {
         };
         Self {
             plate,
-            face: Face::of(plate),
+            face: Face::new(plate),
             radius_m: s,
             far,
             reach_m: if flat && b == 0.0 {
@@ -253,7 +253,7 @@ impl<'a> Rim<'a> {
                 (s * s + along_m * along_m).sqrt()
             },
             highest_m: plate.surface.height_bounds_m()[1],
-            columns: (!flat).then(|| (Columns::fine(&foundation), Bends::of(&plate.surface))),
+            columns: (!flat).then(|| (Columns::fine(&foundation), Bends::new(&plate.surface))),
         }
     }
 

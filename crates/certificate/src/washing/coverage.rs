@@ -9,19 +9,19 @@
 //! What is pressed is swept: where the share proved to be pressed (requirement 27) reaches the required one, it is the bound.
 
 use crate::error::ProveError;
+use crate::judged_job::JudgedJob;
 use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
+use crate::plan_statements::schedule::Schedule;
 use crate::report::check::{Check, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::statements::schedule::Schedule;
-use crate::subject::Subject;
 use crate::washing::face::Face;
+use crate::washing::face_shares::{Fineness, shares};
 use crate::washing::instants::Instants;
 use crate::washing::plate_contact::PlateContact;
 use crate::washing::plate_coverage::PlateCoverage;
 use crate::washing::polyline::{MOST_HALVINGS, Polyline};
-use crate::washing::shares::{Fineness, shares};
 use crate::washing::wash_inputs::{ContactInputs, Washing};
 use platewash_bodies::contact::Foundation;
 use platewash_bodies::coverage::coverage;
@@ -54,7 +54,7 @@ pub(crate) struct Wash {
 /// [`ProveError::Coverage`] for lengths that make no sense, [`ProveError::Cancelled`].
 pub(crate) fn washes(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     pieces: &[TipPiece<'_>],
     schedule: &Schedule,
     tips: &Tips,
@@ -62,10 +62,10 @@ pub(crate) fn washes(
 ) -> Result<Vec<Wash>, ProveError> {
     let spans = schedule.spans.par_iter().enumerate();
     let washed = spans.filter_map(|(index, span)| {
-        let plate = subject.plates().get(span.plate)?;
+        let plate = judged.plates().get(span.plate)?;
         (span.kind == SegmentKind::Wash).then_some(Washing {
             arm,
-            subject,
+            judged,
             pieces: &pieces[span.pieces.clone()],
             around: schedule
                 .around(span.plate)
@@ -84,9 +84,9 @@ pub(crate) fn washes(
 
 impl Washing<'_> {
     fn judge(&self) -> Result<Wash, ProveError> {
-        let subject = self.subject;
-        let within_m = subject.path_radius_m(self.index).unwrap_or(0.0) + PATH_TOLERANCE_M;
-        let line = Polyline::new(self.arm, self.pieces, &Face::of(self.plate), within_m, MOST_HALVINGS);
+        let judged = self.judged;
+        let within_m = judged.path_radius_m(self.index).unwrap_or(0.0) + PATH_TOLERANCE_M;
+        let line = Polyline::new(self.arm, self.pieces, &Face::new(self.plate), within_m, MOST_HALVINGS);
         let contact = self.contact(&line)?;
         let mut swept = PlateCoverage {
             plate: self.index,
@@ -99,7 +99,7 @@ impl Washing<'_> {
             touches: Vec::new(),
         };
         let pressed = contact.map(|contact| contact.pressed.at_least);
-        match pressed.filter(|pressed| *pressed >= self.subject.job.requirements.coverage) {
+        match pressed.filter(|pressed| *pressed >= self.judged.job.requirements.coverage) {
             Some(pressed) => swept.at_least = pressed,
             None if self.plate.surface.is_flat() => self.sweep(&line, &mut swept)?,
             None => swept.at_least = self.touched_share(pressed.unwrap_or(0.0))?,
@@ -116,13 +116,13 @@ impl Washing<'_> {
     /// Bounds the share of a disc that the sponge sweeps: at least that which a disc of the radius s cos τ − Δ sweeps along the polyline, formula
     /// (26.1). `line` has Δ, `swept` has the lower bound on cos τ.
     fn sweep(&self, line: &Polyline, swept: &mut PlateCoverage) -> Result<(), ProveError> {
-        let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
+        let (plate, sponge_m) = (self.plate, self.judged.sponge_m());
         let share = |radius_m: f64, cell_m: f64| {
             self.cancel.check()?;
             let (rim_m, cell_m) = (plate.rim_m(), cell_m.max(1e-4 * plate.rim_m()));
             coverage(&line.points, [0.0; 2], rim_m, radius_m, cell_m).map_err(ProveError::Coverage)
         };
-        let required = self.subject.job.requirements.coverage;
+        let required = self.judged.job.requirements.coverage;
         let shrunk = sponge_m * swept.cos_tilt - line.off_m;
         if shrunk > 0.0 {
             swept.at_least = share(shrunk, CELLS_M[0])?.lower;
@@ -142,8 +142,8 @@ impl Washing<'_> {
         if !self.meets_from_above() {
             return Ok(pressed);
         }
-        let required = self.subject.job.requirements.coverage;
-        let sponge = &self.subject.job.workcell.tool.sponge;
+        let required = self.judged.job.requirements.coverage;
+        let sponge = &self.judged.job.workcell.tool.sponge;
         // Whatever its stiffness: no dose is asked for.
         let foundation = Foundation::stiff(sponge, [0.0; 2]);
         let wanted = ContactThresholds {
@@ -165,9 +165,11 @@ impl Washing<'_> {
 
     /// Bounds the contact, where the job has contact requirements.
     fn contact(&self, line: &Polyline) -> Result<Option<PlateContact>, ProveError> {
-        let job = self.subject.job;
-        let (Some(wanted), Some(foundation)) = (job.contact_of(self.plate), Foundation::of(&job.workcell.tool.sponge))
-        else {
+        let job = self.judged.job;
+        let (Some(wanted), Some(foundation)) = (
+            job.contact_of(self.plate),
+            Foundation::from_sponge(&job.workcell.tool.sponge),
+        ) else {
             return Ok(None);
         };
         let error_m = wanted.height_error_m;
@@ -187,16 +189,16 @@ impl Washing<'_> {
 }
 
 /// Checks that every plate is swept to the required share. Reports the plate with the least share.
-pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
+pub(crate) fn check(judged: &JudgedJob<'_>, coverage: &[PlateCoverage]) -> Check {
     let worst = coverage.iter().min_by(|a, b| a.at_least.total_cmp(&b.at_least));
     let Some(worst) = worst else {
         return Check::not_judged(Requirement::Swept);
     };
-    let all_washed = subject
+    let all_washed = judged
         .job
         .plates_to_wash()
         .all(|i| coverage.iter().any(|c| c.plate == i));
     let bounds = [Some(if all_washed { worst.at_least } else { 0.0 }), worst.at_most];
-    let measure = Measure::new(Sense::AtLeast, subject.job.requirements.coverage, Unit::Share, bounds);
+    let measure = Measure::new(Sense::AtLeast, judged.job.requirements.coverage, Unit::Share, bounds);
     Check::measured(Requirement::Swept, measure, WorstCase::on_plate(worst.plate))
 }

@@ -41,7 +41,7 @@ pub(crate) struct Face<'a> {
 
 impl<'a> Face<'a> {
     /// Returns the face of a plate.
-    pub fn of(plate: &'a Plate) -> Self {
+    pub fn new(plate: &'a Plate) -> Self {
         let upright = plate.axis();
         Self {
             plate,
@@ -264,7 +264,7 @@ mod tests {
         ) {
             let mut plate = platewash_fixtures::kitchen_plate([0.2, -0.1]);
             plate.pose.rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
-            let (face, point) = (Face::of(&plate), Vector3::new(x, y, z));
+            let (face, point) = (Face::new(&plate), Vector3::new(x, y, z));
             let axis = Vector3::new(lean.sin() * way.cos(), lean.sin() * way.sin(), -lean.cos());
             prop_assert!((face.height_of(&point) - (z - 0.03)).abs() < 1e-15);
             prop_assert!((sine_of_tilt(&axis, face.plate_axis()) - lean.sin()).abs() < 1e-15);

@@ -9,15 +9,15 @@
 //!
 //! The curves that the tip must follow, by one parameter θ that never runs back.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits;
+use crate::plan_statements::schedule::Schedule;
 use crate::report::check::Check;
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::statements::schedule::Schedule;
-use crate::subject::Subject;
 use crate::washing::face::Face;
 use nalgebra::Vector3;
 use platewash_motion::trajectory::SegmentKind;
@@ -38,7 +38,7 @@ struct Leg<'a> {
 /// Checks the deviation of the tip from the wash paths, and from the lines over their ends.
 pub(crate) fn checks(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: Option<&Schedule>,
 ) -> [Check; 2] {
@@ -51,9 +51,9 @@ pub(crate) fn checks(
     let mut no_curve = [false; 2];
     for span in schedule.spans.iter().filter(|span| span.kind.is_at_plate()) {
         let which = usize::from(span.kind != SegmentKind::Wash);
-        let plate = subject.plates().get(span.plate);
-        let of_path = |plate| Curve::new(plate, subject.path_of(span.plate)?, span.kind);
-        let curve = match subject.job.recovery.as_ref().and_then(Recovery::retreat) {
+        let plate = judged.plates().get(span.plate);
+        let of_path = |plate| Curve::new(plate, judged.path_of(span.plate)?, span.kind);
+        let curve = match judged.job.recovery.as_ref().and_then(Recovery::retreat) {
             Some(line) => plate
                 .zip(along.get(span.pieces.start))
                 .map(|(plate, first)| Curve::up_from(plate, first.stretch().ends[0].position, line.length_m)),
@@ -183,7 +183,7 @@ impl<'a> Curve<'a> {
                 Some(Self::Line { from, along, length })
             }
             SegmentKind::Wash => {
-                let (face, curve) = (Face::of(plate), &path.curve);
+                let (face, curve) = (Face::new(plate), &path.curve);
                 Some(Self::Wash { face, curve })
             }
             SegmentKind::Retreat => {

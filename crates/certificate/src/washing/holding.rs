@@ -26,10 +26,10 @@
 //! there, too, and the friction suffices where (u μ′ P − F)(R P − M) ≥ T P (u = 1, μ′ the coefficient): a parabola in N, which is not below 0
 //! if it is not so at both ends and at its vertex. The least u is found by halving.
 
+use crate::judged_job::JudgedJob;
 use crate::report::check::{Check, Measure, Sense, WorstCase, tighter};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
-use crate::subject::Subject;
 use crate::washing::holder_load::{HolderLoad, RingShares};
 use crate::washing::instants::Instants;
 use crate::washing::plate_contact::{PlateContact, are_of_all_plates};
@@ -46,8 +46,8 @@ const ROUNDING: f64 = 1e-9;
 /// Bounds the load from approach to retreat: the force across the plate's axis, formula (33.1), and the torque about it, formula (33.2). `pressing`
 /// has the integrals. `None` where nothing is proved.
 pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Option<HolderLoad> {
-    let (plate, subject) = (inputs.washing.plate, inputs.washing.subject);
-    let (volumes, terms) = (&pressing.holder, subject.job.requirements.holder.as_ref());
+    let (plate, judged) = (inputs.washing.plate, inputs.washing.judged);
+    let (volumes, terms) = (&pressing.holder, judged.job.requirements.holder.as_ref());
     let stiffest = inputs.foundation.stiffness_pa[1] / inputs.foundation.free_height_m;
     let [least, assumed] = FRICTION;
     let most = terms.map_or(assumed, |terms| terms.sponge_friction);
@@ -59,10 +59,7 @@ pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Op
     let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
     let weight_n = mass_kg.map(|mass_kg| {
         let (axis, whole_n) = (plate.axis(), mass_kg * GRAVITY_M_S2);
-        [
-            whole_n * axis.dot(&subject.up),
-            whole_n * axis.cross(&subject.up).norm(),
-        ]
+        [whole_n * axis.dot(&judged.up), whole_n * axis.cross(&judged.up).norm()]
     });
     let standing = terms.and_then(|terms| terms.ring.as_ref()).zip(weight_n);
     let on_ring = |weight_n| ring_load(inputs, pressing, stiffest, most, lateral_n[1], weight_n);
@@ -307,11 +304,11 @@ impl Stretch {
 }
 
 /// Checks that every plate stays where it is, where the job states what holds the plates.
-pub(crate) fn check(subject: &Subject<'_>, all: &[PlateContact]) -> Option<Check> {
+pub(crate) fn check(judged: &JudgedJob<'_>, all: &[PlateContact]) -> Option<Check> {
     let requirement = Requirement::PlateStays;
-    let terms = subject.job.requirements.holder?;
-    subject.job.requirements.contact?;
-    if !are_of_all_plates(subject, all) {
+    let terms = judged.job.requirements.holder?;
+    judged.job.requirements.contact?;
+    if !are_of_all_plates(judged, all) {
         return Some(Check::not_judged(requirement));
     }
     let side = |contact: &PlateContact, bound: Option<f64>, limit: f64, unit: Unit| {

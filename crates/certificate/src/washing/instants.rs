@@ -15,7 +15,7 @@
 
 use crate::motion::tip::{self, Arm, Derivatives, Stretch, TipPiece};
 use crate::motion::tip_limits;
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::sags::Sags;
 use platewash_bodies::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 

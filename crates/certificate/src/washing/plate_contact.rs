@@ -1,6 +1,6 @@
 //! Contact of the sponge with a plate, as the certificate states it.
 
-use crate::subject::Subject;
+use crate::judged_job::JudgedJob;
 use crate::washing::holder_load::HolderLoad;
 use platewash_bodies::coverage::reaches;
 use serde::{Deserialize, Serialize};
@@ -86,7 +86,7 @@ impl PlateContact {
 }
 
 /// True if the contact with every plate to wash is known.
-pub(crate) fn are_of_all_plates(subject: &Subject<'_>, all: &[PlateContact]) -> bool {
-    let mut plates = subject.job.plates_to_wash();
+pub(crate) fn are_of_all_plates(judged: &JudgedJob<'_>, all: &[PlateContact]) -> bool {
+    let mut plates = judged.job.plates_to_wash();
     plates.all(|plate| all.iter().any(|c| c.plate == plate))
 }

@@ -296,7 +296,7 @@ fn search(
         return Pressing::unknown();
     }
     let mut search = Search {
-        bends: Bends::of(&plate.surface),
+        bends: Bends::new(&plate.surface),
         instants,
         turning: TurningFrame::new(plate, instants),
         error_m,

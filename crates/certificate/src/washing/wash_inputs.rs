@@ -1,8 +1,8 @@
 //! Inputs of the judgement of a wash: its motion, its plate, and bounds that are known already.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
-use crate::subject::Subject;
 use crate::washing::instants::Instants;
 use platewash_bodies::contact::Foundation;
 use platewash_workcell::cancel::CancelToken;
@@ -12,7 +12,7 @@ use platewash_workcell::plate::Plate;
 /// The wash under judgement, with the data it needs.
 pub(crate) struct Washing<'a> {
     pub arm: &'a Arm<'a>,
-    pub subject: &'a Subject<'a>,
+    pub judged: &'a JudgedJob<'a>,
     pub pieces: &'a [TipPiece<'a>],
     /// Pieces of the approaches to the plate and the retreats from it.
     pub around: Vec<&'a [TipPiece<'a>]>,

@@ -30,7 +30,7 @@ pub(super) struct Part {
 
 impl Part {
     pub(super) fn around(points: Vec<Vector>) -> Self {
-        match ConvexHull::of(&points) {
+        match ConvexHull::from_points(&points) {
             Ok(hull) => Self {
                 planes: hull.planes(),
                 corners: hull.corners,
@@ -122,8 +122,9 @@ pub(super) fn enclosing(triangles: &[[Vector; 3]], cells: &[Part]) -> Vec<Vec<Ve
 /// Returns the corners of a body that holds some points and whose hull can be computed: their own hull, or, where the collision library fails,
 /// that of the points with a thickness, and last the box about them.
 fn solid(points: Vec<Vector>) -> Vec<Vector> {
-    let hull =
-        |points: Vec<Vector>| Some(Part::around(points).corners).filter(|corners| ConvexHull::of(corners).is_ok());
+    let hull = |points: Vec<Vector>| {
+        Some(Part::around(points).corners).filter(|corners| ConvexHull::from_points(corners).is_ok())
+    };
     let found = hull(thick(points.clone())).or_else(|| hull(thickened(&points)));
     found.unwrap_or_else(|| box_about(&points))
 }

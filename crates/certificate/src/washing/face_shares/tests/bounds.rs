@@ -1,9 +1,9 @@
 //! Bounds over a cell against dense sums at points of it, for a sponge that goes along an arc while it turns.
 
-use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
-use crate::washing::shares::cell::Cell;
-use crate::washing::shares::sags::Sags;
-use crate::washing::shares::{Fineness, shares};
+use crate::washing::face_shares::bounds::{CellAmounts, Passes, Scratch};
+use crate::washing::face_shares::face_cell::FaceCell;
+use crate::washing::face_shares::sags::Sags;
+use crate::washing::face_shares::{Fineness, shares};
 use nalgebra::{Rotation3, Unit, Vector3};
 use platewash_bodies::contact::{Foundation, Moment, SpongePose};
 use platewash_workcell::job::ContactThresholds;
@@ -122,7 +122,7 @@ proptest! {
         let (moments, sags) = pass.moments(step);
         let passes = Passes::new(&surface, &SPONGE, (&moments, &sags), &WANTED);
         let middle = [pass.radius_m + place[0], place[1]];
-        let cell = Cell::new(&surface, middle, half);
+        let cell = FaceCell::new(&surface, middle, half);
         let mut windows = Vec::new();
         passes.windows_near(&cell, &mut windows);
         let mut scratch = Scratch::default();
@@ -130,7 +130,7 @@ proptest! {
         // A quarter that starts from what is known of the whole.
         let windows: Vec<_> = scratch.windows().collect();
         let quarter = [middle[0] + 0.5 * half, middle[1] - 0.5 * half];
-        let quartered = Cell::new(&surface, quarter, 0.5 * half);
+        let quartered = FaceCell::new(&surface, quarter, 0.5 * half);
         let again = passes.bounds(&quartered, (found.amounts, &windows), &mut scratch, |_| [1.0; 3]).unwrap();
         let dt = step / 40.0;
         for [x, y, e] in inside.into_iter().chain([[1.0, 1.0, -1.0], [-1.0, 1.0, 1.0]]) {

@@ -4,9 +4,9 @@
 //!
 //! Plates keep apart from each other and from the base, obstacles from both.
 
+use crate::judged_job::JudgedJob;
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
-use crate::subject::Subject;
 use crate::washing::face::PLACE_M;
 use crate::washing::reach;
 use nalgebra::Vector3;
@@ -21,8 +21,8 @@ use platewash_workcell::words::{millimetres, plate_name, printable};
 use platewash_workcell::workcell::{ArmId, ObstacleShape};
 
 /// Checks that the plan is for this arm.
-pub(crate) fn arm(subject: &Subject<'_>) -> Check {
-    let (stated, given) = (&subject.job.workcell.arm, ArmId::of(subject.robot));
+pub(crate) fn arm(judged: &JudgedJob<'_>) -> Check {
+    let (stated, given) = (&judged.job.workcell.arm, ArmId::of(judged.robot));
     let srdf = |id: &ArmId| id.srdf_sha256.as_ref().map_or("none".to_owned(), |hash| quoted(hash));
     let fixed = |id: &ArmId| match id.fixed.is_empty() {
         true => "none".to_owned(),
@@ -43,8 +43,8 @@ pub(crate) fn arm(subject: &Subject<'_>) -> Check {
 /// Checks that the tip is the middle of the sponge's far face, with z out of the tool there, so that bounds of the tip hold for the sponge.
 /// No body may reach into the sponge, which is all foam. Without bodies there is no tool that could touch anything, and the tip is the
 /// arm's own.
-pub(crate) fn tool(subject: &Subject<'_>) -> Check {
-    let tool = &subject.job.workcell.tool;
+pub(crate) fn tool(judged: &JudgedJob<'_>) -> Check {
+    let tool = &judged.job.workcell.tool;
     let face = tool.sponge.pose * Pose::translation(0.0, 0.0, tool.sponge.height_m / 2.0);
     let mut wrong = tip_discrepancies(&face, &tool.tip, "the middle of the sponge's far face");
     if !tool.is_present() {
@@ -74,15 +74,15 @@ fn tip_discrepancies(expected: &Pose, tip: &Pose, words: &str) -> Vec<Discrepanc
 }
 
 /// Checks that no plate reaches below the floor, or into another half-space.
-pub(crate) fn plates(subject: &Subject<'_>) -> Check {
+pub(crate) fn plates(judged: &JudgedJob<'_>) -> Check {
     let mut wrong = Vec::new();
-    for obstacle in &subject.job.workcell.obstacles {
+    for obstacle in &judged.job.workcell.obstacles {
         if obstacle.shape != ObstacleShape::HalfSpace {
             continue;
         }
         let up = obstacle.pose.rotation * Vector3::z();
         let level_m = obstacle.pose.translation.vector.dot(&up);
-        for (i, plate) in subject.plates().iter().enumerate() {
+        for (i, plate) in judged.plates().iter().enumerate() {
             let underside_m = -plate.reach_along_m(&-up) - level_m;
             if underside_m < -PLACE_M {
                 let what = format!(
@@ -98,12 +98,12 @@ pub(crate) fn plates(subject: &Subject<'_>) -> Check {
 }
 
 /// Checks that every plate is in the order once, and that no more than its rim is swept while another one is washed. Overlapping plates are
-/// judged in [`crate::statements::plates`]: where the overlap is only reported, so is the double sweeping.
-pub(crate) fn every_plate_once(subject: &Subject<'_>, plan: &Plan, upright_cosine: impl Fn(usize) -> f64) -> Check {
+/// judged in [`crate::plan_statements::plates`]: where the overlap is only reported, so is the double sweeping.
+pub(crate) fn every_plate_once(judged: &JudgedJob<'_>, plan: &Plan, upright_cosine: impl Fn(usize) -> f64) -> Check {
     let mut wrong = washed_once(plan);
-    let swept = reach::swept(subject, upright_cosine);
+    let swept = reach::swept(judged, upright_cosine);
     wrong.extend(swept.apart);
-    if wrong.is_empty() && subject.job.requirements.overlap == Overlap::Report {
+    if wrong.is_empty() && judged.job.requirements.overlap == Overlap::Report {
         return Check::stated(Requirement::EveryPlateOnce, swept.overlapping).waived_if(true);
     }
     Check::stated(Requirement::EveryPlateOnce, wrong)
@@ -146,17 +146,17 @@ fn quoted(text: &str) -> String {
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
-pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceError> {
-    let overlaps = overlaps_of_plates(subject.job, subject.robot);
+pub(crate) fn plates_apart(judged: &JudgedJob<'_>) -> Result<Check, ClearanceError> {
+    let overlaps = overlaps_of_plates(judged.job, judged.robot);
     let mut wrong: Vec<_> = overlaps.iter().map(discrepancy).collect();
-    let obstacles = &subject.job.workcell.obstacles;
+    let obstacles = &judged.job.workcell.obstacles;
     let is_floor = |name: &str| {
         obstacles
             .iter()
             .any(|o| o.name == name && o.shape == ObstacleShape::HalfSpace)
     };
-    let is_plate = |name: &String| (0..subject.plates().len()).any(|plate| *name == plate_name(plate));
-    let mut reaching = overlaps_of_fixed_bodies(subject.job, subject.robot)?;
+    let is_plate = |name: &String| (0..judged.plates().len()).any(|plate| *name == plate_name(plate));
+    let mut reaching = overlaps_of_fixed_bodies(judged.job, judged.robot)?;
     reaching.retain(|found| match &found.body {
         FixedBody::Obstacle(name) => !(is_floor(name) && is_plate(&found.other)),
         FixedBody::Parts(_) | FixedBody::Plate(_) => true,
@@ -171,7 +171,7 @@ pub(crate) fn plates_apart(subject: &Subject<'_>) -> Result<Check, ClearanceErro
         )
     }));
     // Overlapping plates may be waived; an obstacle in a plate may not.
-    let waives = subject.job.requirements.overlap == Overlap::Report && !reaches;
+    let waives = judged.job.requirements.overlap == Overlap::Report && !reaches;
     Ok(Check::stated(Requirement::PlatesApart, wrong).waived_if(waives))
 }
 

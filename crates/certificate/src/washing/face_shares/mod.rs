@@ -2,7 +2,7 @@
 //!
 //! Requirements 27 to 29, formulas (27.1) and (28.1) in `docs/contact.md`.
 //!
-//! Seen along its axis, the face is cut into squares (`cell.rs`), which are halved where more is likely to keep what is wanted than is
+//! Seen along its axis, the face is cut into squares (`face_cell.rs`), which are halved where more is likely to keep what is wanted than is
 //! shown, down to a least size, until as much is shown as was asked for. Of the moments that reach a cell, one after the other, those
 //! between which all of it is in contact count by what two sums differ (`doses.rs`) and are not looked at again in its quarters. What is
 //! left are windows in which places of the cell leave the sponge or get under it (`leaving.rs`): together they give lower bounds of time
@@ -12,9 +12,9 @@
 //! bounds.
 
 pub(crate) mod bounds;
-pub(crate) mod cell;
 pub(crate) mod doses;
 pub(crate) mod edges;
+pub(crate) mod face_cell;
 pub(crate) mod leaving;
 pub(crate) mod look;
 pub(crate) mod lower;
@@ -24,10 +24,10 @@ pub(crate) mod sags;
 mod tests;
 pub(crate) mod touch;
 
-use crate::washing::shares::bounds::{CellAmounts, Passes, Scratch};
-use crate::washing::shares::cell::Cell;
-use crate::washing::shares::lower::Lower;
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::bounds::{CellAmounts, Passes, Scratch};
+use crate::washing::face_shares::face_cell::FaceCell;
+use crate::washing::face_shares::lower::Lower;
+use crate::washing::face_shares::sags::Sags;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Foundation, Moment};
 use platewash_bodies::coverage::{SMALLEST_CELL, reaches};
@@ -136,7 +136,7 @@ impl MissingArea {
     }
 }
 
-/// Cell that is not shown to get all wanted amounts everywhere.
+/// FaceCell that is not shown to get all wanted amounts everywhere.
 struct Node {
     middle: [f64; 2],
     point: Vector3<f64>,
@@ -180,10 +180,10 @@ impl Passes<'_> {
         let (mut windows, mut scratch) = (Vec::new(), Scratch::default());
         for (i, j) in (-count..count).flat_map(|i| (-count..count).map(move |j| (i, j))) {
             let middle = [i, j].map(|k| (2.0 * f64::from(k) + 1.0) * half);
-            if Cell::is_beyond(middle, half, self.surface.rim_m()) {
+            if FaceCell::is_beyond(middle, half, self.surface.rim_m()) {
                 continue;
             }
-            let cell = Cell::new(self.surface, middle, half);
+            let cell = FaceCell::new(self.surface, middle, half);
             windows.clear();
             self.windows_near(&cell, &mut windows);
             let found = (&mut level.windows, &mut scratch);
@@ -206,14 +206,14 @@ impl Passes<'_> {
             let windows = level.windows.get(node.windows.clone()).unwrap_or_default();
             for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
                 let middle = [node.middle[0] + x, node.middle[1] + y];
-                if Cell::is_beyond(middle, half, self.surface.rim_m()) {
+                if FaceCell::is_beyond(middle, half, self.surface.rim_m()) {
                     continue;
                 }
                 // What is known of the whole may do for its quarter.
                 if self.below(&node.bounds.map(|bound| bound.seen_from([x, y])), half) == [0.0; 3] {
                     continue;
                 }
-                let cell = Cell::new(self.surface, middle, half);
+                let cell = FaceCell::new(self.surface, middle, half);
                 let found = (&mut next.windows, &mut scratch);
                 next.nodes
                     .extend(self.node(&cell, middle, (node.amounts, windows), found));
@@ -225,7 +225,7 @@ impl Passes<'_> {
     /// Bounds a cell through some windows, on top of the amounts `kept`. Returns `None` where it gets all that is wanted.
     fn node(
         &self,
-        cell: &Cell,
+        cell: &FaceCell,
         middle: [f64; 2],
         known: (CellAmounts, &[[u32; 2]]),
         (windows, scratch): (&mut Vec<[u32; 2]>, &mut Scratch),

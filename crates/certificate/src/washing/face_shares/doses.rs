@@ -17,10 +17,10 @@
 //! is a polynomial of the second degree in x. So one sum from the first moment on tells the dose of every place that is in contact all
 //! along a run, as the difference of two.
 
-use crate::washing::shares::cell::{Cell, CellState};
-use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window};
-use crate::washing::shares::lower::Lower;
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::edges::{Edges, Gain, LeavingTimes, Window};
+use crate::washing::face_shares::face_cell::{CellState, FaceCell};
+use crate::washing::face_shares::lower::Lower;
+use crate::washing::face_shares::sags::Sags;
 use nalgebra::{Matrix3, Vector3, Vector4};
 use platewash_bodies::contact::{Foundation, Moment, SpongePose, at_least_0, both};
 use std::ops::{Add, Sub};
@@ -56,7 +56,7 @@ impl Factors {
 impl Edges<'_> {
     /// Returns a lower bound on the dose of a cell from the first moment of a window until its places leave \[Pa·m\]: E/H times Q(t₀ + u)
     /// of the head of this file, E the least stiffness. `leaving` has t₀ and u = g·δ + g_e e − η (`leaving.rs`).
-    pub(crate) fn dose(&self, cell: &Cell, window: Window<'_>, leaving: &LeavingTimes) -> Lower {
+    pub(crate) fn dose(&self, cell: &FaceCell, window: Window<'_>, leaving: &LeavingTimes) -> Lower {
         let LeavingTimes {
             at_s,
             sooner_s,
@@ -111,7 +111,7 @@ impl Edges<'_> {
     }
 
     /// Sliding velocity of the sponge over the middle of a cell, across the sponge's axis \[m/s\].
-    fn slide(&self, cell: &Cell, state: &CellState) -> Vector3<f64> {
+    fn slide(&self, cell: &FaceCell, state: &CellState) -> Vector3<f64> {
         let moment = self.moment(state.index);
         let SpongePose { tip, axis } = &moment.pose;
         let slide = moment.speed + moment.turning.cross(&(cell.point - tip));
@@ -119,21 +119,21 @@ impl Edges<'_> {
     }
 
     /// Mean sliding direction over a window, a unit vector.
-    fn direction(&self, cell: &Cell, window: Window<'_>, last: usize) -> Vector3<f64> {
+    fn direction(&self, cell: &FaceCell, window: Window<'_>, last: usize) -> Vector3<f64> {
         let ends =
             [window.at(0), window.at(last)].map(|seen| seen.map_or_else(Vector3::zeros, |seen| self.slide(cell, seen)));
         (ends[0] + ends[1]).try_normalize(0.0).unwrap_or_else(Vector3::zeros)
     }
 
     /// Returns the factors at a moment.
-    fn factors(&self, cell: &Cell, state: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
+    fn factors(&self, cell: &FaceCell, state: &CellState, direction: &Vector3<f64>, at_s: f64) -> Factors {
         self.factors_of(cell, state, &self.slide(cell, state), direction, at_s)
     }
 
     /// Returns the factors at a moment, from the sliding velocity.
     fn factors_of(
         &self,
-        cell: &Cell,
+        cell: &FaceCell,
         state: &CellState,
         slide: &Vector3<f64>,
         direction: &Vector3<f64>,
@@ -175,7 +175,7 @@ impl Edges<'_> {
 
     /// Returns the gain that places of a large cell are likely to get at most through a window in which not all of it is in contact. The
     /// proved gain is 0.
-    pub(crate) fn greatest_likely_gain(&self, cell: &Cell, window: &[CellState]) -> Gain {
+    pub(crate) fn greatest_likely_gain(&self, cell: &FaceCell, window: &[CellState]) -> Gain {
         let near = |state: &&CellState| {
             state.pressed_m + 2.0 * state.sloping_m >= 0.0 && state.inside_m + 2.0 * cell.max_distance_m() >= 0.0
         };
@@ -197,7 +197,7 @@ impl Edges<'_> {
 
     /// Returns the time and dose that all of a cell gets between two moments, with the likely slack; `None` if there is neither.
     #[inline]
-    pub(crate) fn flat(&self, cell: &Cell, ends: [&CellState; 2]) -> Option<Gain> {
+    pub(crate) fn flat(&self, cell: &FaceCell, ends: [&CellState; 2]) -> Option<Gain> {
         let sags = self.sags(ends[0], ends[1]);
         // Smaller cells help against what differs over this one alone.
         let likely = common(
@@ -208,7 +208,7 @@ impl Edges<'_> {
     }
 
     /// Returns the gain of [`Self::flat`] in the part of the interval in which places of the cell are likely to be in contact.
-    fn flat_within(&self, cell: &Cell, ends: [&CellState; 2], sags: &Sags, [from, to]: [f64; 2]) -> Gain {
+    fn flat_within(&self, cell: &FaceCell, ends: [&CellState; 2], sags: &Sags, [from, to]: [f64; 2]) -> Gain {
         let least = common(
             ends.map(|end| end.pressed_m - sags.compression_m),
             ends.map(|end| end.inside_m - sags.aside_m),

@@ -13,10 +13,10 @@
 //! Where the foam is released rather than left, its compression w₀ + ẇ (t − t₀) + j·δ + j_e e is such a line itself, so that g = −j/ẇ and
 //! η = ε/|ẇ|. What a cell enters it leaves in reversed time.
 
-use crate::washing::shares::cell::{Cell, CellState};
-use crate::washing::shares::edges::{Edges, Gain, LeavingTimes, Window, length};
-use crate::washing::shares::lower::Lower;
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::edges::{Edges, Gain, LeavingTimes, Window, length};
+use crate::washing::face_shares::face_cell::{CellState, FaceCell};
+use crate::washing::face_shares::lower::Lower;
+use crate::washing::face_shares::sags::Sags;
 use nalgebra::Vector3;
 
 /// Error of the formulas above due to rounding \[m\].
@@ -32,7 +32,7 @@ struct Line<T> {
 impl Edges<'_> {
     /// Returns lower bounds for every place of a cell through a window: one for leaving, if the cell is wholly in contact at the first two
     /// moments, and one for entering, if it is at the last two.
-    pub fn gain(&self, cell: &Cell, state: &[CellState]) -> [Option<Gain>; 2] {
+    pub fn gain(&self, cell: &FaceCell, state: &[CellState]) -> [Option<Gain>; 2] {
         let leaves = state.len() > 2 && state[1].full;
         let enters = state.len() > 2 && state[state.len() - 1].full;
         let one = |reversed| {
@@ -61,7 +61,7 @@ impl Edges<'_> {
         }
     }
 
-    fn one_way(&self, cell: &Cell, window: Window<'_>) -> Option<Gain> {
+    fn one_way(&self, cell: &FaceCell, window: Window<'_>) -> Option<Gain> {
         let leaving = self.leaving(cell, window)?;
         let start_s = window.start_s;
         let farthest_s = leaving.at_s - leaving.sooner_s + leaving.spread_s;
@@ -81,7 +81,7 @@ impl Edges<'_> {
         })
     }
 
-    fn leaving(&self, cell: &Cell, window: Window<'_>) -> Option<LeavingTimes> {
+    fn leaving(&self, cell: &FaceCell, window: Window<'_>) -> Option<LeavingTimes> {
         let radius_m = self.foundation.radius_m;
         for k in 1.. {
             let (before, after) = (window.at(k - 1)?, window.at(k)?);
@@ -124,7 +124,7 @@ impl Edges<'_> {
     /// M and m, `lost_m` is ε.
     fn left_aside(
         &self,
-        cell: &Cell,
+        cell: &FaceCell,
         window: Window<'_>,
         line: &Line<Vector3<f64>>,
         axis: &Vector3<f64>,
@@ -169,7 +169,7 @@ impl Edges<'_> {
     /// `line` is w₀ + ẇ (t − t₀): its value is w₀, its rate is ẇ. In the code, `lost_m` is ε.
     fn release_times(
         &self,
-        cell: &Cell,
+        cell: &FaceCell,
         window: Window<'_>,
         line: &Line<f64>,
         axis: &Vector3<f64>,

@@ -4,14 +4,14 @@
 //! (0, 1, G_y), G the gradient there, and |b| ≤ ½ K r², K the greatest second derivative of the height over the cell. A plate that lies
 //! higher by e adds e ẑ.
 
-use crate::washing::shares::look::Look;
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::look::Look;
+use crate::washing::face_shares::sags::Sags;
 use nalgebra::{Vector2, Vector3};
 use platewash_bodies::coverage::area_of_rectangle_in_disc;
 use platewash_workcell::surface::Surface;
 
-/// Cell of the face, with bounds over its patch.
-pub(crate) struct Cell {
+/// FaceCell of the face, with bounds over its patch.
+pub(crate) struct FaceCell {
     middle: [f64; 2],
     /// Half of the edge \[m\].
     pub half: f64,
@@ -56,7 +56,7 @@ impl CellState {
     }
 }
 
-impl Cell {
+impl FaceCell {
     /// Returns the square about a middle, with X, G, r and K of its patch: see the head of this file. `half` is half of the edge \[m\].
     pub fn new(surface: &Surface, [x, y]: [f64; 2], half: f64) -> Self {
         let reach_m = half * std::f64::consts::SQRT_2;

@@ -16,18 +16,18 @@ use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcel
 
 /// The job under judgement, with its arm.
 #[derive(Debug)]
-pub(crate) struct Subject<'a> {
+pub(crate) struct JudgedJob<'a> {
     pub job: &'a JobTerms,
     pub robot: &'a RobotModel,
     pub joints: JointLimits,
     /// Greatest angle of the tool from the plate's normal while it approaches, washes and retreats \[rad\].
     pub tilt_rad: f64,
-    /// Upwards, in the frame of the arm's base. [`Subject::new`] takes it for that of the world.
+    /// Upwards, in the frame of the arm's base. [`JudgedJob::new`] takes it for that of the world.
     pub up: Vector3<f64>,
     paths: Vec<Option<WashPath>>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> JudgedJob<'a> {
     /// Joins a job, its arm and the wash paths of its plates; a path may be missing.
     pub fn new(job: &'a JobTerms, robot: &'a RobotModel, paths: Vec<Option<WashPath>>) -> Self {
         // A path may state a narrower cone than the job allows; what one states, all keep.

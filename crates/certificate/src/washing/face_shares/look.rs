@@ -1,6 +1,6 @@
 //! Sponge at a moment, as all cells see it.
 
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::sags::Sags;
 use nalgebra::Vector3;
 
 /// Sponge at a moment, as all cells see it.

@@ -6,10 +6,10 @@
 //! clearance check covers them, as it covers any obstacle. The name of the parent plan is stated and not judged: comparing takes the other
 //! plan.
 
+use crate::judged_job::JudgedJob;
+use crate::plan_statements::plates;
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
-use crate::statements::plates;
-use crate::subject::Subject;
 use crate::washing::face::PLACE_M;
 use nalgebra::Vector3;
 use platewash_bodies::clearance::ClearanceError;
@@ -24,12 +24,12 @@ use platewash_workcell::workcell::Obstacle;
 ///
 /// # Errors
 /// [`ClearanceError`] for a shape that is none.
-pub(crate) fn check(subject: &Subject<'_>) -> Result<Option<Check>, ClearanceError> {
-    let Some(dry_run) = &subject.job.dry_run else {
+pub(crate) fn check(judged: &JudgedJob<'_>) -> Result<Option<Check>, ClearanceError> {
+    let Some(dry_run) = &judged.job.dry_run else {
         return Ok(None);
     };
-    let obstacles = &subject.job.workcell.obstacles;
-    let plates = subject.plates().iter().enumerate();
+    let obstacles = &judged.job.workcell.obstacles;
+    let plates = judged.plates().iter().enumerate();
     let mut wrong: Vec<_> = plates
         .filter_map(|(i, plate)| missing(dry_run, obstacles, i, plate))
         .collect();
@@ -37,13 +37,13 @@ pub(crate) fn check(subject: &Subject<'_>) -> Result<Option<Check>, ClearanceErr
         let stated = format!("{:?}", dry_run.parent);
         wrong.push(Discrepancy::new("dry_run.parent", stated, "the hash of a plan"));
     }
-    wrong.extend(misplaced(subject, dry_run)?);
+    wrong.extend(misplaced(judged, dry_run)?);
     Ok(Some(Check::stated(Requirement::DryRun, wrong)))
 }
 
 /// Finds real plates at places that are taken: in the floor, in an obstacle, in each other or in the base.
-fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>, ClearanceError> {
-    let job = subject.job;
+fn misplaced(judged: &JudgedJob<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>, ClearanceError> {
+    let job = judged.job;
     let plates: Vec<_> = job.plates.iter().map(|plate| dry_run.lowered(plate)).collect();
     let mut workcell = job.workcell.clone();
     let real_names: Vec<_> = (0..plates.len()).map(DryRun::real_name).collect();
@@ -56,7 +56,7 @@ fn misplaced(subject: &Subject<'_>, dry_run: &DryRun) -> Result<Vec<Discrepancy>
         dry_run: None,
         ..job.clone()
     };
-    let washing = Subject::new(&washing, subject.robot, Vec::new());
+    let washing = JudgedJob::new(&washing, judged.robot, Vec::new());
     let checks = [plates::plates(&washing), plates::plates_apart(&washing)?];
     let broken = checks.into_iter().filter(|check| !check.status.is_kept());
     let of_real = |wrong: Discrepancy| Discrepancy {

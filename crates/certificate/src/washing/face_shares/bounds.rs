@@ -2,12 +2,12 @@
 //!
 //! Requirements 27 to 29 in `docs/contact.md`.
 
-use crate::washing::shares::cell::{Cell, CellState};
-use crate::washing::shares::doses::{Polynomial, Sums};
-use crate::washing::shares::edges::{Edges, Gain};
-use crate::washing::shares::lower::Lower;
-use crate::washing::shares::sags::Sags;
-use crate::washing::shares::touch::Touch;
+use crate::washing::face_shares::doses::{Polynomial, Sums};
+use crate::washing::face_shares::edges::{Edges, Gain};
+use crate::washing::face_shares::face_cell::{CellState, FaceCell};
+use crate::washing::face_shares::lower::Lower;
+use crate::washing::face_shares::sags::Sags;
+use crate::washing::face_shares::touch::Touch;
 use platewash_bodies::contact::{Bundles, Foundation, Moment};
 use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::surface::Surface;
@@ -82,12 +82,12 @@ impl<'a> Passes<'a> {
             edges: Edges::new(foundation, (moments, sags), thresholds),
             sums: Sums::new(foundation, (moments, sags), far_m),
             step_m: longest_step(moments, foundation.radius_m),
-            bundles: Bundles::of(moments),
+            bundles: Bundles::new(moments),
         }
     }
 
     /// Fills `windows` with ranges of moments that hold all moments near a cell.
-    pub fn windows_near(&self, cell: &Cell, windows: &mut Vec<[u32; 2]>) {
+    pub fn windows_near(&self, cell: &FaceCell, windows: &mut Vec<[u32; 2]>) {
         for near in self.bundles.near(self.reach_m(cell), &cell.point) {
             let [first, end] = [near.start, near.end].map(|index| index as u32);
             match windows.last_mut() {
@@ -99,7 +99,7 @@ impl<'a> Passes<'a> {
 
     /// Upper bound on the distance of the sponge's axis from the middle of a cell, across the axis, at which a point of the cell may be
     /// within the sponge at that moment or the neighbouring ones \[m\].
-    pub fn reach_m(&self, cell: &Cell) -> f64 {
+    pub fn reach_m(&self, cell: &FaceCell) -> f64 {
         self.edges.foundation.radius_m + cell.max_distance_m() + self.step_m
     }
 }
@@ -110,7 +110,7 @@ impl Passes<'_> {
     /// wanted amounts, are 0.
     pub(crate) fn bounds(
         &self,
-        cell: &Cell,
+        cell: &FaceCell,
         (mut kept, within): (CellAmounts, &[[u32; 2]]),
         scratch: &mut Scratch,
         shares_below: impl Fn(&[Lower; 3]) -> [f64; 3],
@@ -171,7 +171,7 @@ impl Passes<'_> {
     /// returns the new count.
     fn runs(
         &self,
-        cell: &Cell,
+        cell: &FaceCell,
         window: [u32; 2],
         (all, mut count): (&mut Vec<CellState>, usize),
         kept: &mut CellAmounts,
@@ -240,7 +240,7 @@ impl Passes<'_> {
     }
 
     /// Adds the gains of a cell in a window: those where its places leave or enter, and those that all places get.
-    fn gains(&self, cell: &Cell, window: &[CellState], gains: &mut [Lower; 2]) {
+    fn gains(&self, cell: &FaceCell, window: &[CellState], gains: &mut [Lower; 2]) {
         let mut add = |gain: &Gain| {
             gains[0].add(&gain.time);
             gains[1].add(&gain.dose);
@@ -264,7 +264,7 @@ impl Passes<'_> {
     }
 
     /// Returns a lower bound on the dose that all of a cell gets in runs of moments in which it is wholly in contact: the difference of two sums.
-    fn dose(&self, cell: &Cell, amounts: &CellAmounts) -> Lower {
+    fn dose(&self, cell: &FaceCell, amounts: &CellAmounts) -> Lower {
         let (value, gradient) = amounts.dose.at(&cell.point);
         let error_m = self.edges.thresholds.height_error_m;
         let lost =

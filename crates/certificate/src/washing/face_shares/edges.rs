@@ -1,9 +1,9 @@
 //! The moments of a wash over a plate, and the state of a cell at each: the windows in which its places leave or enter.
 
-use crate::washing::shares::cell::{Cell, CellState};
-use crate::washing::shares::look::Look;
-use crate::washing::shares::lower::Lower;
-use crate::washing::shares::sags::Sags;
+use crate::washing::face_shares::face_cell::{CellState, FaceCell};
+use crate::washing::face_shares::look::Look;
+use crate::washing::face_shares::lower::Lower;
+use crate::washing::face_shares::sags::Sags;
 use platewash_bodies::contact::{Foundation, Moment};
 use platewash_workcell::job::ContactThresholds;
 use std::ops::Range;
@@ -130,7 +130,7 @@ impl Edges<'_> {
     /// Writes the state of a cell at a moment, with the compression w of formula (27.1) in `docs/contact.md`, and tells the distance of the
     /// sponge's axis from the middle \[m\]. Beyond `reach_m` of it, nothing else is computed.
     #[inline]
-    pub fn see(&self, cell: &Cell, look: &Look, reach_m: f64, state: &mut CellState) -> f64 {
+    pub fn see(&self, cell: &FaceCell, look: &Look, reach_m: f64, state: &mut CellState) -> f64 {
         let axis = &look.axis;
         let away = cell.point - look.tip;
         let along = away.dot(axis);

@@ -4,8 +4,8 @@
 //! A face that is smaller than the smallest cell is one cell, and where more is wanted than there is, what it is proved to get is told: so
 //! little faces stand for single cells, the motion moved over them.
 
-use crate::washing::shares::sags::Sags;
-use crate::washing::shares::{Fineness, shares};
+use crate::washing::face_shares::sags::Sags;
+use crate::washing::face_shares::{Fineness, shares};
 use nalgebra::Vector3;
 use platewash_bodies::contact::{ContactSampler, Dwell, Foundation, Moment, SpongePose};
 use platewash_workcell::job::ContactThresholds;

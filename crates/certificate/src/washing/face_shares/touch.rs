@@ -1,8 +1,8 @@
 //! Contact of a cell at one moment at least: a bound over a cell that is nowhere wholly in contact.
 
-use crate::washing::shares::cell::{Cell, CellState};
-use crate::washing::shares::edges::Edges;
-use crate::washing::shares::lower::Lower;
+use crate::washing::face_shares::edges::Edges;
+use crate::washing::face_shares::face_cell::{CellState, FaceCell};
+use crate::washing::face_shares::lower::Lower;
 
 /// State of a cell that is nowhere wholly in contact, at the moments that suit its contact best.
 #[derive(Default)]
@@ -34,7 +34,7 @@ impl Touch {
 
     /// Updates the state with a moment. The squared lengths of the vectors P (X + J δ + b ẑ + e ẑ − p) are at most those of P (X + J δ −
     /// p), ‖V‖² + 2 V·J δ + ‖J δ‖², with the remaining terms taken off the radius.
-    pub fn see(&mut self, edges: &Edges<'_>, cell: &Cell, state: &CellState) {
+    pub fn see(&mut self, edges: &Edges<'_>, cell: &FaceCell, state: &CellState) {
         let (inside_m, pressed_m) = (state.inside_m, state.pressed_m);
         let look = edges.look(state.index);
         let shallower_m = look.shallower_m(state.sloping_m);
