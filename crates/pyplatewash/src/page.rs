@@ -14,7 +14,7 @@ use crate::work::patiently;
 use crate::{argument, arrays, exception};
 use platewash::motion::plan::Process;
 use platewash::viewer::bundle::Bundle;
-use platewash::viewer::figures::{Figure, Subject, draw};
+use platewash::viewer::figures::{Figure, FigureData, draw};
 use platewash::viewer::page;
 use platewash::viewer::view::{ExecutedMotion, Plate, View, ViewExtras};
 use platewash::workcell::workcell::ArmId;
@@ -270,14 +270,14 @@ pub fn _plan_figure<'py>(
             Process::Wash => None,
         };
         let draw = || {
-            let mut subject = Subject::new(&plan, &arm)?;
+            let mut data = FigureData::new(&plan, &arm)?;
             if let (Some(done), Some(report)) = (&done, &report) {
-                subject = subject.executed(&done.execution, report)?;
+                data = data.executed(&done.execution, report)?;
             }
-            subject.certificate = certificate.as_ref();
-            subject.region = region.unwrap_or_default();
-            subject.ideal = ideal.unwrap_or(subject.ideal);
-            draw(&subject, figure)
+            data.certificate = certificate.as_ref();
+            data.region = region.unwrap_or_default();
+            data.ideal = ideal.unwrap_or(data.ideal);
+            draw(&data, figure)
         };
         Ok::<_, Failure>(draw())
     })?;

@@ -1,4 +1,4 @@
-//! Subject of figures: a plan with its arm, and the further data on them; words that figures share.
+//! Data of figures: a plan with its arm, and the further data on them; words that figures share.
 
 use super::error::{FARTHEST_M, FigureError};
 use super::page::FigureTexts;
@@ -40,7 +40,7 @@ pub(super) type Track = Vec<Vec<Tip>>;
 
 /// A plan with its arm, and the further data on them. Data that are not there are not drawn.
 #[derive(Debug, Clone)]
-pub struct Subject<'a> {
+pub struct FigureData<'a> {
     /// The plan.
     pub plan: &'a Plan,
     /// Its arm.
@@ -58,7 +58,7 @@ pub struct Subject<'a> {
     pub(super) followed: Option<Track>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> FigureData<'a> {
     /// A plan with its arm, and nothing else known.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The same subject with the executed motion of an arm.
+    /// The same data with the executed motion of an arm.
     ///
     /// # Errors
     /// [`FigureError::Nowhere`].
