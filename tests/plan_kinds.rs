@@ -7,7 +7,7 @@ use platewash::motion::trajectory::SegmentKind;
 use platewash::planner::{Watch, plan_in_order, recover};
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::job::{FixtureTerms, HolderTerms, PlanKind, Statement, StatementRule};
-use platewash::workcell::workcell::{Exclusion, ExclusionReason, ReducedClearance};
+use platewash::workcell::{Exclusion, ExclusionReason, ReducedClearance};
 use platewash::{CancelToken, JobTerms, Plan, WashJob, prove};
 
 /// The kitchen's plan, and one of another kind that follows from it.

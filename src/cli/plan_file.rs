@@ -6,7 +6,7 @@ use super::options::Options;
 use anyhow::{Error, Result, bail, ensure};
 use platewash::certificate::prove_with;
 use platewash::scenario::{Note, RobotSection, load_arm};
-use platewash::workcell::workcell::ArmId;
+use platewash::workcell::ArmId;
 use platewash::{Certificate, Failure, Plan, RobotModel};
 use std::fmt::Display;
 use std::path::Path;

@@ -17,7 +17,7 @@ use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, arm_outlines, draw_region};
-use platewash::workcell::workcell::Obstacle;
+use platewash::workcell::Obstacle;
 use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame};
 use serde::Serialize;
 use std::fmt::Write;

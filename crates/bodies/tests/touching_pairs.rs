@@ -5,7 +5,7 @@ use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{DisabledPairs, RobotModel};
-use platewash_workcell::workcell::Obstacle;
+use platewash_workcell::Obstacle;
 
 #[test]
 fn an_arm_without_a_link_for_tools_has_the_same_pairs() {

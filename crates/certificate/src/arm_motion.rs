@@ -21,7 +21,7 @@ use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::TermsError;
 use platewash_workcell::job::check_workcell;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell, is_pair};
+use platewash_workcell::{Exclusion, ExclusionReason, Workcell, is_pair};
 
 /// Rules that a motion of an arm must keep, besides the limits of the arm's description.
 #[derive(Debug, Clone, Copy, PartialEq)]

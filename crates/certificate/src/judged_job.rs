@@ -12,7 +12,7 @@ use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
-use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 
 /// The job under judgement, with its arm.
 #[derive(Debug)]

@@ -11,7 +11,7 @@ use platewash_workcell::job::{ContactRequirements, JobTerms};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::{StraightTool, Tool, tool_down};
 use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 use std::sync::OnceLock;
 
 /// Time between knots \[s\].

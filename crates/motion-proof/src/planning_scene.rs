@@ -12,7 +12,7 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::words::{quoted, shortened};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 /// Greatest coordinate and size \[m\]; a larger one is probably in millimetres.
 const GREATEST_M: f64 = 100.0;

@@ -17,7 +17,7 @@ use platewash::viewer::bundle::Bundle;
 use platewash::viewer::figures::{Figure, FigureData, draw};
 use platewash::viewer::page;
 use platewash::viewer::view::{ExecutedMotion, Plate, View, ViewExtras};
-use platewash::workcell::workcell::ArmId;
+use platewash::workcell::ArmId;
 use platewash::{Certificate, Failure, JointVector, SimulationError, SimulationReport, paper_spirals};
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -12,8 +12,8 @@ use crate::units::{MeshAs, Note};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::{Files, file};
 use platewash_motion_proof::planning_scene;
+use platewash_workcell::Obstacle;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::Obstacle;
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 

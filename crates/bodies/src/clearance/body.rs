@@ -10,7 +10,7 @@ use platewash_kinematics::{BodyPoses, Frame, Pose, RobotModel};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::plate_name;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 /// Body for which clearances are computed.
 #[derive(Debug, Clone)]

@@ -22,7 +22,7 @@ use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::{plate_name, printable};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{Obstacle, ObstacleShape, Workcell};
 use std::fmt;
 
 /// Fixed body that overlaps another.

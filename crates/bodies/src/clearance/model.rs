@@ -10,8 +10,8 @@ use crate::clearance::part::PlacedPart;
 use crate::clearance::still::{Still, StillPair, still};
 use crate::clearance::tree::Order;
 use platewash_kinematics::{BodyPoses, JointVector, Pose, RobotModel};
+use platewash_workcell::Workcell;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::workcell::Workcell;
 
 /// The two bodies of a model that are nearest to each other at one configuration, with their nearest points.
 #[derive(Debug, Clone, Copy, PartialEq)]

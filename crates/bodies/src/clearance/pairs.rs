@@ -10,7 +10,7 @@ use crate::clearance::error::ClearanceError;
 use crate::clearance::still::{CARRIER, Still, height_change_m, turn_m};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
+use platewash_workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -21,7 +21,7 @@ use parry3d_f64::math::Vector;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, RobotModel};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{ObstacleShape, ReducedClearance, Workcell, is_pair};
+use platewash_workcell::{ObstacleShape, ReducedClearance, Workcell, is_pair};
 
 /// Body of the arm that carries joint 6.
 pub(crate) const CARRIER: usize = 5;

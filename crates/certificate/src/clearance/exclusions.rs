@@ -10,7 +10,7 @@ use platewash_bodies::clearance::{self, ClearanceError, ClearanceModel};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::job::NEARER_M;
 use platewash_workcell::words::{millimetres, pair_text, plate_name};
-use platewash_workcell::workcell::{Exclusion, ReducedClearance, Workcell, is_pair};
+use platewash_workcell::{Exclusion, ReducedClearance, Workcell, is_pair};
 use std::collections::BTreeSet;
 
 /// Excluded pairs: those that follow from the arm, and those that only the job excludes.
@@ -184,8 +184,8 @@ fn exclusion_text(exclusion: &Exclusion) -> String {
 mod tests {
     use super::*;
     use platewash_fixtures::kitchen;
+    use platewash_workcell::ExclusionReason;
     use platewash_workcell::job::JobTerms;
-    use platewash_workcell::workcell::ExclusionReason;
 
     #[test]
     fn only_pairs_that_follow_from_the_arm_are_excluded_without_a_waiver() {

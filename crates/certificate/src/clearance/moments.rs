@@ -8,7 +8,7 @@ use crate::plan_statements::wash_paths;
 use platewash_bodies::clearance::{ClearanceModel, NearestBodies};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::Plan;
-use platewash_workcell::workcell::Workcell;
+use platewash_workcell::Workcell;
 
 /// The pairs of bodies that count in each segment of a plan: all but those that follow from the arm and its SRDF, those that the job
 /// waives, and the sponge with the plates that it may touch in that segment.

@@ -13,11 +13,11 @@ use crate::report::requirement::Requirement;
 use crate::washing::face::PLACE_M;
 use nalgebra::Vector3;
 use platewash_bodies::clearance::ClearanceError;
+use platewash_workcell::Obstacle;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::job::JobTerms;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::words::{millimetres, plate_name};
-use platewash_workcell::workcell::Obstacle;
 
 /// Checks that every plate of a dry run has its real one below it, and that the real plates have valid places. Returns `None` where the job
 /// is no dry run.

@@ -18,7 +18,7 @@ use platewash_kinematics::Pose;
 use platewash_motion::plan::Plan;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::words::{millimetres, plate_name, printable};
-use platewash_workcell::workcell::{ArmId, ObstacleShape};
+use platewash_workcell::{ArmId, ObstacleShape};
 
 /// Checks that the plan is for this arm.
 pub(crate) fn arm(judged: &JudgedJob<'_>) -> Check {

@@ -27,9 +27,9 @@ use platewash_bodies::job::{JobError, WashJob};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::{Knots, Plan, PlanParts, Process, Provenance};
 use platewash_motion::trajectory::SegmentKind;
+use platewash_workcell::ReducedClearance;
 use platewash_workcell::job::{NEARER_M, Recovery, RecoveryPart, RetreatLine};
 use platewash_workcell::random;
-use platewash_workcell::workcell::ReducedClearance;
 use std::sync::Arc;
 
 pub use crate::recovery::error::RecoveryError;

@@ -12,9 +12,9 @@ use crate::timing::{self, SlowStretch, TimedPath};
 use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::{JointVector, Pose};
+use platewash_workcell::is_pair;
 use platewash_workcell::job::{LINE_TOLERANCE_M, NEARER_M, retreat_speed_m_s};
 use platewash_workcell::words::plate_name;
-use platewash_workcell::workcell::is_pair;
 
 /// Longest way along a line \[m\].
 const LONGEST_M: f64 = 0.15;

@@ -13,10 +13,10 @@ use platewash::paper::tracking::TrackingError;
 use platewash::planner::transit::TransitError;
 use platewash::planner::{RecoveryError, UnwashablePlate};
 use platewash::scenario::Problem;
+use platewash::workcell::ArmId;
 use platewash::workcell::job::TermsError;
 use platewash::workcell::layout::LayoutError;
 use platewash::workcell::words::plate_name;
-use platewash::workcell::workcell::ArmId;
 use platewash::{Failure, PlanError, ScenarioError};
 use pyo3::prelude::*;
 

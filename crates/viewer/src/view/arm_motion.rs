@@ -15,7 +15,7 @@ use platewash_kinematics::{AXES, RobotModel};
 use platewash_motion::piecewise::PiecewiseMotion;
 use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::printable;
-use platewash_workcell::workcell::{Exclusion, Workcell};
+use platewash_workcell::{Exclusion, Workcell};
 
 /// Time between two knots of the motion that is shown, at most \[s\].
 const STEP_S: f64 = 0.01;

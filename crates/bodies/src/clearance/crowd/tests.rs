@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use platewash_fixtures::{kitchen_plate, kitchen_tool, workcell};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{Obstacle, ObstacleShape, Workcell};
 use proptest::prelude::*;
 
 fn turned_box(half: [f64; 3], at: [f64; 3], turn: [f64; 3], margin_m: f64) -> Obstacle {

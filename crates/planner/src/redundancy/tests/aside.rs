@@ -4,7 +4,7 @@ use crate::placed_arm::Stance;
 use crate::redundancy::tests::*;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 /// A plate with a wall beside it, along the direction from axis 1 at this azimuth.
 fn beside_a_wall<T>(azimuth_deg: f64, act: impl FnOnce(&World<'_>) -> T) -> T {
