@@ -251,7 +251,7 @@ fn against_stopped(found: &Plan, recovery: &Recovery, path: &Path, parent: &Plan
     };
     let pairs = found.job.workcell.reduced_clearances.iter();
     let at_stop = pairs.filter(|pair| pair.at_stop).cloned().collect();
-    let expected = recovery.terms(&parent.job, found.job.home_rad[0], at_stop);
+    let expected = parent.job.recovered(recovery, found.job.home_rad[0], at_stop);
     Ok(differences(&found.job, &expected))
 }
 

@@ -35,4 +35,3 @@ mod workcell;
 
 pub use crate::obstacle::{Obstacle, ObstacleShape};
 pub use crate::workcell::{ArmId, Exclusion, ExclusionReason, MOST_BODIES, ReducedClearance, Workcell, is_pair};
-pub(crate) use platewash_kinematics::trig;

@@ -33,7 +33,7 @@ fn numbers(path: &WashPath, tilt_rad: f64) -> Vec<CurveNumber> {
 /// Returns the wash path of each plate, if there is one that can be judged.
 pub(crate) fn by_plate(plan: &Plan) -> Vec<Option<WashPath>> {
     let tilt_rad = plan.job.tilt_max_rad();
-    if PlanKind::of(&plan.job).rule(Statement::WashPaths) == StatementRule::Refused {
+    if plan.job.kind().rule(Statement::WashPaths) == StatementRule::Refused {
         return vec![None; plan.job.plates.len()];
     }
     let is_sound = |path: &&WashPath| numbers(path, tilt_rad).iter().all(is_within);

@@ -134,7 +134,7 @@ fn motion_home(plan: &Plan, start: &Start<'_>, way: Option<Way>, transit: &Trans
         part: RecoveryPart::Home { retreat },
     };
     let near = near_pairs(&start.near, plan.job.requirements.clearance_m);
-    let terms = recovery.terms(&plan.job, start.at, near);
+    let terms = plan.job.recovered(recovery, start.at, near);
     terms.validate().map_err(JobError::from)?;
     let parts = PlanParts {
         provenance: Provenance::new(&format!("{}-home", plan.provenance.scenario)),
@@ -205,7 +205,7 @@ fn rest(plan: &Plan, arm: &Arc<RobotModel>, stop: &Stop, watch: &Watch<'_>) -> R
         left_out,
         part: RecoveryPart::Rest,
     };
-    let terms = recovery.terms(&plan.job, plan.job.home_rad[0], Vec::new());
+    let terms = plan.job.recovered(recovery, plan.job.home_rad[0], Vec::new());
     let job = WashJob::new(arm.clone(), terms)?.named(&format!("{}-rest", plan.provenance.scenario));
     let paths: Vec<_> = plan
         .wash_paths

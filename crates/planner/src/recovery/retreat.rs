@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::{JointVector, Pose};
 use platewash_workcell::is_pair;
-use platewash_workcell::job::{LINE_TOLERANCE_M, NEARER_M, retreat_speed_m_s};
+use platewash_workcell::job::{LINE_TOLERANCE_M, NEARER_M};
 use platewash_workcell::words::plate_name;
 
 /// Longest way along a line \[m\].
@@ -78,7 +78,7 @@ impl Way {
         let path = JointPath::through(self.length_m.clone(), self.q.clone(), Ends::NotAKnot)?;
         let slow = SlowStretch {
             u: [0.0, self.whole_m()],
-            most: PACE * retreat_speed_m_s(start.pipeline.terms),
+            most: PACE * start.pipeline.terms.retreat_speed_m_s(),
         };
         let (tip, limits) = (&placed.tip, &pipeline.transit);
         Ok(timing::time_optimal_slowed(&path, placed.robot, tip, limits, &[slow])?)
