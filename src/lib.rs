@@ -60,6 +60,7 @@ pub use platewash_motion::plan::Plan;
 pub use platewash_motion::trajectory::Trajectory;
 pub use platewash_paper::{PaperJob, PaperReport, PaperRun};
 pub use platewash_simulator::{DynamicsError, DynamicsModel, Energy};
+pub use platewash_workcell::Workcell;
 pub use platewash_workcell::cancel::CancelToken;
 pub use platewash_workcell::job::JobTerms;
 pub use platewash_workcell::layout::Layout;
@@ -67,7 +68,6 @@ pub use platewash_workcell::plate::Plate;
 pub use platewash_workcell::surface::Surface;
 pub use platewash_workcell::tool::Tool;
 pub use platewash_workcell::verdict::Verdict;
-pub use platewash_workcell::workcell::Workcell;
 
 /// The example in the README, run as a test.
 #[cfg(doctest)]

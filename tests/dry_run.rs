@@ -8,7 +8,7 @@ use platewash::planner::{PlannedJob, Watch, plan_in_order};
 use platewash::simulator::simulate::PlateVerdict;
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::job::TermsError;
-use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
+use platewash::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{
     CancelToken, Certificate, ClearanceModel, Plan, ProveError, Requirement, Scenario, SimulationReport,
     SimulationVerdict, WashJob, WashReport, plan, prove, simulate,

@@ -7,7 +7,7 @@ use platewash::motion::trajectory::SegmentKind;
 use platewash::planner::{Watch, plan_in_order, recover};
 use platewash::workcell::dry_run::DryRun;
 use platewash::workcell::job::{FixtureTerms, HolderTerms, PlanKind, Statement, StatementRule};
-use platewash::workcell::workcell::{Exclusion, ExclusionReason, ReducedClearance};
+use platewash::workcell::{Exclusion, ExclusionReason, ReducedClearance};
 use platewash::{CancelToken, JobTerms, Plan, WashJob, prove};
 
 /// The kitchen's plan, and one of another kind that follows from it.
@@ -129,7 +129,7 @@ fn each_kind_of_plan_is_proved_with_its_own_statements_alone() {
     let kinds = Kinds::new();
     for kind in PlanKind::ALL {
         let plan = kinds.plan(kind);
-        assert_eq!(PlanKind::of(&plan.job), kind);
+        assert_eq!(plan.job.kind(), kind);
         assert!(kinds.is_proved(&plan), "{kind}");
         for statement in Statement::ALL {
             let changed = |change: &dyn Fn(&mut Plan)| {
@@ -142,7 +142,7 @@ fn each_kind_of_plan_is_proved_with_its_own_statements_alone() {
             let with = changed(&|plan| kinds.with(plan, statement));
             let without = changed(&|plan| Kinds::without(plan, statement));
             // A plan without the statement that makes its kind is one of another kind.
-            let is_of_kind = PlanKind::of(&without.job) == kind;
+            let is_of_kind = without.job.kind() == kind;
             match rule {
                 StatementRule::Needed => assert!(!is_of_kind || !kinds.is_proved(&without), "{case}: without"),
                 StatementRule::Judged | StatementRule::Planned => {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use platewash::planner::joint_path::{Ends, JointPath};
-use platewash::planner::scene::{Contact, Scene, TiltPolicy};
+use platewash::planner::placed_arm::{Contact, PlacedArm, TiltPolicy};
 use platewash::planner::timing::{self, MotionLimits, TipLimits};
 use platewash::workcell::arc;
 use platewash::{ClearanceModel, IkSettings, IkSolver, Plan, RobotModel, Scenario, plan};
@@ -28,10 +28,10 @@ fn paper_s(plan: &Plan, robot: &RobotModel) -> f64 {
     let (tool, settings) = (&job.workcell.tool, job.planner_settings().unwrap());
     let tip = tool.tip_frame(robot);
     let model = ClearanceModel::new(robot, &job.workcell, &job.plates).unwrap();
-    let scene = Scene::new(robot, tool, &model, &job.plates, settings.reach).unwrap();
+    let placed = PlacedArm::new(robot, tool, &model, &job.plates, settings.reach).unwrap();
     let solver = IkSolver::new(robot, tip, IkSettings::default()).unwrap();
     let policy = TiltPolicy::upright(job.requirements.tilt_rad, &settings.reach);
-    let pose = |p: Vector3<f64>| scene.pose(&Contact::level(p), &policy);
+    let pose = |p: Vector3<f64>| placed.pose(&Contact::level(p), &policy);
     let limits = MotionLimits {
         velocity: robot.limits().velocity,
         acceleration: job.limits.joint_acceleration_rad_s2.into(),

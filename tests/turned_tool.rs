@@ -79,7 +79,7 @@ fn tools_that_lean_wash_the_kitchen() {
         assert_eq!(report.verdict, SimulationVerdict::Washed, "{}", report.headline);
         // What joint 6 turns beside its axis is judged against the link that carries the joint.
         let excluded = |body: &str| {
-            let pair = |e: &&platewash::workcell::workcell::Exclusion| {
+            let pair = |e: &&platewash::workcell::Exclusion| {
                 e.pair.contains(&"link_5".to_owned()) && e.pair.contains(&body.to_owned())
             };
             plan.job.workcell.exclusions.iter().find(pair).is_some()

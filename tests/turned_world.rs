@@ -5,7 +5,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash::bodies::assembly;
 use platewash::certificate::{Certificate, Requirement};
 use platewash::kinematics::geometry::Shape;
-use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose, Scenario, SimulationReport, WashJob, plan, prove, simulate};
 use platewash_fixtures::is_thorough;
 use proptest::prelude::*;

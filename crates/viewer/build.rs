@@ -20,7 +20,7 @@ fn main() -> io::Result<()> {
     for name in stamp::entries(page)? {
         println!("cargo::rerun-if-changed=page/{name}");
     }
-    let wanted = stamp::of(page)?;
+    let wanted = stamp::compute(page)?;
     if stamp::found(bundle).as_ref() != Some(&wanted) {
         match make() {
             // Cargo is not told of files that this run made: it takes them for changes.

@@ -1,7 +1,7 @@
 //! `platewash align`: where the arm stands at a table, from points touched with its tip.
 
 use super::failure::ExitCode;
-use super::fk::FramePose;
+use super::frame_pose::FramePose;
 use super::numbers::{coordinate, within};
 use super::options::Options;
 use anyhow::{Context, Result, anyhow, ensure};

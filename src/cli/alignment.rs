@@ -112,8 +112,8 @@ impl Alignment {
 /// [`AlignError`]: points that fix no mount, or fix an implausible one. A bad fit is no error: see [`Alignment::rms_m`].
 pub fn align(touches: &[Touch]) -> Result<Alignment, AlignError> {
     check(touches)?;
-    let drawn = Cloud::of("drawn", touches, |touch| touch.drawn_m);
-    let touched = Cloud::of("touched", touches, |touch| touch.touched_m);
+    let drawn = Cloud::new("drawn", touches, |touch| touch.drawn_m);
+    let touched = Cloud::new("touched", touches, |touch| touch.touched_m);
     let stretch = touched.size_m() / drawn.size_m();
     check_units(stretch, drawn.size_m())?;
     drawn.check_apart()?;
@@ -163,7 +163,7 @@ struct Cloud {
 }
 
 impl Cloud {
-    fn of(how: &'static str, touches: &[Touch], which: fn(&Touch) -> [f64; 3]) -> Self {
+    fn new(how: &'static str, touches: &[Touch], which: fn(&Touch) -> [f64; 3]) -> Self {
         let points = || touches.iter().map(|touch| Vector3::from(which(touch)));
         let middle = points().sum::<Vector3<f64>>() / touches.len() as f64;
         let about = points().map(|point| point - middle).collect();

@@ -94,7 +94,7 @@ struct Margins {
 /// Compares two plan files, each for the arm that it is for.
 pub fn run(options: &Options, arguments: &CompareArguments) -> Result<ExitCode> {
     let [a, b] = [&arguments.a, &arguments.b].map(|path| PlanWithProof::new(options, path));
-    let comparison = Comparison::of(a?, b?);
+    let comparison = Comparison::new(a?, b?);
     options.print(&comparison, || comparison.to_string())?;
     Ok(ExitCode::Done)
 }
@@ -135,7 +135,7 @@ impl PlanWithProof {
 }
 
 impl Comparison {
-    fn of(a: PlanWithProof, b: PlanWithProof) -> Self {
+    fn new(a: PlanWithProof, b: PlanWithProof) -> Self {
         let times = |part: String, time_s: &dyn Fn(&Plan) -> Option<f64>| Times {
             part,
             a_s: time_s(&a.plan),

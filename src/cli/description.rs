@@ -1,7 +1,7 @@
 //! The description of another arm: a file, or a name that is looked up where ROS has packages installed; xacro files are expanded by `xacro`.
 
-use super::options::installed_folders;
 use anyhow::{Result, bail};
+use platewash::kinematics::urdf::Files;
 use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -128,4 +128,24 @@ pub fn expand(description: &Description) -> Result<String> {
         );
     }
     String::from_utf8(ran.stdout).map_err(|_| anyhow::anyhow!("{shown}: xacro printed what is not UTF-8"))
+}
+
+/// Source of the files of an arm: the disk, with the folders in which ROS has packages installed, as the environment states them:
+/// ROS_PACKAGE_PATH, and the `share` folder of each prefix in AMENT_PREFIX_PATH.
+#[must_use]
+pub fn installed_files() -> Files {
+    Files::default().with_installed(installed_folders())
+}
+
+/// Folders in which ROS has packages installed, as the environment states them.
+pub fn installed_folders() -> Vec<PathBuf> {
+    let folders = |name: &str| -> Vec<PathBuf> {
+        let list = std::env::var_os(name).unwrap_or_default();
+        std::env::split_paths(&list)
+            .filter(|path| !path.as_os_str().is_empty())
+            .collect()
+    };
+    let prefixes = folders("AMENT_PREFIX_PATH").into_iter();
+    let shares = prefixes.map(|prefix| prefix.join("share"));
+    folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect()
 }

@@ -3,7 +3,6 @@
 
 use super::failure::{self, ExitCode, internal};
 use super::files::{Files, REPORTS, check_places};
-use super::infeasible;
 use super::options::Options;
 use super::output::json;
 use super::page::{self, ServeArguments};
@@ -215,7 +214,7 @@ impl ScenarioFile {
             Ok(washing) => washing,
             Err(failure) if failure.is_cancelled() => return Err(failure.into()),
             Err(failure) => {
-                let Some(report) = infeasible::report(scenario, &failure) else {
+                let Some(report) = failure.report(&scenario.name, scenario.seed) else {
                     return Ok(format!("without a plan: {failure}"));
                 };
                 files.add_report("report", &report)?;
@@ -225,7 +224,7 @@ impl ScenarioFile {
         let (plan, arm) = (&washing.planned.plan, &washing.arm);
         let certificate = prove_with(plan, arm, &options.cancel).map_err(Failure::from)?;
         let region = scenario.task_region(arm);
-        if let Some(page) = page::of(options, plan, arm, Some(&certificate), None, &region)? {
+        if let Some(page) = page::render(options, plan, arm, Some(&certificate), None, &region)? {
             files.add("page.html", page);
         }
         files.add("plan.json", plan.to_json().map_err(Failure::from)?);

@@ -3,10 +3,11 @@
 
 use super::failure::{ExitCode, internal};
 use super::files::{Files, check_places};
+use super::input_file::refused as refused_file;
 use super::numbers::between_commas;
 use super::options::Options;
 use super::output;
-use super::plan_file::{PlanFile, refused as refused_file};
+use super::plan_file::PlanFile;
 use anyhow::{Context, Error, Result, bail, ensure};
 use clap::Args;
 use nalgebra::{Quaternion, UnitQuaternion};

@@ -1,6 +1,6 @@
 //! The one rule by which verbs end; `docs/command.md` says it in words.
 
-use super::output::text;
+use super::terminal::shown;
 use platewash::scenario::OnFailure;
 use platewash::study::StudyError;
 use platewash::workcell::cancel::Cancelled;
@@ -96,7 +96,7 @@ pub fn report(error: &anyhow::Error) -> ExitCode {
     let code = code(error);
     let message = match code {
         ExitCode::Interrupted => "interrupted".to_owned(),
-        _ => text(&format_args!("error: {error:#}")),
+        _ => shown(&format_args!("error: {error:#}")),
     };
     // Nothing is left to do when standard error is closed.
     let _ = writeln!(std::io::stderr(), "{message}");

@@ -1,10 +1,12 @@
 //! `platewash fk` and `platewash ik`: where the arm is and how near it comes to itself and its surroundings, and a configuration for a pose.
 
 use super::failure::ExitCode;
+use super::frame_pose::FramePose;
 use super::numbers::{JointArguments, Unit, coordinate, joints};
 use super::options::Options;
 use super::output::{self, Reader};
 use super::robot;
+use super::terminal::shown;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
@@ -149,36 +151,6 @@ struct RejectionRow {
     reason: String,
 }
 
-/// A pose as people and programs read it.
-#[derive(Debug, Serialize)]
-pub struct FramePose {
-    /// \[m\].
-    pub position_m: [f64; 3],
-    /// Rows of the rotation matrix.
-    pub rotation: [[f64; 3]; 3],
-    /// (w, x, y, z).
-    pub quaternion_wxyz: [f64; 4],
-    /// URDF's roll, pitch, yaw \[rad\].
-    pub rpy_rad: [f64; 3],
-    /// They \[deg\].
-    pub rpy_deg: [f64; 3],
-}
-
-impl From<&Pose> for FramePose {
-    fn from(pose: &Pose) -> Self {
-        let matrix = pose.rotation.to_rotation_matrix();
-        let (roll, pitch, yaw) = pose.rotation.euler_angles();
-        let q = pose.rotation.quaternion();
-        Self {
-            position_m: pose.translation.vector.into(),
-            rotation: std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)])),
-            quaternion_wxyz: [q.w, q.i, q.j, q.k],
-            rpy_rad: [roll, pitch, yaw],
-            rpy_deg: [roll, pitch, yaw].map(f64::to_degrees),
-        }
-    }
-}
-
 /// Poses of all frames, limit margins, manipulability and clearances. With `--scenario`, its tool, plates and obstacles count too.
 pub fn fk(options: &Options, arguments: &FkArguments) -> Result<ExitCode> {
     let configurations = arguments.joints.configurations(arguments.file.as_ref())?;
@@ -196,7 +168,7 @@ pub fn fk(options: &Options, arguments: &FkArguments) -> Result<ExitCode> {
     }
     // One by one, as long as anybody reads them.
     for answer in &mut answers {
-        if output::print(&output::text(&answer.text()))? == Reader::Gone {
+        if output::print(&shown(&answer.text()))? == Reader::Gone {
             break;
         }
     }

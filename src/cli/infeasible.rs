@@ -5,7 +5,6 @@ use super::files::{Files, RESULTS};
 use super::options::Options;
 use super::output::{self, full_report};
 use anyhow::{Error, Result};
-use platewash::paper::PaperError;
 use platewash::planner::{InfeasibleReport, PlanError, Watch, other_unwashable_plates};
 use platewash::scenario::Remedies;
 use platewash::workcell::cancel::system_clock;
@@ -41,21 +40,6 @@ impl fmt::Display for InfeasibleAnswer {
     }
 }
 
-/// Error that prevents a plan; `None` where the input is at fault.
-fn cause(failure: &Failure) -> Option<PlanError> {
-    match failure.cause() {
-        Failure::Plan(error) => Some(error.clone()),
-        Failure::Layout(error) | Failure::Paper(PaperError::Layout(error)) => Some(PlanError::Layout(error.clone())),
-        _ => None,
-    }
-}
-
-/// Report on a scenario that could not be carried out, with the keys that decide it; `None` where the input is at fault.
-pub fn report(scenario: &Scenario, failure: &Failure) -> Option<InfeasibleReport> {
-    let report = InfeasibleReport::new(&scenario.name, scenario.seed, &cause(failure)?)?;
-    Some(report.explained(failure.to_string()))
-}
-
 /// The report with all plates that cannot be washed, and with the keys whose change helps.
 fn in_full(
     options: &Options,
@@ -65,7 +49,7 @@ fn in_full(
     search_time: Duration,
 ) -> Result<InfeasibleAnswer, Failure> {
     // No keys are tried for the paper's program.
-    let Some(error) = cause(failure).filter(|_| !matches!(failure, Failure::Paper(_))) else {
+    let Some(error) = failure.plan_error().filter(|_| !matches!(failure, Failure::Paper(_))) else {
         let remedies = Remedies::default();
         return Ok(InfeasibleAnswer { why, remedies });
     };
@@ -117,7 +101,7 @@ pub fn remedies_of_proof(
 /// Ends a job that was not carried out. Where the job cannot be done, a report replaces the files of earlier calls.
 pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Duration) -> Result<ExitCode> {
     let failure: Failure = error.downcast()?;
-    let Some(report) = report(scenario, &failure) else {
+    let Some(report) = failure.report(&scenario.name, scenario.seed) else {
         return Err(options.failure(failure));
     };
     let report = in_full(options, scenario, &failure, report, search_time)?;
@@ -129,8 +113,8 @@ pub fn end(options: &Options, scenario: &Scenario, error: Error, search_time: Du
 
 /// Prints the report on a scenario that cannot be carried out (exit code 3) on standard output, with `--json` only.
 pub fn answer(options: &Options, scenario: &Scenario, error: &Error) -> Result<()> {
-    let failure = error.downcast_ref().filter(|_| options.json);
-    if let Some(why) = failure.and_then(|failure| report(scenario, failure)) {
+    let failure: Option<&Failure> = error.downcast_ref().filter(|_| options.json);
+    if let Some(why) = failure.and_then(|failure| failure.report(&scenario.name, scenario.seed)) {
         output::print(&output::json(&InvalidAnswer { valid: false, why })?)?;
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Numbers on the command line: seeds, amounts, angles in degrees or radians.
 
-use super::plan_file::text;
+use super::input_file::text;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
 use platewash::JointVector;

@@ -1,9 +1,10 @@
 //! Options that every verb takes, those that some verbs do not take, and tips on arguments that the command does not know.
 
-use super::description::{self, Description};
+use super::description::{self, Description, installed_files};
 use super::failure::internal;
 use super::numbers::{seed, within};
-use super::output::Progress;
+use super::output::{Progress, Reader, json, message, print};
+use super::terminal::shown;
 use anyhow::{Error, Result, anyhow, bail};
 use clap::error::{ContextKind, ContextValue};
 use clap::parser::ValueSource;
@@ -14,6 +15,7 @@ use platewash::scenario::{Note, Program, ReducedClearanceSection, RobotSection, 
 use platewash::workcell::words::printable;
 use platewash::{CancelToken, RobotModel, Scenario};
 use rayon::ThreadPool;
+use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -347,26 +349,6 @@ fn reduced_text(scenario: &Scenario) -> String {
     scenario.reduced_clearance.iter().map(one).collect()
 }
 
-/// Source of the files of an arm: the disk, with the folders in which ROS has packages installed, as the environment states them:
-/// ROS_PACKAGE_PATH, and the `share` folder of each prefix in AMENT_PREFIX_PATH.
-#[must_use]
-pub fn installed_files() -> Files {
-    Files::default().with_installed(installed_folders())
-}
-
-/// Folders in which ROS has packages installed, as the environment states them.
-pub fn installed_folders() -> Vec<PathBuf> {
-    let folders = |name: &str| -> Vec<PathBuf> {
-        let list = std::env::var_os(name).unwrap_or_default();
-        std::env::split_paths(&list)
-            .filter(|path| !path.as_os_str().is_empty())
-            .collect()
-    };
-    let prefixes = folders("AMENT_PREFIX_PATH").into_iter();
-    let shares = prefixes.map(|prefix| prefix.join("share"));
-    folders("ROS_PACKAGE_PATH").into_iter().chain(shares).collect()
-}
-
 /// True where a job was refused because of its scenario, in a message that does not name the scenario.
 fn is_of_job(failure: &platewash::Failure) -> bool {
     use platewash::Failure::{Body, Job, NoContact, Plan, Tool};
@@ -494,4 +476,18 @@ fn tip(given: &str) -> Option<String> {
     let keys = form.iter().map(|key| key.path).filter(is_named).take(MOST_KEYS);
     let keys: Vec<String> = keys.map(|path| format!("'{path}'")).collect();
     (!keys.is_empty()).then(|| format!("keys are set in the scenario's file: {}", keys.join(", ")))
+}
+
+impl Options {
+    /// Prints an answer as JSON, or as text.
+    pub fn print(&self, answer: &impl Serialize, words: impl FnOnce() -> String) -> Result<Reader> {
+        print(&if self.json { json(answer)? } else { shown(&words()) })
+    }
+
+    /// Prints a message on standard error, unless `--quiet` is given.
+    pub fn say(&self, words: &str) {
+        if !self.quiet {
+            message(words);
+        }
+    }
 }

@@ -2,7 +2,7 @@
 //! then elsewhere.
 
 use super::failure;
-use super::options::Options;
+use super::terminal::shown;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -38,24 +38,10 @@ pub fn print(text: &str) -> Result<Reader> {
     }
 }
 
-impl Options {
-    /// Prints an answer as JSON, or as text.
-    pub fn print(&self, answer: &impl Serialize, words: impl FnOnce() -> String) -> Result<Reader> {
-        print(&if self.json { json(answer)? } else { text(&words()) })
-    }
-
-    /// Prints a message on standard error, unless `--quiet` is given.
-    pub fn say(&self, words: &str) {
-        if !self.quiet {
-            message(words);
-        }
-    }
-}
-
 /// A message on standard error.
 pub fn message(words: &str) {
     // Nothing is left to do when standard error is closed.
-    let _ = writeln!(std::io::stderr(), "{}", text(&words));
+    let _ = writeln!(std::io::stderr(), "{}", shown(&words));
 }
 
 /// A value as indented JSON: see [`json::write`](platewash::workcell::json::write).
@@ -63,23 +49,9 @@ pub fn json(value: &impl Serialize) -> Result<String> {
     platewash::workcell::json::write(value).map_err(failure::internal)
 }
 
-/// A value as text without control characters but new lines, so that a terminal obeys no name out of a file.
-pub fn text(value: &impl Display) -> String {
-    let text = value.to_string();
-    let is_harmful = |c: char| c.is_control() && c != '\n';
-    if !text.contains(is_harmful) {
-        return text;
-    }
-    let written = |c: char| match is_harmful(c) {
-        true => c.escape_default().to_string(),
-        false => c.to_string(),
-    };
-    text.chars().map(written).collect()
-}
-
 /// The whole report, as files hold it.
 pub fn full_report(report: &impl Display) -> String {
-    text(&format_args!("{report:#}"))
+    shown(&format_args!("{report:#}"))
 }
 
 /// `--details`.
@@ -93,7 +65,7 @@ pub struct DetailArguments {
 impl DetailArguments {
     /// The report as it is printed: one screen of it, or the whole.
     pub fn printed(&self, report: &impl Display) -> String {
-        let (short, whole) = (text(report), full_report(report));
+        let (short, whole) = (shown(report), full_report(report));
         match self.details || short == whole {
             true => whole,
             false => short + HINT,
@@ -217,7 +189,7 @@ mod tests {
     #[test]
     fn no_control_character_but_a_new_line_leaves() {
         let name = "a\u{1b}[31m\u{7f}\u{9b}2J\t\r\n\u{e9}";
-        assert_eq!(text(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
+        assert_eq!(shown(&name), "a\\u{1b}[31m\\u{7f}\\u{9b}2J\\t\\r\n\u{e9}");
         let written = json(&name).unwrap();
         assert!(!written.trim_end().contains(char::is_control), "{written:?}");
         assert_eq!(serde_json::from_str::<String>(&written).unwrap(), name);

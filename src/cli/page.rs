@@ -48,7 +48,7 @@ pub fn html(plan: &Plan, arm: &RobotModel, extras: &ViewExtras<'_>, bundle: &Bun
 }
 
 /// The page of a plan, to be written beside its report; `None` without a bundle, which [`explain_absence`] explains.
-pub fn of(
+pub fn render(
     options: &Options,
     plan: &Plan,
     arm: &RobotModel,
@@ -241,7 +241,7 @@ impl Stage<'_> {
         let url = self.listener.url();
         let site = Site {
             live: Some(live.clone()),
-            ..Site::of(Page::Fixed(page))
+            ..Site::from_page(Page::Fixed(page))
         };
         let server = self.listener.serve(site).map_err(internal)?;
         options.say(&format!("live at {url}"));

@@ -1,12 +1,12 @@
 //! Plan files as input, with the arm that they are for.
 
 use super::failure::not_verified;
+use super::input_file::{refused, text};
 use super::options::Options;
-use anyhow::{Error, Result, anyhow, bail, ensure};
+use anyhow::{Error, Result, bail, ensure};
 use platewash::certificate::prove_with;
-use platewash::kinematics::urdf::file;
 use platewash::scenario::{Note, RobotSection, load_arm};
-use platewash::workcell::workcell::ArmId;
+use platewash::workcell::ArmId;
 use platewash::{Certificate, Failure, Plan, RobotModel};
 use std::fmt::Display;
 use std::path::Path;
@@ -80,16 +80,6 @@ pub fn read(path: &Path) -> Result<Plan> {
         bail!("{name}: is not a plan file; 'platewash plan --scenario {name}' makes one from a scenario");
     }
     Plan::from_json(&text(path, MAX_BYTES)?).map_err(|e| refused(path, e))
-}
-
-/// The text of an input file of at most `limit` bytes.
-pub fn text(path: &Path, limit: u64) -> Result<String> {
-    file::read_text(path, limit).map_err(|e| refused(path, format_args!("cannot be read: {e}")))
-}
-
-/// Something in a file that cannot be used.
-pub fn refused(path: &Path, error: impl Display) -> Error {
-    anyhow!("{}: {error}", path.display())
 }
 
 /// The arm of a plan. A plan carries the hashes of its description and its SRDF alone.

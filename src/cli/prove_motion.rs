@@ -17,7 +17,7 @@ use platewash::motion_proof::{self, TrajectoryFile};
 use platewash::scenario::{MeshPlaces, Note, ObstacleText, OriginLink, RobotSection, load_arm_with_fixed};
 use platewash::viewer::page::html;
 use platewash::viewer::view::{ArmMotion, View};
-use platewash::workcell::workcell::Workcell;
+use platewash::workcell::Workcell;
 use platewash::{Failure, JointVector, MotionReport, RobotModel, judged_motion, prove_motion};
 use serde::Serialize;
 use std::fmt;

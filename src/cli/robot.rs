@@ -2,7 +2,7 @@
 
 use super::failure::ExitCode;
 use super::files::Files;
-use super::fk::FramePose;
+use super::frame_pose::FramePose;
 use super::options::Options;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -17,7 +17,7 @@ use platewash::kinematics::{AXES, Link};
 use platewash::planner::Watch;
 use platewash::scenario::Suggestion;
 use platewash::viewer::figures::{RegionMap, arm_outlines, draw_region};
-use platewash::workcell::workcell::Obstacle;
+use platewash::workcell::Obstacle;
 use platewash::{ClearanceModel, DynamicsModel, Pose, RobotModel, Scenario, Tool, ToolFrame};
 use serde::Serialize;
 use std::fmt::Write;
@@ -195,7 +195,7 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
             .ok()
             .map(|mount| ToolMountRow::new(&robot, mount, stated.is_some())),
         controller_base: robot.controller_base().map(ControllerBaseRow::from),
-        inverse_kinematics: InverseKinematics::of(&robot),
+        inverse_kinematics: InverseKinematics::new(&robot),
         no_dynamics: DynamicsModel::new(&robot, None).err().map(|error| error.to_string()),
         start_deg: scenario.robot.start_deg,
         reach_bound_m: robot.reach_bound(&robot.last_link_frame()).1,
@@ -247,7 +247,7 @@ impl ToolMountRow {
 }
 
 impl InverseKinematics {
-    fn of(robot: &RobotModel) -> Self {
+    fn new(robot: &RobotModel) -> Self {
         let (structure, reason) = match AnalyticArm::recognise(robot) {
             Ok(arm) => (
                 Some(arm.structure()),

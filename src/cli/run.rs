@@ -172,7 +172,7 @@ fn run_paper(options: &Options, scenario: &Scenario, arguments: &RunArguments) -
     let is_swept = report.verdict == Verdict::Swept;
     let executed = ExecutedMotion::followed(&run.executed, run.job.simulation.law, &report.headline, is_swept);
     let region = scenario.task_region(arm);
-    if let Some(page) = page::of(options, &plan, arm, None, Some(&executed), &region)? {
+    if let Some(page) = page::render(options, &plan, arm, None, Some(&executed), &region)? {
         files.add("page.html", page);
     }
     files.answer(options, &report, || arguments.details.printed(&report))?;
@@ -213,7 +213,7 @@ fn run_washing(
     #[expect(clippy::needless_late_init, reason = "it must outlive the files, which refer to it")]
     let report;
     let (page, files) = rayon::join(
-        || page::of(options, plan, arm, Some(&certificate), executed.as_ref(), &region),
+        || page::render(options, plan, arm, Some(&certificate), executed.as_ref(), &region),
         || {
             let mut files = arguments.motion.files(options, scenario, arm, motion, plan)?;
             files.add("certificate.json", json(&certificate)?);

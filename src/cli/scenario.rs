@@ -89,7 +89,7 @@ fn valid(options: &Options, scenario: &Scenario) -> Result<ValidAnswer> {
     let drawn_anew = scenario.layout.only_washable && !listed;
     let drawn = (!listed).then(|| scenario.layout(&arm));
     if let Some(placed) = &drawn {
-        sampling = Some(Sampling::of(scenario, placed)?);
+        sampling = Some(Sampling::measure(scenario, placed)?);
     }
     let (robot, mut findings) = scenario.check().map_err(|error| options.failure(error))?;
     scenario.check_work().map_err(|error| options.failure(error.into()))?;
@@ -111,7 +111,7 @@ fn valid(options: &Options, scenario: &Scenario) -> Result<ValidAnswer> {
 impl Sampling {
     /// Result of placing the plates as `run` does. A search without success is a result, as another seed may succeed; a proof that no
     /// layout exists is an error.
-    fn of(scenario: &Scenario, placed: &Result<Layout, Failure>) -> Result<Self, Failure> {
+    fn measure(scenario: &Scenario, placed: &Result<Layout, Failure>) -> Result<Self, Failure> {
         let outcome = match placed {
             Ok(layout) => format!(
                 "a layout of {} was found",

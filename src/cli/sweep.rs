@@ -5,6 +5,7 @@ use super::files::Files;
 use super::numbers::seed;
 use super::options::Options;
 use super::output::{self, Progress, Reader};
+use super::terminal::shown;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use platewash::scenario::Program;
@@ -120,7 +121,7 @@ fn rows(options: &Options, scenario: &Scenario, arguments: &SweepArguments) -> R
     let mut print = |row: &Row| {
         if !options.json && matches!(printed, Ok(Reader::There)) {
             let line = header.take().unwrap_or_default().to_owned() + &csv_line(row);
-            printed = output::print(&output::text(&line));
+            printed = output::print(&shown(&line));
         }
         match printed {
             Ok(Reader::There) => ControlFlow::Continue(()),

@@ -3,9 +3,10 @@
 
 use super::export;
 use super::failure::{ExitCode, not_verified};
+use super::input_file::refused;
 use super::options::{Options, PLAN_STATES};
 use super::output::DetailArguments;
-use super::plan_file::{self, PlanFile, refused};
+use super::plan_file::{self, PlanFile};
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use platewash::certificate::{Difference, HashFinding, Verdict, differences, paper_headline, prove_with};
@@ -115,7 +116,7 @@ pub fn run(options: &Options, arguments: &VerifyArguments) -> Result<ExitCode> {
                 headline: paper_headline(&plan),
                 process: plan.process,
                 duration_s: plan.duration_s(),
-                hash: HashFinding::of(&plan),
+                hash: HashFinding::check(&plan),
                 scenario: plan.provenance.scenario,
             }
         }
@@ -250,7 +251,7 @@ fn against_stopped(found: &Plan, recovery: &Recovery, path: &Path, parent: &Plan
     };
     let pairs = found.job.workcell.reduced_clearances.iter();
     let at_stop = pairs.filter(|pair| pair.at_stop).cloned().collect();
-    let expected = recovery.terms(&parent.job, found.job.home_rad[0], at_stop);
+    let expected = parent.job.recovered(recovery, found.job.home_rad[0], at_stop);
     Ok(differences(&found.job, &expected))
 }
 

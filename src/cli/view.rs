@@ -2,9 +2,10 @@
 
 use super::failure::{ExitCode, internal};
 use super::files::{Files, check_places};
+use super::input_file::{refused, text};
 use super::options::Options;
 use super::page::{self, ServeArguments};
-use super::plan_file::{PlanFile, refused, text};
+use super::plan_file::PlanFile;
 use super::simulate::SimulationAnswer;
 use anyhow::{Error, Result};
 use clap::Args;
@@ -12,7 +13,7 @@ use platewash::certificate::prove_with;
 use platewash::motion::csv::RecordedMotion;
 use platewash::motion::plan::Process;
 use platewash::server::{Page, Site};
-use platewash::viewer::figures::{Figure, FigureError, Subject, draw};
+use platewash::viewer::figures::{Figure, FigureData, FigureError, draw};
 use platewash::viewer::view::{ExecutedMotion, ViewError, ViewExtras};
 use platewash::{Certificate, Failure, paper_spirals};
 use serde::Serialize;
@@ -65,7 +66,7 @@ fn serve(options: &Options, arguments: &ViewArguments) -> Result<ExitCode> {
     let listener = arguments.serve.listen(options)?;
     let page = html(options, arguments)?;
     let url = listener.url();
-    let site = Site::of(Page::Fixed(page));
+    let site = Site::from_page(Page::Fixed(page));
     let server = listener.serve(site).map_err(internal)?;
     options.print(&PageAnswer::Url(&url), || format!("{url}\n"))?;
     arguments.serve.open(options, &url);
@@ -163,9 +164,9 @@ pub fn figures(options: &Options, arguments: &FiguresArguments) -> Result<ExitCo
     let file = PlanFile::read(options, &arguments.plan)?;
     let mut left_out = Vec::new();
     let known = PlanResults::new(options, &file, &wanted, &mut left_out)?;
-    let subject = known.subject(&file).map_err(|error| file.refused(error))?;
+    let data = known.data(&file).map_err(|error| file.refused(error))?;
     for figure in &wanted {
-        match draw(&subject, *figure) {
+        match draw(&data, *figure) {
             Ok(svg) => files.add(&name(figure), svg),
             // What was asked for by name must be drawn; of the others, those that the plan has nothing for are left out.
             Err(error @ FigureError::NothingWashed { .. }) if only.is_empty() => {
@@ -236,17 +237,17 @@ impl PlanResults {
         })
     }
 
-    fn subject<'a>(&'a self, file: &'a PlanFile<'_>) -> Result<Subject<'a>, FigureError> {
-        let mut subject = Subject::new(&file.plan, &file.arm)?;
+    fn data<'a>(&'a self, file: &'a PlanFile<'_>) -> Result<FigureData<'a>, FigureError> {
+        let mut data = FigureData::new(&file.plan, &file.arm)?;
         if let Some(SimulationAnswer::Done { execution, report }) = &self.simulated {
-            subject = subject.executed(execution, report)?;
+            data = data.executed(execution, report)?;
         }
         if let Some(ideal) = &self.ideal {
-            subject.ideal.clone_from(ideal);
+            data.ideal.clone_from(ideal);
         }
-        subject.certificate = self.certificate.as_ref();
-        subject.region = page::region_of_plan(&file.plan, &file.arm);
-        Ok(subject)
+        data.certificate = self.certificate.as_ref();
+        data.region = page::region_of_plan(&file.plan, &file.arm);
+        Ok(data)
     }
 }
 

@@ -8,7 +8,7 @@ mod walls;
 
 use platewash::bodies::clearance::exclusions;
 use platewash::certificate::Certificate;
-use platewash::workcell::workcell::Obstacle;
+use platewash::workcell::Obstacle;
 use platewash::{Plan, Scenario, plan, prove};
 
 /// What came of a cell.

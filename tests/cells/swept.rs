@@ -9,7 +9,7 @@ use platewash::certificate::{PairRule, Status};
 use platewash::kinematics::BodyPoses;
 use platewash::kinematics::geometry::Shape;
 use platewash::workcell::random::stream;
-use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose, RobotModel, Scenario, prove};
 use rand::RngExt;
 

@@ -7,7 +7,7 @@ use platewash::certificate::{differences, prove};
 use platewash::kinematics::geometry::Shape;
 use platewash::workcell::job::{OrderRule, Overlap, Planner, PlannerSettings};
 use platewash::workcell::simulation::ControlLawName;
-use platewash::workcell::workcell::{Exclusion, ExclusionReason};
+use platewash::workcell::{Exclusion, ExclusionReason};
 use platewash::{JobTerms, Plan, Scenario, Surface, plan};
 use rayon::prelude::*;
 

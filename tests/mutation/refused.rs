@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use platewash::certificate::prove;
 use platewash::kinematics::geometry::Shape;
 use platewash::motion::plan::Process;
-use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose};
 
 #[track_caller]

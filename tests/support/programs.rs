@@ -24,7 +24,7 @@ pub fn plan(arm: &RobotModel) -> Plan {
         t_end_s,
     };
     let parts = PlanParts {
-        provenance: Provenance::of("two segments"),
+        provenance: Provenance::new("two segments"),
         order: vec![2],
         wash_paths: Vec::new(),
         segments: vec![

@@ -114,7 +114,7 @@ impl<'a> Builder<'a> {
         self.turn_to(self.terms.home_rad[1]);
         self.ends(SegmentKind::Return, last);
         PlanParts {
-            provenance: Provenance::of("two plates"),
+            provenance: Provenance::new("two plates"),
             order: (0..plates.len()).collect(),
             wash_paths,
             segments: self.segments,

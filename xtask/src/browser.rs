@@ -1,7 +1,8 @@
 //! What looks at pages in a browser, `tests/browser`: the tests, and pictures for people.
 
+use crate::command::with_command;
 use crate::step::Step;
-use crate::{command, web};
+use crate::web;
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, Workshop, root, target};
 use std::fs;
@@ -10,7 +11,11 @@ use std::fs;
 pub fn pages() -> Result<()> {
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "pages"];
-    with_command(Step::of("tests in a browser", node.npm(workshop.folder(), &line))).run()
+    with_command(Step::from_command(
+        "tests in a browser",
+        node.npm(workshop.folder(), &line),
+    ))
+    .run()
 }
 
 /// Runs the tests of the playground, with its folder and the release build of the command.
@@ -18,7 +23,10 @@ pub fn playground() -> Result<()> {
     let playground = web::folder()?;
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "playground"];
-    let step = with_command(Step::of("playground in a browser", node.npm(workshop.folder(), &line)));
+    let step = with_command(Step::from_command(
+        "playground in a browser",
+        node.npm(workshop.folder(), &line),
+    ));
     step.with("PLATEWASH_WEB", playground).run()
 }
 
@@ -26,7 +34,7 @@ pub fn playground() -> Result<()> {
 pub fn read_site() -> Result<()> {
     let (node, workshop) = workshop()?;
     let line = ["run", "--silent", "site"];
-    let step = Step::of("website in a browser", node.npm(workshop.folder(), &line));
+    let step = Step::from_command("website in a browser", node.npm(workshop.folder(), &line));
     step.with("PLATEWASH_SITE", target().join("site")).run()
 }
 
@@ -51,7 +59,7 @@ fn script(title: &'static str, name: &str, arguments: &[String]) -> Result<()> {
     let (node, workshop) = workshop()?;
     let mut line = vec!["run", "--silent", name, "--"];
     line.extend(arguments.iter().map(String::as_str));
-    with_command(Step::of(title, node.npm(workshop.folder(), &line))).run()
+    with_command(Step::from_command(title, node.npm(workshop.folder(), &line))).run()
 }
 
 /// Node, and the sources and packages of what looks at pages.
@@ -63,10 +71,4 @@ fn workshop() -> Result<(Node, Workshop)> {
     let workshop = Workshop::new("the tests in a browser", &sources, target().join("browser"))?;
     workshop.fetch(&node, Packages::All)?;
     Ok((node, workshop))
-}
-
-/// Names the release build of the command and the project's folder to a step.
-pub fn with_command(step: Step) -> Step {
-    step.with("PLATEWASH_BIN", command::program())
-        .with("PLATEWASH_ROOT", root())
 }

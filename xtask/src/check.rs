@@ -16,7 +16,7 @@ pub enum Part {
     Types,
     /// What the crates and the source package hold, and the wheel with nothing beside it.
     Packages,
-    /// The website of the documentation, in a browser, too.
+    /// The website of the site::documentation, in a browser, too.
     Site,
     /// Each benchmark once.
     Benchmarks,
@@ -47,7 +47,7 @@ pub fn run(only: Option<Part>, in_browser: BrowserTests) -> Result<()> {
     let start = Instant::now();
     match only {
         None => whole(in_browser)?,
-        Some(Part::Lint) => all(&[page::make, format, clippy, documentation, page::types])?,
+        Some(Part::Lint) => all(&[page::make, format, clippy, site::documentation, page::types])?,
         Some(Part::Types) => all(&[page::make, wheel::install, python::types])?,
         Some(Part::Packages) => all(&[
             page::make,
@@ -79,7 +79,7 @@ fn whole(in_browser: BrowserTests) -> Result<()> {
         wheel::package,
         ledger::check,
     ];
-    beside(&others, || all(&[clippy, documentation, benches::once]))?;
+    beside(&others, || all(&[clippy, site::documentation, benches::once]))?;
     site::built()?;
     read(in_browser)
 }
@@ -115,10 +115,4 @@ fn clippy() -> Result<()> {
         wheel::with_its_settings(Step::cargo(title, &[line, &warnings].concat())).run()?;
     }
     Ok(())
-}
-
-/// Makes rustdoc's pages.
-pub fn documentation() -> Result<()> {
-    let step = Step::cargo("documentation", &["doc", "--release", "--workspace", "--no-deps"]);
-    wheel::with_its_settings(step).with("RUSTDOCFLAGS", "-D warnings").run()
 }

@@ -1,9 +1,9 @@
 //! The release build of the command.
 
+use crate::size::no_larger;
 use crate::step::Step;
-use crate::wheel;
 use anyhow::Result;
-use platewash_bundler::target;
+use platewash_bundler::{root, target};
 use std::path::PathBuf;
 
 /// Largest command \[bytes\].
@@ -25,7 +25,7 @@ pub fn messages() -> Result<String> {
         "json-render-diagnostics",
     ];
     let messages = Step::cargo("release build", &line).output()?;
-    wheel::no_larger(&program(), LARGEST)?;
+    no_larger(&program(), LARGEST)?;
     Ok(messages)
 }
 
@@ -38,4 +38,9 @@ pub fn build() -> Result<()> {
 pub fn program() -> PathBuf {
     let name = format!("platewash{}", std::env::consts::EXE_SUFFIX);
     target().join("release").join(name)
+}
+
+/// Names the release build of the command and the project's folder to a step.
+pub fn with_command(step: Step) -> Step {
+    step.with("PLATEWASH_BIN", program()).with("PLATEWASH_ROOT", root())
 }

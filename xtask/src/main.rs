@@ -28,7 +28,10 @@ mod packages;
 mod page;
 mod programs;
 mod python;
+#[cfg(test)]
+mod rings;
 mod site;
+mod size;
 mod sources;
 mod step;
 mod steps;

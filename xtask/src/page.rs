@@ -18,7 +18,7 @@ pub fn make() -> Result<()> {
 pub fn types() -> Result<()> {
     let _alone = alone()?;
     let (node, workshop) = everything()?;
-    Step::of("types of the page", node.npm(workshop.folder(), &["run", "check"])).run()
+    Step::from_command("types of the page", node.npm(workshop.folder(), &["run", "check"])).run()
 }
 
 /// Node, and the page's sources with all their packages.
@@ -33,7 +33,7 @@ fn everything() -> Result<(Node, Workshop)> {
 pub fn tested() -> Result<()> {
     let _alone = alone()?;
     let (node, workshop) = everything()?;
-    let tests = Step::of("tests of the page", node.npm(workshop.folder(), &["test"]));
+    let tests = Step::from_command("tests of the page", node.npm(workshop.folder(), &["test"]));
     // Later versions run TypeScript without being told to.
     tests.with("NODE_OPTIONS", "--experimental-strip-types").run()
 }

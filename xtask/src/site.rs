@@ -1,7 +1,7 @@
 //! The documentation as a website: pages, Rust and Python API, playground. Links that lead nowhere are errors.
 
 use crate::step::Step;
-use crate::{check, page, python, web, wheel};
+use crate::{page, python, web, wheel};
 use anyhow::{Context, Result, bail};
 use platewash_bundler::{Node, Packages, Workshop, copied, removed, root, target};
 use std::path::Path;
@@ -20,7 +20,7 @@ const LINKED: [&str; 6] = [
 /// Makes all that the website holds, then the website, and says how to look at it.
 pub fn make() -> Result<()> {
     page::make()?;
-    check::documentation()?;
+    documentation()?;
     wheel::install()?;
     built()?;
     println!("\nto look at it: {}", web::serving(&target().join("site")));
@@ -49,7 +49,7 @@ pub fn built() -> Result<()> {
         ("links of the website", "links"),
     ];
     for (name, script) in scripts {
-        Step::of(name, node.npm(folder, &["run", "--silent", script])).run()?;
+        Step::from_command(name, node.npm(folder, &["run", "--silent", script])).run()?;
     }
     formulas_of_page(&node, folder)?;
     removed(&target().join("site"))?;
@@ -61,7 +61,7 @@ fn formulas_of_page(node: &Node, folder: &Path) -> Result<()> {
     let new = folder.join("formulas.json");
     let out = new.to_string_lossy();
     let line = ["mathml.mjs", &out, "pages/docs/certificate.md", "pages/docs/contact.md"];
-    Step::of("formulas of the page", node.node(folder, &line)).run()?;
+    Step::from_command("formulas of the page", node.node(folder, &line)).run()?;
     let kept = root().join("crates/viewer/page/src/formulas.json");
     let read = |file: &Path| fs::read_to_string(file).with_context(|| file.display().to_string());
     if read(&new)? == read(&kept)? {
@@ -74,4 +74,10 @@ fn formulas_of_page(node: &Node, folder: &Path) -> Result<()> {
         );
     }
     copied(&new, &kept)
+}
+
+/// Makes rustdoc's pages.
+pub fn documentation() -> Result<()> {
+    let step = Step::cargo("documentation", &["doc", "--release", "--workspace", "--no-deps"]);
+    wheel::with_its_settings(step).with("RUSTDOCFLAGS", "-D warnings").run()
 }

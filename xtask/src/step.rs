@@ -18,11 +18,11 @@ impl Step {
     pub fn program(title: &'static str, program: impl AsRef<OsStr>, arguments: &[&str]) -> Self {
         let mut command = Command::new(program);
         command.args(arguments).current_dir(root());
-        Self::of(title, command)
+        Self::from_command(title, command)
     }
 
     /// A call that is made already.
-    pub fn of(title: &'static str, command: Command) -> Self {
+    pub fn from_command(title: &'static str, command: Command) -> Self {
         Self { title, command }
     }
 

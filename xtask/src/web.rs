@@ -1,6 +1,6 @@
 //! The playground: the engine as a WebAssembly module, the folder of the page around it, and the test of the module.
 
-use crate::browser;
+use crate::command::with_command;
 use crate::step::Step;
 use anyhow::{Context, Result};
 use platewash_bundler::{Node, Packages, alone, python_program, root, target, workshop};
@@ -31,7 +31,7 @@ pub fn folder() -> Result<PathBuf> {
     let folder = target().join("playground");
     let (module, out) = (module.to_string_lossy(), folder.to_string_lossy());
     let line = ["build.mjs", "--playground", &module, "--out", &out];
-    Step::of("playground", node.node(workshop.folder(), &line)).run()?;
+    Step::from_command("playground", node.node(workshop.folder(), &line)).run()?;
     Ok(folder)
 }
 
@@ -57,8 +57,8 @@ pub fn tested() -> Result<()> {
     let module = module()?;
     let node = Node::found(Packages::All)?;
     let line = ["--test", "--test-reporter=spec", "tests/playground/same.mjs"];
-    let step = Step::of("module and command side by side", node.node(&root(), &line));
-    browser::with_command(step).with("PLATEWASH_MODULE", module).run()
+    let step = Step::from_command("module and command side by side", node.node(&root(), &line));
+    with_command(step).with("PLATEWASH_MODULE", module).run()
 }
 
 /// True if the toolchain in use compiles for WebAssembly.

@@ -1,5 +1,6 @@
 //! The Python wheel: built from the checkout for the tests, and from its source package outside of it.
 
+use crate::size::no_larger;
 use crate::step::Step;
 use crate::{python, sources};
 use anyhow::{Context, Result, bail};
@@ -104,16 +105,6 @@ fn build(python: &Path) -> Result<PathBuf> {
     let wheel = only_file(&folder, "whl")?;
     no_larger(&wheel, LARGEST)?;
     Ok(wheel)
-}
-
-/// Fails if a file is larger than wanted, else tells its size.
-pub fn no_larger(file: &Path, most: u64) -> Result<()> {
-    let bytes = std::fs::metadata(file)?.len();
-    if bytes > most {
-        bail!("{} has {bytes} bytes; at most {most} are wanted", file.display());
-    }
-    println!("    {bytes} bytes");
-    Ok(())
 }
 
 /// The wheel in an environment where nothing else is, and the README's example in it.

@@ -6,7 +6,7 @@ use platewash_kinematics::{Frame, Link, Pose};
 use platewash_problems::stages::surroundings;
 use platewash_bodies::job::WashJob;
 use platewash_workcell::words::plate_name;
-use platewash_workcell::workcell::ObstacleShape;
+use platewash_workcell::ObstacleShape;
 use serde_json::{Value, json};
 use std::error::Error;
 

@@ -5,9 +5,9 @@ use platewash_bodies::job::WashJob;
 use platewash_certificate::prove;
 use platewash_motion::plan::Plan;
 use platewash_planner::joint_path::{Ends, JointPath};
+use platewash_planner::placed_arm::PlacedArm;
 use platewash_planner::plan;
 use platewash_planner::redundancy::{Task, Washing, washing};
-use platewash_planner::scene::Scene;
 use platewash_planner::timing::{self, MotionLimits, TipLimits};
 use platewash_scenario::Scenario;
 use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
@@ -170,13 +170,13 @@ pub fn configurations(
     let settings = terms
         .planner_settings()
         .ok_or("the job is one of the paper's program")?;
-    let scene = Scene::new(
+    let placed = PlacedArm::new(
         job.arm(),
         &terms.workcell.tool,
         surroundings,
         &terms.plates,
         settings.reach,
     )?;
-    let task = Task::new(&scene, path, terms.requirements.clearance_m, &terms.home_rad[0])?;
+    let task = Task::new(&placed, path, terms.requirements.clearance_m, &terms.home_rad[0])?;
     Ok(washing(&task)?)
 }

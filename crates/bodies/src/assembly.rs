@@ -3,7 +3,7 @@
 use crate::clearance::{self, ClearanceError};
 use platewash_kinematics::{Pose, RobotModel};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{ArmId, Exclusion, Obstacle, Workcell};
+use platewash_workcell::{ArmId, Exclusion, Obstacle, Workcell};
 
 /// Returns the workcell of an arm mounted at `T_world_base`, with its tool, among obstacles in the world frame.
 ///

@@ -156,7 +156,7 @@ impl ToolChain {
             let flat = || ToolError::Flat {
                 body: body.name.clone(),
             };
-            let uniform = UniformBody::of(&body.shape).ok_or_else(flat)?;
+            let uniform = UniformBody::from_shape(&body.shape).ok_or_else(flat)?;
             parts.push((uniform.placed(&body.pose), body.mass_kg));
         }
         if self.handle == Handle::Round {
@@ -165,7 +165,8 @@ impl ToolChain {
                 radius_m: self.straight.radius_m,
                 half_length_m,
             };
-            let uniform = UniformBody::of(&shape).map(|u| u.placed(&Pose::translation(0.0, 0.0, half_length_m)));
+            let uniform =
+                UniformBody::from_shape(&shape).map(|u| u.placed(&Pose::translation(0.0, 0.0, half_length_m)));
             parts.extend(uniform.map(|uniform| (uniform, None)));
         }
         let tool_kg = whole.mass_kg;

@@ -22,7 +22,7 @@ impl UniformBody {
     ///
     /// A hull is divided into the tetrahedra between its facets and one of its corners, whose integrals are exact.
     #[must_use]
-    pub fn of(shape: &Shape) -> Option<Self> {
+    pub fn from_shape(shape: &Shape) -> Option<Self> {
         let body = match shape {
             Shape::Box { half_m: [a, b, c] } => {
                 let volume = 8.0 * a * b * c;

@@ -7,7 +7,7 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::tool::{StraightTool, Tool};
-use platewash_workcell::workcell::{Obstacle, ReducedClearance};
+use platewash_workcell::{Obstacle, ReducedClearance};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 

@@ -8,7 +8,7 @@ use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::{Pose, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 fn block(name: &str, half_m: [f64; 3], [x, y, z]: [f64; 3]) -> Obstacle {
     let shape = ObstacleShape::Convex(Shape::Box { half_m });

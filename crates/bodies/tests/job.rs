@@ -4,8 +4,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use platewash_bodies::job::WashJob;
 use platewash_fixtures::{kitchen, kitchen_terms};
 use platewash_kinematics::{Pose, RobotModel};
+use platewash_workcell::Obstacle;
 use platewash_workcell::job::{JobTerms, MAX_SEED};
-use platewash_workcell::workcell::Obstacle;
 use std::borrow::Cow;
 
 type Change = fn(&mut JobTerms);

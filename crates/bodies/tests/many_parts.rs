@@ -7,7 +7,7 @@ use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::plate::{Foot, Plate, PlateTerms};
 use platewash_workcell::surface::{SHIPPED_PROFILES, Surface};
 use platewash_workcell::words::plate_name;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{Obstacle, ObstacleShape, Workcell};
 use proptest::prelude::*;
 
 fn plates(kind: usize, z: f64) -> [Plate; 2] {

@@ -122,7 +122,7 @@ proptest! {
         profile in 0..5usize, place in [0.0..1.0f64, 0.0..TAU], up in -3e-3..6e-3f64, lean in [0.0..0.52f64, 0.0..TAU], many: bool,
     ) {
         let surface = surface(profile);
-        let bends = Bends::of(&surface);
+        let bends = Bends::new(&surface);
         let columns = if many { Columns::fine(&FOUNDATION) } else { Columns::new(&FOUNDATION) };
         let pose = over(&surface, place, up, lean);
         let standing = columns.sponge_state(&bends, &pose, &across(&pose), ERROR_M);
@@ -144,7 +144,7 @@ proptest! {
         turning in prop::array::uniform3(-1.5..1.5f64), length_s in 1e-3..3e-2f64, share in 0.0..1.0f64,
     ) {
         let surface = surface(profile);
-        let bends = Bends::of(&surface);
+        let bends = Bends::new(&surface);
         let columns = Columns::new(&FOUNDATION);
         let start = over(&surface, place, up, lean);
         let [v, a, w] = [speed, acceleration, turning].map(Vector3::from);
@@ -178,7 +178,7 @@ proptest! {
     #[test]
     fn bounds_at_a_moment_are_close_to_the_load(profile in 0..5usize, place in [0.05..0.75f64, 0.0..TAU], tilt in -0.1..0.1f64) {
         let surface = surface(profile);
-        let bends = Bends::of(&surface);
+        let bends = Bends::new(&surface);
         let [share, azimuth] = place;
         let normal = surface.normal(share * surface.rim_m(), azimuth);
         let point = surface.point(share * surface.rim_m(), azimuth).coords;
@@ -199,7 +199,7 @@ proptest! {
 #[test]
 fn gives_no_bounds_for_columns_that_miss_the_plate() {
     let surface = surface(0);
-    let (bends, columns) = (Bends::of(&surface), Columns::new(&FOUNDATION));
+    let (bends, columns) = (Bends::new(&surface), Columns::new(&FOUNDATION));
     let lying = over(&surface, [0.5, 0.0], 0.0, [0.5 * PI, 0.0]);
     let nowhere = SpongePose {
         tip: Vector3::repeat(f64::NAN),

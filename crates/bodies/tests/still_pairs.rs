@@ -10,7 +10,7 @@ use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, Pose, RobotModel};
 use platewash_workcell::tool::{Tool, ToolBody};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape, ReducedClearance, Workcell};
+use platewash_workcell::{Obstacle, ObstacleShape, ReducedClearance, Workcell};
 use proptest::prelude::*;
 use std::sync::Arc;
 

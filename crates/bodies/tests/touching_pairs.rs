@@ -5,21 +5,24 @@ use platewash_fixtures::kitchen_tool;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{DisabledPairs, RobotModel};
-use platewash_workcell::workcell::Obstacle;
+use platewash_workcell::Obstacle;
 
 #[test]
 fn an_arm_without_a_link_for_tools_has_the_same_pairs() {
     let robot = RobotModel::irb120().unwrap();
     let renamed = IRB120_URDF.replace("\"tool0\"", "\"hand\"");
     let other = RobotModel::from_urdf(&renamed, &MeshSource::none()).unwrap();
-    assert_eq!(TouchingPairs::of(&robot).unwrap(), TouchingPairs::of(&other).unwrap());
+    assert_eq!(
+        TouchingPairs::find(&robot).unwrap(),
+        TouchingPairs::find(&other).unwrap()
+    );
 }
 
 /// An SRDF that is read back excludes the pairs that were found.
 #[test]
 fn the_written_srdf_excludes_the_found_pairs() {
     let robot = RobotModel::irb120().unwrap();
-    let found = TouchingPairs::of(&robot).unwrap();
+    let found = TouchingPairs::find(&robot).unwrap();
     assert_eq!(found.neighbours.len(), 6);
     assert!(
         found
@@ -53,7 +56,7 @@ fn links_beside_a_joint_are_no_neighbours() {
       <joint name="bar_joint" type="fixed"><parent link="link_1"/><child link="bar"/></joint></robot>"#;
     let text = IRB120_URDF.replace("</robot>", beside);
     let arm = RobotModel::from_urdf(&text, &MeshSource::none()).unwrap();
-    let found = TouchingPairs::of(&arm).unwrap();
+    let found = TouchingPairs::find(&arm).unwrap();
     let are = |a: &str, b: &str| {
         found.neighbours.contains(&[a.to_owned(), b.to_owned()])
             || found.neighbours.contains(&[b.to_owned(), a.to_owned()])

@@ -35,8 +35,8 @@ proptest! {
         let sign = |k: usize, bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
         let corner = |k: usize| pose * Point3::new(sign(k, 0) * half[0], sign(k, 1) * half[1], sign(k, 2) * half[2]);
         let points = (0..8).map(corner).collect();
-        let hull = UniformBody::of(&Shape::Hull { points }).unwrap();
-        let expected = UniformBody::of(&Shape::Box { half_m: half }).unwrap().placed(&pose);
+        let hull = UniformBody::from_shape(&Shape::Hull { points }).unwrap();
+        let expected = UniformBody::from_shape(&Shape::Box { half_m: half }).unwrap().placed(&pose);
         prop_assert!(are_close(&hull, &expected, 1e-9), "{hull:?} {expected:?}");
     }
 
@@ -65,7 +65,7 @@ proptest! {
         }
         let inertia_m5 = Matrix3::from_diagonal(&Vector3::new(across, across, along));
             let expected = UniformBody { volume_m3: volume, centre_m: Vector3::zeros(), inertia_m5 };
-        let found = UniformBody::of(&shape).unwrap();
+        let found = UniformBody::from_shape(&shape).unwrap();
         prop_assert!(are_close(&found, &expected, 0.01), "{found:?} {expected:?}");
     }
 }
@@ -76,7 +76,7 @@ fn a_prism_of_many_sides_is_a_cylinder() {
         radius_m: 0.02,
         half_length_m: 0.07,
     };
-    let [hull, round] = [prism(400, 0.02, 0.07), cylinder].map(|shape| UniformBody::of(&shape).unwrap());
+    let [hull, round] = [prism(400, 0.02, 0.07), cylinder].map(|shape| UniformBody::from_shape(&shape).unwrap());
     assert!(are_close(&hull, &round, 1e-3), "{hull:?} {round:?}");
 }
 
@@ -97,6 +97,6 @@ fn rejects_bodies_without_volume() {
         },
     ];
     for shape in shapes {
-        assert_eq!(UniformBody::of(&shape), None, "{shape:?}");
+        assert_eq!(UniformBody::from_shape(&shape), None, "{shape:?}");
     }
 }

@@ -36,7 +36,7 @@ pub fn bundle() -> PathBuf {
 pub fn make() -> Result<Outcome> {
     let _alone = alone()?;
     let (sources, bundle) = (sources(), bundle());
-    if stamp::found(&bundle) == Some(stamp::of(&sources)?) {
+    if stamp::found(&bundle) == Some(stamp::compute(&sources)?) {
         return Ok(Outcome::Fresh);
     }
     let node = Node::found(Packages::Bundled)?;

@@ -55,7 +55,7 @@ pub fn sources(page: &Path) -> io::Result<Vec<String>> {
 ///
 /// # Errors
 /// A source that cannot be read.
-pub fn of(page: &Path) -> io::Result<String> {
+pub fn compute(page: &Path) -> io::Result<String> {
     let mut hash = Sha256::new();
     for name in sources(page)? {
         let content = with_plain_line_ends(&fs::read(page.join(&name))?);
@@ -89,7 +89,7 @@ mod tests {
             fs::create_dir_all(place.parent().unwrap()).unwrap();
             fs::write(place, content).unwrap();
         }
-        of(page.path()).unwrap()
+        compute(page.path()).unwrap()
     }
 
     const PAGE: [(&str, &str); 2] = [("package-lock.json", "{}\n"), ("src/a/main.ts", "let a = 1;\nlet b;\n")];

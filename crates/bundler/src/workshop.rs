@@ -85,7 +85,7 @@ impl Workshop {
                 bail!("crates/viewer/page/build.mjs makes no {name}");
             }
         }
-        let text = stamp::of(&self.folder)? + "\n";
+        let text = stamp::compute(&self.folder)? + "\n";
         fs::write(folder.join(stamp::STAMP), text).with_context(|| folder.display().to_string())
     }
 }

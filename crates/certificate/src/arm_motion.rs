@@ -6,13 +6,14 @@
 use crate::clearance::exclusions::{bodies_named_twice, bodies_without_shape};
 use crate::clearance::pairs::{self, PairBound, PairRule};
 use crate::error::ProveError;
+use crate::judged_job::{self, JointLimits};
 use crate::motion::joints;
 use crate::motion::piece::Piece;
 use crate::prove::{long_enough, timeline};
 use crate::report::certificate::World;
-use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, Status, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::subject::{self, JointLimits};
+use crate::report::unit::Unit;
 use platewash_bodies::assembly;
 use platewash_bodies::clearance::{ClearanceModel, FixedOverlap, standing_overlaps};
 use platewash_kinematics::{AXES, JointVector, RobotModel};
@@ -20,7 +21,7 @@ use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::TermsError;
 use platewash_workcell::job::check_workcell;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell, is_pair};
+use platewash_workcell::{Exclusion, ExclusionReason, Workcell, is_pair};
 
 /// Rules that a motion of an arm must keep, besides the limits of the arm's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,11 +126,11 @@ pub fn prove_arm_motion(
 ) -> Result<ArmMotionProof, ProveError> {
     check_rules(rules)?;
     check_workcell(workcell, 0).map_err(ProveError::Rules)?;
-    subject::check(workcell)?;
+    judged_job::check(workcell)?;
     if let Some(name) = bodies_named_twice(arm, workcell, 0).into_iter().next() {
         return Err(ProveError::NameTwice { name });
     }
-    let world = World::of(&workcell.mount);
+    let world = World::from_mount(&workcell.mount);
     let seen = workcell.seen_from_base().into_owned();
     let excluded = assembly::own_exclusions(&seen, arm)?;
     // Pairs that should not meet are looked at, too.

@@ -1,18 +1,18 @@
 //! Times at which the proved dose of places of a plate reaches the required one.
 //!
 //! The certificate bounds the share of a face that gets the dose, over cells. This is the same bound at single places and up to each moment:
-//! the sum of [`Edges::flat`](crate::washing::shares::edges::Edges::flat) over a cell so small that it is a place.
+//! the sum of [`Edges::flat`](crate::washing::face_shares::edges::Edges::flat) over a cell so small that it is a place.
 
 use crate::error::ProveError;
+use crate::judged_job::JudgedJob;
 use crate::motion::tip::Arm;
+use crate::plan_statements::schedule::Schedule;
+use crate::plan_statements::wash_paths;
 use crate::prove::{check_job, read};
 use crate::report::certificate::Certificate;
-use crate::statements::schedule::Schedule;
-use crate::statements::wash_paths;
-use crate::subject::Subject;
+use crate::washing::face_shares::bounds::Passes;
+use crate::washing::face_shares::face_cell::{CellState, FaceCell};
 use crate::washing::instants::Instants;
-use crate::washing::shares::bounds::Passes;
-use crate::washing::shares::cell::{Cell, CellState};
 use platewash_bodies::contact::Foundation;
 use platewash_kinematics::RobotModel;
 use platewash_motion::plan::Plan;
@@ -50,11 +50,11 @@ pub fn dose_times(
     check_job(&plan.job)?;
     let seen = &*plan.seen_from_base();
     let job = &seen.job;
-    let subject = Subject::new(job, arm, wash_paths::by_plate(seen));
+    let judged = JudgedJob::new(job, arm, wash_paths::by_plate(seen));
     // Where no share is proved, the bound on which the sum rests may not hold.
     let proved = certificate.contact.iter().filter(|contact| contact.dose.at_least > 0.0);
     let plates: Vec<usize> = proved.map(|contact| contact.plate).collect();
-    let (false, Some(foundation)) = (plates.is_empty(), Foundation::of(&job.workcell.tool.sponge)) else {
+    let (false, Some(foundation)) = (plates.is_empty(), Foundation::from_sponge(&job.workcell.tool.sponge)) else {
         return Ok(Vec::new());
     };
     let pieces = read(&seen.knots)?;
@@ -65,7 +65,7 @@ pub fn dose_times(
     let arm = Arm::new(arm, &job.workcell.tool, &cancel);
     let along = arm.along(&pieces);
     let of_plate = |index: usize| {
-        let plate = subject.plates().get(index)?;
+        let plate = judged.plates().get(index)?;
         let wanted = job.contact_of(plate).filter(|wanted| wanted.dose_pa_m > 0.0)?;
         let thresholds = wanted.thresholds();
         let is_wash = |kind| kind == SegmentKind::Wash;
@@ -85,9 +85,9 @@ pub fn dose_times(
 }
 
 impl Passes<'_> {
-    /// Earliest time at which the dose of a place is proved, infinite where it is not \[s\].
+    /// Earliest time at which the dose ∫ σ dl of a place (requirement 29) is proved, infinite where it is not \[s\].
     fn dose_time_s(&self, place: [f64; 2]) -> f64 {
-        let (edges, cell) = (&self.edges, Cell::new(self.surface, place, HALF_M));
+        let (edges, cell) = (&self.edges, FaceCell::new(self.surface, place, HALF_M));
         let reach_m = self.reach_m(&cell);
         let mut windows = Vec::new();
         self.windows_near(&cell, &mut windows);
@@ -96,7 +96,7 @@ impl Passes<'_> {
             let mut before: Option<CellState> = None;
             for look in edges.looks(first as usize..last as usize + 1) {
                 let mut state = CellState::default();
-                let is_near = cell.see(edges, look, reach_m, &mut state) <= reach_m;
+                let is_near = edges.see(&cell, look, reach_m, &mut state) <= reach_m;
                 if let Some(before) = before.filter(|_| is_near)
                     && let Some(gain) = edges.flat(&cell, [&before, &state])
                 {

@@ -8,8 +8,8 @@
 //! | --- | --- |
 //! | all requirements, in the order of the report | `prove` |
 //! | a certificate that only a proof can make | `certified` |
-//! | the job that is judged, with its limits and its bodies | `subject` |
-//! | what the plan states | `statements` |
+//! | the job that is judged, with its limits and its bodies | `judged` |
+//! | what the plan states | `plan_statements` |
 //! | the motion: joints, tip, wrist | `motion` |
 //! | clearance of every pair of bodies | `clearance` |
 //! | the tip and the sponge on the plates: coverage, contact, load, contact speed, reach | `washing` |
@@ -23,12 +23,12 @@ mod certified;
 mod clearance;
 mod dose_times;
 mod error;
+mod judged_job;
 mod motion;
+mod plan_statements;
 mod program;
 mod prove;
 mod report;
-mod statements;
-mod subject;
 mod washing;
 
 pub use crate::arm_motion::{ArmMotionProof, MotionRules, Timing, prove_arm_motion};
@@ -40,14 +40,14 @@ pub use crate::error::ProveError;
 pub use crate::program::{ProgramLimits, ProgramProof, prove_program};
 pub use crate::prove::{MotionProof, prove, prove_motion, prove_with};
 pub use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict};
-pub use crate::report::check::{Check, Discrepancy, Measure, Sense, Status, Unit, WorstCase};
+pub use crate::report::check::{Check, Discrepancy, Measure, Sense, Status, WorstCase};
 pub use crate::report::explanation::Explanation;
 pub use crate::report::headline::{paper_headline, planned_headline};
 pub use crate::report::requirement::{Requirement, RequirementGroup, RequirementRow};
 pub use crate::report::table::MeasureWords;
+pub use crate::report::unit::Unit;
 pub use crate::report::verdict_basis::VerdictBasis;
-pub use crate::washing::contact::{PlateContact, ProvedExtreme, ProvedShare};
-pub use crate::washing::coverage::PlateCoverage;
-pub use crate::washing::holding::{HolderLoad, RingShares};
-pub use crate::washing::reach::ReachedNeighbour;
+pub use crate::washing::holder_load::{HolderLoad, RingShares};
+pub use crate::washing::plate_contact::{PlateContact, ProvedExtreme, ProvedShare};
+pub use crate::washing::plate_coverage::{PlateCoverage, ReachedNeighbour};
 pub use platewash_motion::differences::{Difference, differences};

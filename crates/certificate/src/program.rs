@@ -16,19 +16,21 @@ use crate::certified::Certified;
 use crate::clearance::exclusions::Exclusions;
 use crate::clearance::pairs::{self, PairBound};
 use crate::error::ProveError;
+use crate::judged_job::JudgedJob;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::joints;
 use crate::motion::piece::{self, Piece};
 use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits::{self, Tips};
+use crate::plan_statements::schedule::Schedule;
+use crate::plan_statements::wash_paths;
 use crate::prove;
 use crate::report::certificate::World;
-use crate::report::check::{Check, Status, Unit};
+use crate::report::check::{Check, Status};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::Schedule;
-use crate::statements::wash_paths;
-use crate::subject::Subject;
-use crate::washing::coverage::{self, PlateCoverage};
+use crate::report::unit::Unit;
+use crate::washing::coverage;
+use crate::washing::plate_coverage::PlateCoverage;
 use platewash_kinematics::RobotModel;
 use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_motion::plan::Plan;
@@ -95,7 +97,7 @@ pub fn prove_program(
     limits: &ProgramLimits,
     cancel: &CancelToken,
 ) -> Result<ProgramProof, ProveError> {
-    let world = World::of(&certified.plan().job.workcell.mount);
+    let world = World::from_mount(&certified.plan().job.workcell.mount);
     let plan = &*certified.plan().seen_from_base();
     let ends_s = plan.segments.iter().map(|segment| segment.t_end_s);
     let motion = motion.clone().resting_until(plan.duration_s()).cut_at(ends_s, NEAR_S);
@@ -105,42 +107,42 @@ pub fn prove_program(
     let ends_s: Vec<_> = pieces.iter().map(|piece| piece.start_s + piece.length_s).collect();
     let schedule = Schedule::along(plan, &ends_s, NEAR_S);
 
-    let mut subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
+    let mut judged = JudgedJob::new(&plan.job, arm, wash_paths::by_plate(plan));
     // Speeds are those of the plan's time: what is left of a limit at a share of the speed is more.
-    subject.tilt_rad += TILT_RAD;
-    subject.joints.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
+    judged.tilt_rad += TILT_RAD;
+    judged.joints.speed_rad_s *= limits.joint_speed_share / limits.speed_share;
     let tip = Arm::new(arm, &plan.job.workcell.tool, cancel);
     let along = tip.along(&pieces);
-    let tips = Tips::new(&tip, &subject, &along, Some(&schedule));
-    let [position, speed, _] = joints::checks(&pieces, &subject.joints, Some(&schedule));
-    let rates = tips.checks(&subject, &pieces, Some(&schedule));
+    let tips = Tips::new(&tip, &judged, &along, Some(&schedule));
+    let [position, speed, _] = joints::checks(&pieces, &judged.joints, Some(&schedule));
+    let rates = tips.checks(&judged, &pieces, Some(&schedule));
     let (tilt, rates): (Vec<_>, _) = rates
         .into_iter()
         .partition(|check| check.requirement == Requirement::Tilt);
-    let washes = coverage::washes(&tip, &subject, &along, &schedule, &tips, cancel)?;
+    let washes = coverage::washes(&tip, &judged, &along, &schedule, &tips, cancel)?;
     let swept: Vec<_> = washes.into_iter().map(|wash| wash.swept).collect();
 
-    let exclusions = Exclusions::of(&subject)?;
-    let model = exclusions.model(&subject)?;
+    let exclusions = Exclusions::find(&judged)?;
+    let model = exclusions.model(&judged)?;
     let waived = exclusions.waived_in(&model);
-    let mut clearance = pairs::judge(&subject, &model, &waived, &timeline, Some(&schedule), cancel)?;
-    let judged = check(&tip, &pieces, &schedule, &planned, limits.deviation_m);
+    let mut clearance = pairs::judge(&judged, &model, &waived, &timeline, Some(&schedule), cancel)?;
+    let deviation = check(&tip, &pieces, &schedule, &planned, limits.deviation_m);
     let mut checks = vec![
         position,
         in_program_time(speed, limits.speed_share),
         contact(&tips, &pieces, &schedule, limits.deviation_m),
-        judged,
+        deviation,
     ];
-    checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance));
-    checks.push(coverage::check(&subject, &swept));
+    checks.extend(pairs::checks(judged.job.requirements.clearance_m, &clearance));
+    checks.push(coverage::check(&judged, &swept));
     // A tip is where it should be at any tilt, and the sponge is not.
     checks.extend(tilt);
-    checks.retain(|check| subject.asks_for(check.requirement));
+    checks.retain(|check| judged.asks_for(check.requirement));
     cancel.check()?;
     world.move_to_world(&mut checks, &mut clearance, &mut []);
     let is_implied = |check: &Check| {
         let is_of_tip = matches!(check.requirement, Requirement::TipSpeed | Requirement::WashSpeed);
-        is_of_tip && subject.asks_for(check.requirement)
+        is_of_tip && judged.asks_for(check.requirement)
     };
     Ok(ProgramProof {
         checks,
@@ -196,24 +198,24 @@ struct StretchPair<'a> {
 }
 
 impl<'a> StretchPair<'a> {
-    const fn of([motion, plan]: [Stretch<'a>; 2]) -> Self {
+    const fn new([motion, plan]: [Stretch<'a>; 2]) -> Self {
         Self { motion, plan }
     }
 
-    /// Deviation at both ends \[m\].
+    /// Deviation ‖p₁ − p₂‖ at both ends \[m\].
     fn ends_m(&self) -> [f64; 2] {
         [0, 1].map(|k| (self.motion.ends[k].position - self.plan.ends[k].position).norm())
     }
 }
 
-/// Checks the deviation of the tip of a motion from that of a plan, for as long as both last, against a tolerance \[m\]. Segments are those
-/// of the motion.
+/// Checks ‖p₁ − p₂‖, the deviation of the tip of a motion from that of a plan, for as long as both last, against a tolerance \[m\]: formula (34.1).
+/// Segments are those of the motion.
 pub(crate) fn check(arm: &Arm<'_>, motion: &[Piece], schedule: &Schedule, plan: &[Piece], tolerance_m: f64) -> Check {
     let mut tracker = BoundTracker::new(tolerance_m, RESOLUTION * tolerance_m);
     let parts = common(arm, motion, plan);
     let stretches: Vec<_> = parts
         .iter()
-        .map(|parts| StretchPair::of(parts.each_ref().map(TipPiece::stretch)))
+        .map(|parts| StretchPair::new(parts.each_ref().map(TipPiece::stretch)))
         .collect();
     tracker.allow_for(stretches.len());
     for both in &stretches {
@@ -245,6 +247,7 @@ fn common<'a>(arm: &Arm<'_>, motion: &'a [Piece], plan: &'a [Piece]) -> Vec<[Tip
     all
 }
 
+/// Bounds ‖p₁ − p₂‖ over a stretch by formula (34.1) and, where needed, over its halves.
 fn refine(arm: &Arm<'_>, both: &StretchPair<'_>, tracker: &mut BoundTracker, depth: u32) {
     let [from, to] = both.ends_m();
     let greater = if from > to || from.is_nan() { from } else { to };
@@ -257,7 +260,7 @@ fn refine(arm: &Arm<'_>, both: &StretchPair<'_>, tracker: &mut BoundTracker, dep
         return tracker.take(bound);
     };
     let (motion, plan) = (motion.both(), plan.both());
-    let halves = [0, 1].map(|k| StretchPair::of([motion[k], plan[k]]));
+    let halves = [0, 1].map(|k| StretchPair::new([motion[k], plan[k]]));
     let [_, middle_m] = halves[0].ends_m();
     tracker.see(middle_m, halves[0].motion.times()[1], halves[0].motion.ends[1]);
     halves.iter().for_each(|half| refine(arm, half, tracker, depth + 1));

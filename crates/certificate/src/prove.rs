@@ -3,21 +3,23 @@
 use crate::clearance::exclusions::Exclusions;
 use crate::clearance::pairs::{self, PairBound};
 use crate::error::ProveError;
+use crate::judged_job::{self, JudgedJob};
 use crate::motion::piece::{self, Piece};
 use crate::motion::timeline::Timeline;
 use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
 use crate::motion::{joints, wrist};
+use crate::plan_statements::schedule::{self, Schedule};
+use crate::plan_statements::{dry_run, plates, wash_paths};
 use crate::report::certificate::{CERTIFICATE_FORMAT, Certificate, HashFinding, Verdict, World};
 use crate::report::check::{Check, Status};
 use crate::report::headline::headline;
 use crate::report::requirement::Requirement;
 use crate::report::verdict_basis::VerdictBasis;
-use crate::statements::schedule::{self, Schedule};
-use crate::statements::{dry_run, plates, wash_paths};
-use crate::subject::{self, Subject};
-use crate::washing::contact::{self, PlateContact};
-use crate::washing::coverage::{self, PlateCoverage, Wash};
+use crate::washing::contact;
+use crate::washing::coverage::{self, Wash};
+use crate::washing::plate_contact::PlateContact;
+use crate::washing::plate_coverage::PlateCoverage;
 use crate::washing::{contact_speed, following, holding, reach};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_motion::plan::{Knots, Plan, Process};
@@ -59,10 +61,10 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     check_sizes(plan)?;
     check_job(&plan.job)?;
     // Judged in the frame of the arm's base, told in the world.
-    let judged = plan.judged();
-    let seen = &*judged.seen_from_base();
-    let mut subject = Subject::new(&seen.job, arm, wash_paths::by_plate(seen));
-    subject.up = plan.job.workcell.mount.rotation.inverse() * subject.up;
+    let judged_plan = plan.judged();
+    let seen = &*judged_plan.seen_from_base();
+    let mut judged = JudgedJob::new(&seen.job, arm, wash_paths::by_plate(seen));
+    judged.up = plan.job.workcell.mount.rotation.inverse() * judged.up;
     let pieces = read(&seen.knots)?;
     let timeline = timeline(&pieces, seen.knots.t_s.len())?;
     let (schedule, gaps) = match Schedule::new(seen, &pieces) {
@@ -71,7 +73,7 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     };
     let under_proof = PlanUnderProof {
         plan: seen,
-        subject: &subject,
+        judged: &judged,
         pieces: &pieces,
         timeline: &timeline,
         schedule: schedule.as_ref(),
@@ -79,9 +81,9 @@ pub fn prove_with(plan: &Plan, arm: &RobotModel, cancel: &CancelToken) -> Result
     };
     let mut proof = under_proof.proof(Check::stated(Requirement::Segments, gaps))?;
     cancel.check()?;
-    let world = World::of(&plan.job.workcell.mount);
+    let world = World::from_mount(&plan.job.workcell.mount);
     world.move_to_world(&mut proof.checks, &mut proof.clearance, &mut proof.contact);
-    Ok(certificate(plan, &judged.job, arm, proof))
+    Ok(certificate(plan, &judged_plan.job, arm, proof))
 }
 
 /// Judges a motion alone: limits of the joints and of the tip, and the clearance of every pair at all times, including that of the sponge
@@ -96,19 +98,19 @@ pub fn prove_motion(
     cancel: &CancelToken,
 ) -> Result<MotionProof, ProveError> {
     check_job(job)?;
-    let (world, job) = (World::of(&job.workcell.mount), &*job.seen_from_base());
-    let subject = Subject::new(job, arm, Vec::new());
+    let (world, job) = (World::from_mount(&job.workcell.mount), &*job.seen_from_base());
+    let judged = JudgedJob::new(job, arm, Vec::new());
     let pieces = read(knots)?;
     let timeline = timeline(&pieces, knots.t_s.len())?;
-    let model = Exclusions::of(&subject)?.model(&subject)?;
+    let model = Exclusions::find(&judged)?.model(&judged)?;
     let carrier = Arm::new(arm, &job.workcell.tool, cancel);
-    let tips = Tips::new(&carrier, &subject, &carrier.along(&pieces), None);
-    let mut clearance = pairs::judge_all(arm, subject.job.requirements.clearance_m, &model, &timeline, cancel)?;
-    pairs::add_still(subject.job.requirements.clearance_m, &model, &mut clearance);
+    let tips = Tips::new(&carrier, &judged, &carrier.along(&pieces), None);
+    let mut clearance = pairs::judge_all(arm, judged.job.requirements.clearance_m, &model, &timeline, cancel)?;
+    pairs::add_still(judged.job.requirements.clearance_m, &model, &mut clearance);
     cancel.check()?;
-    let mut checks = Vec::from(joints::checks(&pieces, &subject.joints, None));
-    checks.extend(tips.moving_checks(&subject, &pieces, None));
-    checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance));
+    let mut checks = Vec::from(joints::checks(&pieces, &judged.joints, None));
+    checks.extend(tips.moving_checks(&judged, &pieces, None));
+    checks.extend(pairs::checks(judged.job.requirements.clearance_m, &clearance));
     world.move_to_world(&mut checks, &mut clearance, &mut []);
     Ok(MotionProof { checks, clearance })
 }
@@ -116,7 +118,7 @@ pub fn prove_motion(
 /// The plan under judgement, with its motion.
 struct PlanUnderProof<'a> {
     plan: &'a Plan,
-    subject: &'a Subject<'a>,
+    judged: &'a JudgedJob<'a>,
     pieces: &'a [Piece],
     timeline: &'a Timeline<'a>,
     schedule: Option<&'a Schedule>,
@@ -138,21 +140,21 @@ impl PlanUnderProof<'_> {
     fn proof(&self, segments: Check) -> Result<Proof, ProveError> {
         let Self {
             plan,
-            subject,
+            judged,
             pieces,
             schedule,
             ..
         } = *self;
         // Several requirements use these.
-        let exclusions = Exclusions::of(subject)?;
-        let model = exclusions.model(subject)?;
-        let arm = Arm::new(subject.robot, &subject.job.workcell.tool, self.cancel);
+        let exclusions = Exclusions::find(judged)?;
+        let model = exclusions.model(judged)?;
+        let arm = Arm::new(judged.robot, &judged.job.workcell.tool, self.cancel);
         // Tip and pairs are judged apart from each other, and neither keeps all threads busy.
         let judge_tip = || {
             let along = arm.along(pieces);
             let (tips, deviations) = rayon::join(
-                || Tips::new(&arm, subject, &along, schedule),
-                || following::checks(&arm, subject, (pieces, &along), schedule),
+                || Tips::new(&arm, judged, &along, schedule),
+                || following::checks(&arm, judged, (pieces, &along), schedule),
             );
             let wash_paths = wash_paths::check(plan);
             // A deviation bounds the distance from the plate only where the stated path is on it.
@@ -162,7 +164,7 @@ impl PlanUnderProof<'_> {
             Ok::<_, ProveError>((along, tips, wash_paths, deviations, washes))
         };
         let waived = exclusions.waived_in(&model);
-        let judge_pairs = || pairs::judge(subject, &model, &waived, self.timeline, schedule, self.cancel);
+        let judge_pairs = || pairs::judge(judged, &model, &waived, self.timeline, schedule, self.cancel);
         let (tip, clearance) = rayon::join(judge_tip, judge_pairs);
         let (along, tips, wash_paths, deviations, washes) = tip?;
         let clearance = clearance?;
@@ -171,32 +173,32 @@ impl PlanUnderProof<'_> {
         let upright_cosine = |plate| schedule.map_or(0.0, |schedule| tips.least_upright_cosine_at(schedule, plate));
 
         let mut checks = vec![
-            plates::arm(subject),    // 1
-            plates::tool(subject),   // 2
-            plates::plates(subject), // 3
+            plates::arm(judged),    // 1
+            plates::tool(judged),   // 2
+            plates::plates(judged), // 3
         ];
-        checks.extend(dry_run::check(subject)?); // 4
+        checks.extend(dry_run::check(judged)?); // 4
         checks.extend([
-            exclusions.check(subject, &model, &clearance),           // 5
-            wash_paths,                                              // 6
-            segments,                                                // 7
-            plates::every_plate_once(subject, plan, upright_cosine), // 8
-            schedule::home_to_home(plan),                            // 9
-            schedule::rest_at_wash_ends(plan, schedule),             // 10
-            plates::plates_apart(subject)?,                          // 11
+            exclusions.check(judged, &model, &clearance),           // 5
+            wash_paths,                                             // 6
+            segments,                                               // 7
+            plates::every_plate_once(judged, plan, upright_cosine), // 8
+            schedule::home_to_home(plan),                           // 9
+            schedule::rest_at_wash_ends(plan, schedule),            // 10
+            plates::plates_apart(judged)?,                          // 11
         ]);
-        checks.extend(joints::checks(pieces, &subject.joints, schedule)); // 12–14: position, speed, acceleration
-        checks.extend(tips.checks(subject, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
-        checks.push(contact_speed::check(&arm, subject, (pieces, &along), schedule, &tips)); // 21: contact speed
+        checks.extend(joints::checks(pieces, &judged.joints, schedule)); // 12–14: position, speed, acceleration
+        checks.extend(tips.checks(judged, pieces, schedule)); // 15–20: speeds, accelerations, tilt, contact height
+        checks.push(contact_speed::check(&arm, judged, (pieces, &along), schedule, &tips)); // 21: contact speed
         checks.extend(deviations); // 22, 23: path, line
-        checks.extend(pairs::checks(subject.job.requirements.clearance_m, &clearance)); // 24: all pairs, pairs of reduced clearance
-        checks.push(reach::check(subject, &swept)); // 25
-        checks.push(coverage::check(subject, &swept)); // 26
-        checks.extend(contact::checks(subject, pieces, schedule, &contact)); // 27–31: pressed, contact time, contact dose, strain, contact force
-        checks.extend(wrist::check(subject, pieces, schedule)); // 32
-        checks.extend(holding::check(subject, &contact)); // 33: plate stays
-        checks.retain(|check| subject.asks_for(check.requirement));
-        if let Some(from_face) = contact_speed::from_face(subject, &along, schedule, &tips) {
+        checks.extend(pairs::checks(judged.job.requirements.clearance_m, &clearance)); // 24: all pairs, pairs of reduced clearance
+        checks.push(reach::check(judged, &swept)); // 25
+        checks.push(coverage::check(judged, &swept)); // 26
+        checks.extend(contact::checks(judged, pieces, schedule, &contact)); // 27–31: pressed, contact time, contact dose, strain, contact force
+        checks.extend(wrist::check(judged, pieces, schedule)); // 32
+        checks.extend(holding::check(judged, &contact)); // 33: plate stays
+        checks.retain(|check| judged.asks_for(check.requirement));
+        if let Some(from_face) = contact_speed::from_face(judged, &along, schedule, &tips) {
             let later = |check: &Check| check.requirement > from_face.requirement;
             let place = checks.iter().position(later).unwrap_or(checks.len());
             checks.insert(place, from_face);
@@ -218,11 +220,11 @@ impl PlanUnderProof<'_> {
         tips: &Tips,
         path_deviation_m: Option<f64>,
     ) -> Result<Vec<Wash>, ProveError> {
-        let subject = self.subject;
+        let judged = self.judged;
         let Some(schedule) = self.schedule else {
             return Ok(Vec::new());
         };
-        let mut washes = coverage::washes(arm, subject, pieces, schedule, tips, self.cancel)?;
+        let mut washes = coverage::washes(arm, judged, pieces, schedule, tips, self.cancel)?;
         let inputs = reach::ReachInputs {
             arm,
             pieces,
@@ -230,13 +232,13 @@ impl PlanUnderProof<'_> {
             tips,
             path_deviation_m,
         };
-        reach::fill_in_reach(subject, &mut washes, &inputs);
+        reach::fill_in_reach(judged, &mut washes, &inputs);
         Ok(washes)
     }
 }
 
 fn certificate(plan: &Plan, judged: &JobTerms, arm: &RobotModel, proof: Proof) -> Certificate {
-    let hash = HashFinding::of(plan);
+    let hash = HashFinding::check(plan);
     let sound = hash.status == Status::Proved && proof.checks.iter().all(|check| check.status.is_kept());
     let waived = proof.checks.iter().filter(|check| check.status == Status::Waived);
     let mut certificate = Certificate {
@@ -282,7 +284,7 @@ fn check_sizes(plan: &Plan) -> Result<(), ProveError> {
 /// Checks that the job can be computed with, and that its bodies are valid.
 pub(crate) fn check_job(job: &JobTerms) -> Result<(), ProveError> {
     job.validate().map_err(ProveError::Job)?;
-    subject::check(&job.workcell)
+    judged_job::check(&job.workcell)
 }
 
 /// Returns the pieces of the motion.

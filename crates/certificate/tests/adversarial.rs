@@ -9,7 +9,7 @@ use platewash_motion::plan::{Plan, Process};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::Planner;
 use platewash_workcell::job::TermsError;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 fn changed(change: impl FnOnce(&mut Plan)) -> Result<Certificate, ProveError> {
     let mut plan = good();

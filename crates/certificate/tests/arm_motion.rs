@@ -10,7 +10,7 @@ use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{DisabledPairs, JointVector, Pose, RobotModel};
 use platewash_motion::piecewise::{MotionPiece, PiecewiseMotion};
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{Obstacle, ObstacleShape, Workcell};
 use proptest::prelude::*;
 
 const CLEARANCE_M: f64 = 0.005;

@@ -11,7 +11,7 @@ use platewash_workcell::job::{ContactRequirements, JobTerms};
 use platewash_workcell::surface::Surface;
 use platewash_workcell::tool::{StraightTool, Tool, tool_down};
 use platewash_workcell::wash_path::{WashCurve, WashPath, WashPattern};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 use std::sync::OnceLock;
 
 /// Time between knots \[s\].
@@ -273,7 +273,7 @@ impl<'a> Maker<'a> {
         }
         let order = self.recipe.order.clone();
         let parts = PlanParts {
-            provenance: Provenance::of("made"),
+            provenance: Provenance::new("made"),
             wash_paths: order.iter().map(|plate| self.recipe.path(*plate)).collect(),
             order,
             segments,

@@ -9,7 +9,7 @@ use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::job::Overlap;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{WashCurve, WashPath};
-use platewash_workcell::workcell::{self, Exclusion, ExclusionReason};
+use platewash_workcell::{Exclusion, ExclusionReason, ReducedClearance};
 
 fn judged(plan: Plan) -> Certificate {
     prove(&resealed(plan), &irb120()).unwrap()
@@ -232,7 +232,7 @@ fn a_pair_with_a_reduced_clearance_is_proved_on_its_own() {
         plan.job.requirements.clearance_m = 0.0212;
         let pair = ["handle", "link_4"].map(str::to_owned);
         let by_m = 0.0212 - required_m;
-        plan.job.workcell.reduced_clearances.push(workcell::ReducedClearance {
+        plan.job.workcell.reduced_clearances.push(ReducedClearance {
             pair,
             by_m,
             at_stop: false,

@@ -9,7 +9,7 @@ use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
 use platewash_motion::plan::Plan;
 use platewash_workcell::job::Overlap;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 use proptest::prelude::*;
 
 /// The good plan among some more obstacles.

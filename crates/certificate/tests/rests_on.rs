@@ -8,7 +8,7 @@ use platewash_kinematics::words::rounded;
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plate::{Foot, Plate};
 use platewash_workcell::surface::{Knot, SHIPPED_PROFILES, Surface};
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ObstacleShape};
+use platewash_workcell::{Exclusion, ExclusionReason, Obstacle, ObstacleShape};
 
 /// The line of that name, where the terms are changed.
 fn told(name: &str, change: impl Fn(&mut VerdictBasis)) -> String {

@@ -6,9 +6,9 @@ use platewash_certificate::{Certificate, PairRule, ProveError, Requirement, Sens
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::{decimals_down, decimals_up};
 use platewash_motion::plan::Plan;
+use platewash_workcell::Obstacle;
 use platewash_workcell::job::Overlap;
 use platewash_workcell::wash_path::WashPath;
-use platewash_workcell::workcell::Obstacle;
 
 fn certificate() -> Certificate {
     prove(&good(), &irb120()).unwrap()

@@ -12,8 +12,8 @@ use crate::subject::{LastResult, PlacedJob, Subject, changed, place_job};
 use platewash_certificate::{Certificate, prove_with};
 use platewash_motion::plan::Plan;
 use platewash_planner::{
-    Chance, InfeasibleReport, MapArea, MapPatch, PlanError, PlannedJob, PlateOutlook, SEARCHED_M, UnwashablePlate,
-    Watch, nearest_place, plan_here, plate_outlooks, unwashable_plates, washable_map,
+    Chance, MapArea, MapPatch, PlanError, PlannedJob, PlateOutlook, SEARCHED_M, UnwashablePlate, Watch, nearest_place,
+    plan_here, plate_outlooks, unwashable_plates, washable_map,
 };
 use platewash_scenario::Failure;
 use platewash_viewer::view::{self, View, ViewExtras};
@@ -168,10 +168,15 @@ fn tell_unplanned(
     answer: &mut AnswerWriter<'_>,
 ) -> Result<String, End> {
     let scenario = &placed.scenario;
-    let Some(report) = InfeasibleReport::new(&scenario.name, scenario.seed, &error) else {
-        return Err(error.into());
+    let failure = Failure::from(error);
+    let Some(report) = failure.report(&scenario.name, scenario.seed) else {
+        return Err(failure.into());
     };
-    let report = report.explained(reason(error));
+    let report = match &failure {
+        // Another place of the plate follows in a line of its own.
+        Failure::Plan(PlanError::Unwashable(plate)) => report.explained(plate.reason_text()),
+        _ => report,
+    };
     let gone = answer.gone.clone();
     let planning = Watch::silent(&gone);
     let plates = match is_wanted {
@@ -250,14 +255,6 @@ fn answer_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWrit
     let area = MapArea::within_reach(&placed.job, plate)?;
     washable_map(&placed.job, plate, &area, &mut tell, &Watch::silent(&gone))?;
     Ok(())
-}
-
-/// Reason that there is no plan, without another place for a plate: that follows in a line of its own.
-fn reason(error: PlanError) -> String {
-    match error {
-        PlanError::Unwashable(plate) => plate.reason_text(),
-        other => Failure::from(other).to_string(),
-    }
 }
 
 impl From<&UnwashablePlate> for UnwashableReport {

@@ -15,8 +15,8 @@ use platewash_kinematics::words::distinct_decimals;
 use platewash_kinematics::{AXES, JointVector, RobotModel};
 use platewash_motion::plan::Plan;
 use platewash_motion_proof::ReadError;
+use platewash_workcell::ArmId;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::workcell::ArmId;
 
 /// Largest difference between a point that was read back and the one that was written \[°\], and between their times \[s\].
 const READ_WITHIN: (f64, f64) = (1e-4, 1e-4);

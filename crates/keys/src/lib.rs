@@ -27,7 +27,7 @@ pub fn section(input: TokenStream) -> TokenStream {
     };
     let (mut defaults, mut keys) = (String::new(), String::new());
     for field in split(fields.stream()) {
-        let Some(field) = Field::of(&field) else {
+        let Some(field) = Field::parse(&field) else {
             return error("a field of a section needs a name");
         };
         defaults += &format!("{}: {},", field.name, field.default);
@@ -63,7 +63,7 @@ struct Field {
 
 impl Field {
     /// The field that these tokens declare.
-    fn of(tokens: &[TokenTree]) -> Option<Self> {
+    fn parse(tokens: &[TokenTree]) -> Option<Self> {
         let colon = tokens.iter().position(|token| is(token, ':'))?;
         let mut field = Self {
             name: tokens[..colon].last()?.to_string(),

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | points in memory, and the motion through them | [`JointPoints`] (`points`), [`ExactTime`] (`time`) |
 //! | trajectories in files: CSV, ROS messages | [`TrajectoryFile`] (`file`), `message` |
-//! | obstacles of a planning scene of MoveIt | [`scene`] |
+//! | obstacles of a planning scene of MoveIt | [`planning_scene`] |
 //! | the judgement; the stop behind the last point | [`prove_motion`] (`prove`), `stop` |
 //! | the report | [`MotionReport`] (`report`) |
 //! | places in texts, errors of reading | [`Place`], [`ReadError`] (`place`) |
@@ -17,10 +17,10 @@ mod file;
 #[doc(hidden)]
 pub mod message;
 mod place;
+pub mod planning_scene;
 mod points;
 mod prove;
 mod report;
-pub mod scene;
 mod stop;
 mod time;
 

@@ -6,8 +6,8 @@ use crate::stop::with_stop;
 use platewash_certificate::{MotionRules, ProveError, Timing, prove_arm_motion};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::piecewise::PiecewiseMotion;
+use platewash_workcell::Workcell;
 use platewash_workcell::cancel::CancelToken;
-use platewash_workcell::workcell::Workcell;
 
 /// Judges the motion of an arm in a workcell: joint limits, and the clearance of every pair of bodies, at every moment.
 ///

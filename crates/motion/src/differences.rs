@@ -29,12 +29,12 @@ pub struct Difference {
 #[must_use]
 pub fn differences<T: Serialize>(found: &T, expected: &T) -> Vec<Difference> {
     let [found, expected] = [found, expected].map(|value| serde_json::to_value(value).unwrap_or(Value::Null));
-    DifferenceList::of(&found, &expected, true)
+    DifferenceList::between(&found, &expected, true)
 }
 
 /// Same as [`differences`] for two JSON values; list elements are matched by position alone.
 pub(crate) fn by_place(found: &Value, expected: &Value) -> Vec<Difference> {
-    DifferenceList::of(found, expected, false)
+    DifferenceList::between(found, expected, false)
 }
 
 /// Comparison of two values so far.
@@ -44,7 +44,7 @@ struct DifferenceList {
 }
 
 impl DifferenceList {
-    fn of(found: &Value, expected: &Value, by_name: bool) -> Vec<Difference> {
+    fn between(found: &Value, expected: &Value, by_name: bool) -> Vec<Difference> {
         let mut compared = Self {
             by_name,
             all: Vec::new(),

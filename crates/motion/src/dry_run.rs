@@ -12,7 +12,7 @@ use platewash_workcell::job::{JobTerms, Limits, PATH_TOLERANCE_M, Requirements};
 use platewash_workcell::plate::GREATEST_M;
 use platewash_workcell::simulation::{PlantSettings, SimulationSettings};
 use platewash_workcell::words::quoted;
-use platewash_workcell::workcell::{Exclusion, MOST_BODIES, Workcell};
+use platewash_workcell::{Exclusion, MOST_BODIES, Workcell};
 use std::sync::Arc;
 
 /// Reason that a plan has no such dry run.

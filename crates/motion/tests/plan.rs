@@ -8,7 +8,7 @@ fn plan() -> Plan {
     let job = kitchen();
     let home = job.terms().home_rad[0];
     let parts = PlanParts {
-        provenance: Provenance::of("kitchen"),
+        provenance: Provenance::new("kitchen"),
         order: vec![0],
         wash_paths: vec![WashPath {
             plate: 0,

@@ -7,12 +7,12 @@ use platewash_bodies::assembly;
 use platewash_bodies::job::WashJob;
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::{Plan, PlanFileError};
+use platewash_workcell::Workcell;
 use platewash_workcell::job::{JobTerms, Limits, Overlap, Planner, Requirements};
 use platewash_workcell::json::JsonError;
 use platewash_workcell::layout::Layout;
 use platewash_workcell::simulation::{ControlLawName, ControlSettings, PlantSettings, SimulationSettings};
 use platewash_workcell::tool::{StraightTool, Tool};
-use platewash_workcell::workcell::Workcell;
 use serde_json::Value;
 use std::sync::Arc;
 

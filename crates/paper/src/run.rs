@@ -99,7 +99,7 @@ impl PaperRun {
     /// [`PlanFileError::Unwritable`].
     pub fn plan(&self) -> Result<Plan, PlanFileError> {
         let parts = PlanParts {
-            provenance: Provenance::of(&self.job.name),
+            provenance: Provenance::new(&self.job.name),
             order: self.tool_path.order.clone(),
             wash_paths: Vec::new(),
             segments: self.segments(),

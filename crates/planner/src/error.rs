@@ -1,11 +1,12 @@
 //! Why a job could not be planned.
 
-use crate::infeasible::UnwashablePlate;
 use crate::joint_path::JointPathError;
+use crate::out_of_range::OutOfRange;
 use crate::pattern::Shortfall;
-use crate::suggest::NearPair;
+use crate::suggest::near_pair::NearPair;
 use crate::timing::TimingError;
 use crate::transit::{ClearanceShortfall, LiftLineError, TransitError};
+use crate::unwashable_plate::UnwashablePlate;
 use platewash_bodies::clearance::ClearanceError;
 use platewash_bodies::job::{End, JobError, PlateOverlap};
 use platewash_kinematics::LimitViolation;
@@ -16,35 +17,6 @@ use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::layout::LayoutError;
 use platewash_workcell::verdict::Infeasibility;
 use platewash_workcell::words::{millimetres, plate_name, printable};
-
-/// A value outside of its range.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{name} must be in [{least}, {most}]; found {found}")]
-pub struct OutOfRange {
-    /// Its name in the planner's settings, in a map's, or in the input of a search.
-    pub name: &'static str,
-    /// Least value.
-    pub least: f64,
-    /// Greatest value.
-    pub most: f64,
-    /// Value given.
-    pub found: f64,
-}
-
-impl OutOfRange {
-    /// Refuses a value outside of its range, or NaN.
-    pub(crate) fn check(name: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Self> {
-        if (least..=most).contains(&found) {
-            return Ok(());
-        }
-        Err(Self {
-            name,
-            least,
-            most,
-            found,
-        })
-    }
-}
 
 /// Reason that a job could not be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -12,35 +12,38 @@
 //! | the order of the plates | `order` |
 //! | the curve on each plate | `pattern` |
 //! | tilt, yaw and branch of the arm along it | `redundancy` |
-//! | the arm, its tool and what is around them | `scene` |
+//! | the arm, its tool and what is around them | `placed_arm` |
 //! | transits between plates | `transit`, `joint_path` |
 //! | timing as fast as the limits allow | `timing` |
 //! | the result; the time of a wash against the least | `planned_job`, `pace` |
 //! | going on after a stop | `recovery` |
-//! | a job that cannot be done, and where its plates could lie | `infeasible`, `outlook`, `washable_map`, `suggest` |
-//! | errors; the caller that waits | `error`, `watch` |
+//! | a job that cannot be done, and where its plates could lie | `infeasible`, `unwashable_plate`, `outlook`, `washable_map`, `suggest` |
+//! | errors; the caller that waits | `error`, `out_of_range`, `watch` |
 
 mod error;
 mod infeasible;
 pub mod joint_path;
 mod order;
+mod out_of_range;
 mod outlook;
 mod pace;
 mod pattern;
 mod pipeline;
+pub mod placed_arm;
 mod planned_job;
 mod recovery;
 pub mod redundancy;
-pub mod scene;
 pub mod suggest;
 pub mod timing;
 pub mod transit;
+mod unwashable_plate;
 mod washable_map;
 mod watch;
 
-pub use crate::error::{OutOfRange, PlanError};
-pub use crate::infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport, PlaceSearch, UnwashablePlate};
+pub use crate::error::PlanError;
+pub use crate::infeasible::{InfeasiblePart, InfeasiblePlate, InfeasibleReport};
 pub use crate::order::{EXACT_UP_TO, Optimality};
+pub use crate::out_of_range::OutOfRange;
 pub use crate::outlook::PlateOutlook;
 pub use crate::pace::Pace;
 pub use crate::pattern::{ContactPromise, Shortfall};
@@ -52,6 +55,6 @@ pub use crate::planned_job::{PlannedJob, TourSummary, TransitSummary, VisitSumma
 pub use crate::recovery::{Recovered, RecoveryError, Stop, recover};
 pub use crate::redundancy::Chance;
 pub use crate::redundancy::places::SEARCHED_M;
+pub use crate::unwashable_plate::{PlaceSearch, UnwashablePlate};
 pub use crate::washable_map::{MapArea, MapPatch};
 pub use crate::watch::{Activity, Listener, Watch};
-pub(crate) use platewash_kinematics::trig;

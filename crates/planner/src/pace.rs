@@ -4,7 +4,7 @@
 //! therefore takes at least (A − π s²)/(2 s v).
 
 use crate::pattern::length_m;
-use crate::scene::Scene;
+use crate::placed_arm::PlacedArm;
 use crate::timing::MotionLimits;
 use platewash_kinematics::words::decimals_down;
 use platewash_kinematics::{AXES, Axes};
@@ -38,8 +38,8 @@ pub struct Pace {
 
 impl Pace {
     /// The pace of a wash of `plate` along `curve`.
-    pub(crate) fn of(
-        scene: &Scene<'_>,
+    pub(crate) fn measure(
+        placed: &PlacedArm<'_>,
         plate: &Plate,
         terms: &JobTerms,
         (curve, motion): (&WashCurve, &Trajectory),
@@ -50,7 +50,7 @@ impl Pace {
             least_s: least_area_m2(plate, terms) / (2.0 * terms.workcell.tool.sponge.radius_m * speed_m_s),
             path_s: length_m / speed_m_s,
             length_m,
-            limits: LimitShares::of(scene, motion, limits),
+            limits: LimitShares::measure(placed, motion, limits),
         }
     }
 }
@@ -70,13 +70,13 @@ pub struct LimitShares {
 
 impl LimitShares {
     /// The shares of a motion, by moments that are evenly apart.
-    pub(crate) fn of(scene: &Scene<'_>, motion: &Trajectory, limits: &MotionLimits) -> Self {
+    pub(crate) fn measure(placed: &PlacedArm<'_>, motion: &Trajectory, limits: &MotionLimits) -> Self {
         let tip = limits
             .tip
             .map_or([f64::INFINITY; 2], |tip| [tip.speed_m_s, tip.acceleration_m_s2]);
         let (mut shares, step_s) = (Self::default(), motion.duration_s() / f64::from(MOMENTS));
         let velocity = |state: &JointState| {
-            let jacobian = scene.robot.fk(&state.q).jacobian(&scene.tip, Axes::Base);
+            let jacobian = placed.robot.fk(&state.q).jacobian(&placed.tip, Axes::Base);
             jacobian.fixed_rows::<3>(0) * state.qd
         };
         for k in 0..MOMENTS {

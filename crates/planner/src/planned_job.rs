@@ -34,7 +34,7 @@ pub struct VisitSummary {
     pub plate: usize,
     /// Source of the tool's tilt.
     pub tilt: TiltChoice,
-    /// Lean of the tool across the arm's plane: [`Stance::aside_rad`](crate::scene::Stance::aside_rad) \[rad\]. Left out where it
+    /// Lean of the tool across the arm's plane: [`Stance::aside_rad`](crate::placed_arm::Stance::aside_rad) \[rad\]. Left out where it
     /// is 0.
     #[serde(skip_serializing_if = "platewash_workcell::json::is_zero")]
     pub aside_rad: f64,

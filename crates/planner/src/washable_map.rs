@@ -1,6 +1,7 @@
 //! Map of the places at which a plate could be washed: the squares, and the answers for them.
 
-use crate::error::{OutOfRange, PlanError};
+use crate::error::PlanError;
+use crate::out_of_range::OutOfRange;
 use platewash_bodies::job::WashJob;
 use serde::Serialize;
 use std::collections::BTreeMap;

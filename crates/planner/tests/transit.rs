@@ -6,7 +6,7 @@ use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::ik::{IkSettings, IkSolver};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
-use platewash_planner::scene::{Contact, Scene, Stretch, Surroundings, TiltPolicy};
+use platewash_planner::placed_arm::{Contact, PlacedArm, Stretch, Surroundings, TiltPolicy};
 use platewash_planner::timing::MotionLimits;
 use platewash_planner::transit::{
     BaseArc, ClearanceShortfall, LiftLine, Transit, TransitError, TransitKind, TransitRules, plan,
@@ -61,26 +61,26 @@ fn set() -> Set {
 }
 
 /// Does something among obstacles.
-fn among<T>(set: &Set, free: FreeCheck<'_>, act: impl FnOnce(&Scene<'_>) -> T) -> T {
+fn among<T>(set: &Set, free: FreeCheck<'_>, act: impl FnOnce(&PlacedArm<'_>) -> T) -> T {
     let tool = Tool::from(StraightTool::default());
     let obstacles = RuleObstacles(free);
-    let scene = Scene::new(&set.robot, &tool, &obstacles, &[], ReachBorders::IRB_120).unwrap();
-    act(&scene)
+    let placed = PlacedArm::new(&set.robot, &tool, &obstacles, &[], ReachBorders::IRB_120).unwrap();
+    act(&placed)
 }
 
 /// The line over a place on the circle of radius 0.38 m, with the tool straight down.
 fn line(set: &Set, plate: usize, azimuth: f64) -> LiftLine {
-    among(set, &|_, _| true, |scene| {
+    among(set, &|_, _| true, |placed| {
         let foot = Contact::level(Vector3::new(0.38 * azimuth.cos(), 0.38 * azimuth.sin(), 0.2));
         let heights: Vec<f64> = (0..=15).map(|k| 2e-3 * f64::from(k)).collect();
-        let poses: Vec<_> = heights.iter().map(|h| scene.tip_pose(&foot.raised(*h), 0.0)).collect();
+        let poses: Vec<_> = heights.iter().map(|h| placed.tip_pose(&foot.raised(*h), 0.0)).collect();
         let seed = JointVector::new(azimuth, 0.3, 0.2, 0.0, 1.0, 0.0);
         let settings = IkSettings {
             position_tolerance_m: 1e-9,
             orientation_tolerance_rad: 1e-9,
             ..IkSettings::default()
         };
-        let solver = IkSolver::new(scene.robot, scene.tip, settings).unwrap();
+        let solver = IkSolver::new(placed.robot, placed.tip, settings).unwrap();
         LiftLine::line(plate, heights, solver.solve_path(&poses, &seed).unwrap().q).unwrap()
     })
 }
@@ -94,9 +94,9 @@ fn plan_among(set: &Set, free: FreeCheck<'_>, arc: Option<f64>) -> Result<Transi
         },
         policy: TiltPolicy::upright(0.0, &ReachBorders::IRB_120),
     });
-    let transit = among(set, free, |scene| {
+    let transit = among(set, free, |placed| {
         let rules = TransitRules {
-            scene,
+            placed,
             limits: &set.limits,
             clearance_m: 0.01,
             arc,
@@ -174,9 +174,9 @@ fn a_window_is_found_by_sampling_far_from_0() {
     let ends = [line(&set(), 0, -0.7), line(&set(), 1, 0.9)].map(|line| LiftLine::home(line.top() + by));
     for robot in [turns::arm_between([-100.0, 100.0]), turns::continuous_arm()] {
         let set = Set { robot, ..set() };
-        let transit = among(&set, &window, |scene| {
+        let transit = among(&set, &window, |placed| {
             let rules = TransitRules {
-                scene,
+                placed,
                 limits: &set.limits,
                 clearance_m: 0.01,
                 arc: None,
@@ -212,10 +212,10 @@ fn names_the_obstruction_of_a_transit() {
 fn a_cancelled_search_returns_no_transit() {
     let (set, cancel) = (set(), CancelToken::new());
     cancel.cancel();
-    among(&set, &|_, _| true, |scene| {
-        let scene = scene.clone().with_cancel(&cancel);
+    among(&set, &|_, _| true, |placed| {
+        let placed = placed.clone().with_cancel(&cancel);
         let rules = TransitRules {
-            scene: &scene,
+            placed: &placed,
             limits: &set.limits,
             clearance_m: 0.01,
             arc: None,

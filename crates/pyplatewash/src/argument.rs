@@ -9,7 +9,7 @@
 //! Arguments of the functions that are written in Python: read and refused as those of Rust's. `python/pyplatewash/_arguments.py` names
 //! these.
 
-use crate::errors;
+use crate::exception;
 use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -66,12 +66,12 @@ pub fn shown(value: &Bound<'_, PyAny>) -> String {
 
 /// A value of a wrong type.
 pub fn wrong_type(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyErr {
-    errors::wrong_type(value.py(), name, &format!("{needed} is needed; found {}", shown(value)))
+    exception::wrong_type(value.py(), name, &format!("{needed} is needed; found {}", shown(value)))
 }
 
 /// A value out of the range that is needed.
 pub fn wrong_value(name: &str, value: &Bound<'_, PyAny>, needed: &str) -> PyErr {
-    errors::input(value.py(), name, &format!("{needed} is needed; found {}", shown(value)))
+    exception::input(value.py(), name, &format!("{needed} is needed; found {}", shown(value)))
 }
 
 /// Exception for a value that a conversion refused, in the words of this package. Errors that concern neither type nor
@@ -105,7 +105,7 @@ pub fn unmasked(name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         0 => Ok(()),
         _ => {
             let problem = format!("{masked} masked values; fill them in, or leave their rows out");
-            Err(errors::input(py, name, &problem))
+            Err(exception::input(py, name, &problem))
         }
     }
 }
@@ -185,7 +185,7 @@ pub fn each<'py, T>(
     for (k, item) in items.enumerate() {
         if k >= MOST_ITEMS {
             let problem = format!("more than {MOST_ITEMS} items");
-            return Err(errors::input(value.py(), name, &problem));
+            return Err(exception::input(value.py(), name, &problem));
         }
         all.push(read(&format!("{name}[{k}]"), &item?)?);
     }
@@ -259,6 +259,18 @@ pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// As [`number`].
 pub fn number_or(name: &str, value: Option<&Bound<'_, PyAny>>, otherwise: f64) -> PyResult<f64> {
     value.map_or(Ok(otherwise), |value| number(name, value))
+}
+
+/// A number from `least` to `most`.
+///
+/// # Errors
+/// As [`number`]; `InputError` for one outside of the range, or NaN.
+pub fn number_within(name: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
+    let found = number(name, value)?;
+    if (least..=most).contains(&found) {
+        return Ok(found);
+    }
+    Err(wrong_value(name, value, &format!("a number from {least} to {most}")))
 }
 
 /// True where a NumPy value is an integer or a real number; true for any value that is not NumPy's.

@@ -3,7 +3,7 @@
 //! A contiguous array of doubles is read where it lies. Anything else that NumPy makes an array of real numbers from (lists,
 //! integers, strides, other byte orders) is copied once. Wrong shapes are answered with the shape found and the shapes wanted.
 
-use crate::{argument, errors};
+use crate::{argument, exception};
 use numpy::{
     Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray,
     PyUntypedArrayMethods,
@@ -82,11 +82,11 @@ impl<'py> Numbers<'py> {
             _ => convert(name, value)?,
         };
         let Some(stacked) = expected.items(array.shape()) else {
-            return Err(errors::shape(value.py(), name, array.shape(), &expected.words()));
+            return Err(exception::shape(value.py(), name, array.shape(), &expected.words()));
         };
         let array = array
             .try_readonly()
-            .map_err(|e| errors::input(value.py(), name, &e.to_string()))?;
+            .map_err(|e| exception::input(value.py(), name, &e.to_string()))?;
         Ok(Self { array, stacked })
     }
 
@@ -104,7 +104,7 @@ impl<'py> Numbers<'py> {
     /// `InputError` unless the items were read as rows of six.
     pub fn joints(&self) -> PyResult<&[JointVector]> {
         let values = self.values()?;
-        bytemuck::try_cast_slice(values).map_err(|e| errors::input(self.array.py(), "q", &e.to_string()))
+        bytemuck::try_cast_slice(values).map_err(|e| exception::input(self.array.py(), "q", &e.to_string()))
     }
 }
 
@@ -173,19 +173,19 @@ fn convert<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Py
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy
         .call_method1(intern!(py, "asarray"), (value,))
-        .map_err(|e| errors::not_numbers(py, name, &e))?;
+        .map_err(|e| exception::not_numbers(py, name, &e))?;
     let kind: Bound<'_, PyString> = array
         .getattr(intern!(py, "dtype"))?
         .getattr(intern!(py, "kind"))?
         .cast_into()?;
     if !matches!(kind.to_str()?, "f" | "i" | "u") {
         let dtype = array.getattr(intern!(py, "dtype"))?.str()?;
-        return Err(errors::dtype(py, name, dtype.to_str()?));
+        return Err(exception::dtype(py, name, dtype.to_str()?));
     }
     let wanted = (array, intern!(py, "float64"), intern!(py, "CA"));
     let array = numpy
         .call_method1(intern!(py, "require"), wanted)
-        .map_err(|e| errors::not_numbers(py, name, &e))?;
+        .map_err(|e| exception::not_numbers(py, name, &e))?;
     Ok(array.cast_into()?)
 }
 

@@ -5,7 +5,7 @@ use crate::plan::PlanObject;
 use crate::robot::Robot;
 use crate::value::{records, to_python, to_record};
 use crate::work::patiently;
-use crate::{argument, errors, scenario};
+use crate::{argument, errors, exception, scenario};
 use platewash::certificate::{self, Verdict};
 use platewash::{Certificate, Check};
 use pyo3::prelude::*;
@@ -170,7 +170,7 @@ impl CertificateObject {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let py = slf.py();
-        let text = serde_json::to_string(&slf.get().inner).map_err(|e| errors::internal(py, &e.to_string()))?;
+        let text = serde_json::to_string(&slf.get().inner).map_err(|e| exception::internal(py, &e.to_string()))?;
         Ok((slf.get_type().getattr("_restore")?, (text,).into_pyobject(py)?))
     }
 
@@ -178,7 +178,7 @@ impl CertificateObject {
     #[classmethod]
     fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
         let text = argument::text("text", text, "a pickled certificate")?;
-        let inner = serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+        let inner = serde_json::from_str(&text).map_err(|e| exception::input(py, "text", &e.to_string()))?;
         Ok(Self { inner })
     }
 }

@@ -3,6 +3,7 @@
 use crate::argument::{self, ANY_COUNT, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
+use crate::exception;
 use crate::job::{PaperJobObject, WashJobObject};
 use crate::plan::PlanObject;
 use crate::plate::PlateFields;
@@ -47,7 +48,7 @@ const JOB: &str = "a WashJob, a PaperJob, a Plan, what plan() returns, or the pa
 fn finite(py: Python<'_>, q: &[JointVector]) -> PyResult<()> {
     match q.iter().position(|q| !q.iter().all(|v| v.is_finite())) {
         None => Ok(()),
-        Some(row) => Err(errors::input(py, "q", &format!("row {row} is not finite"))),
+        Some(row) => Err(exception::input(py, "q", &format!("row {row} is not finite"))),
     }
 }
 
@@ -104,20 +105,20 @@ impl ClearanceObject {
     ) -> PyResult<Self> {
         let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
         let read = |name: &str, plate: &Bound<'_, PyAny>| {
-            Ok((PlateFields::of(name, plate)?.plate(py)?, plate.clone().unbind()))
+            Ok((PlateFields::read(name, plate)?.plate(py)?, plate.clone().unbind()))
         };
         let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
         let (plates, given): (Vec<_>, Vec<_>) = plates.transpose()?.unwrap_or_default().into_iter().unzip();
         let model = robot.get().model().clone();
         let held = match &tool {
-            Some(tool) => ToolFields::of(tool)?.on(py, &model)?,
+            Some(tool) => ToolFields::read(tool)?.on(py, &model)?,
             None => Tool::from(StraightTool::default()),
         };
         let inner = alone(py, || {
             let workcell = assembly::workcell_on_floor(&model, held)?;
             ClearanceModel::new(&model, &workcell, &plates)
         })?;
-        let inner = inner.map_err(|e| errors::input(py, "robot", &e.to_string()))?;
+        let inner = inner.map_err(|e| exception::input(py, "robot", &e.to_string()))?;
         let plates = PyTuple::new(py, given)?.unbind();
         Ok(Self {
             inner,

@@ -2,7 +2,7 @@
 
 use crate::argument::{self, ANY_COUNT};
 use crate::arrays::{self, line};
-use crate::errors;
+use crate::exception;
 use crate::work::patiently;
 use platewash::bodies::coverage::{CoverageError, RasterCell, coverage, raster};
 use pyo3::prelude::*;
@@ -24,9 +24,9 @@ fn wrong(py: Python<'_>, error: &CoverageError) -> PyErr {
     };
     match error {
         CoverageError::NotPositive { .. } | CoverageError::CellTooSmall { .. } => {
-            errors::keyed(py, argument, &error.to_string())
+            exception::keyed(py, argument, &error.to_string())
         }
-        _ => errors::input(py, argument, &error.to_string()),
+        _ => exception::input(py, argument, &error.to_string()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::argument;
 use crate::arrays;
-use crate::errors;
+use crate::exception;
 use crate::plate::PlateFields;
 use nalgebra::Vector3;
 use numpy::PyArrayDyn;
@@ -31,22 +31,10 @@ fn points(name: &str, count: &Bound<'_, PyAny>) -> PyResult<usize> {
     argument::count(name, count, [2, MOST_POINTS])
 }
 
-pub fn within(name: &str, value: &Bound<'_, PyAny>, [least, most]: [f64; 2]) -> PyResult<f64> {
-    let found = argument::number(name, value)?;
-    if (least..=most).contains(&found) {
-        return Ok(found);
-    }
-    Err(argument::wrong_value(
-        name,
-        value,
-        &format!("a number from {least} to {most}"),
-    ))
-}
-
 fn finite(py: Python<'_>, name: &str, values: &[f64]) -> PyResult<()> {
     match values.iter().find(|v| !v.is_finite()) {
         None => Ok(()),
-        Some(found) => Err(errors::input(py, name, &format!("must be finite; found {found}"))),
+        Some(found) => Err(exception::input(py, name, &format!("must be finite; found {found}"))),
     }
 }
 
@@ -60,10 +48,10 @@ pub fn spiral_of(value: &Bound<'_, PyAny>) -> PyResult<PaperSpiral> {
     Ok(PaperSpiral {
         points: argument::field(whole, value, at("points"), points)?,
         turns: argument::field(whole, value, at("turns"), |name, value| {
-            within(name, value, [1e-3, MOST_TURNS])
+            argument::number_within(name, value, [1e-3, MOST_TURNS])
         })?,
         radius_m: argument::field(whole, value, at("radius_m"), |name, value| {
-            within(name, value, [0.0, LARGEST_M])
+            argument::number_within(name, value, [0.0, LARGEST_M])
         })?,
         closing_ring: argument::field(whole, value, at("closing_ring"), argument::flag)?,
     })
@@ -76,7 +64,7 @@ pub fn spiral_of(value: &Bound<'_, PyAny>) -> PyResult<PaperSpiral> {
 pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
     let number = |field, range| {
         argument::field(("curve", "a WashCurve"), value, ("curve", field), |name, value| {
-            within(name, value, range)
+            argument::number_within(name, value, range)
         })
     };
     let whole = ("curve", "a WashCurve");
@@ -94,14 +82,14 @@ pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
     match curve.pattern {
         WashPattern::Rings(rings) if (rings.turns() - curve.turns).abs() > SAME_TURNS => {
             let problem = format!("must be those of its rings, {}; found {}", rings.turns(), curve.turns);
-            Err(errors::input(value.py(), "curve.turns", &problem))
+            Err(exception::input(value.py(), "curve.turns", &problem))
         }
         WashPattern::Rings(rings) if rings.inner_m >= curve.radius_m => {
             let problem = format!(
                 "must be below curve.radius_m = {}; found {}",
                 curve.radius_m, rings.inner_m
             );
-            Err(errors::input(value.py(), "rings.inner_m", &problem))
+            Err(exception::input(value.py(), "rings.inner_m", &problem))
         }
         _ => Ok(curve),
     }
@@ -113,8 +101,11 @@ pub fn curve_of(value: &Bound<'_, PyAny>) -> PyResult<WashCurve> {
 /// `InputTypeError`, `InputError`.
 pub fn rings_of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Rings> {
     let whole = (name, "a Rings");
-    let number =
-        |field, range| argument::field(whole, value, ("rings", field), |name, value| within(name, value, range));
+    let number = |field, range| {
+        argument::field(whole, value, ("rings", field), |name, value| {
+            argument::number_within(name, value, range)
+        })
+    };
     Ok(Rings {
         count: argument::field(whole, value, ("rings", "count"), |name, count| {
             argument::count(name, count, [2, MOST_RINGS as u64])
@@ -143,9 +134,12 @@ pub fn _wash_curve_on<'py>(
     chord_error_m: &Bound<'py, PyAny>,
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>)> {
     let curve = curve_of(curve)?;
-    let surface = PlateFields::of("plate", plate)?.plate(py)?.surface;
+    let surface = PlateFields::read("plate", plate)?.plate(py)?.surface;
     let range = [1e-8 * curve.radius_m, curve.radius_m];
-    let theta = curve.parameters(&surface, within("chord_error_m", chord_error_m, range)?);
+    let theta = curve.parameters(
+        &surface,
+        argument::number_within("chord_error_m", chord_error_m, range)?,
+    );
     let all: Vec<_> = theta.iter().map(|&t| curve.on(&surface, t)).collect();
     let points: Vec<_> = all.iter().map(|at| at.position).collect();
     let normals: Vec<_> = all.iter().map(|at| at.normal).collect();
@@ -182,7 +176,7 @@ pub fn _wash_curve<'py>(
     let disc = Surface::Disc {
         radius_m: curve.radius_m,
     };
-    let theta = curve.parameters(&disc, within("chord_error_m", chord_error_m, range)?);
+    let theta = curve.parameters(&disc, argument::number_within("chord_error_m", chord_error_m, range)?);
     let all: Vec<f64> = theta
         .iter()
         .flat_map(|&t| <[f64; 2]>::from(curve.at(t).position))
@@ -209,8 +203,12 @@ pub fn transit_waypoints<'py>(
     height_m: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Array<'py>> {
     let points = points.map_or(Ok(5), |given| self::points("points", given))?;
-    let radius_m = radius_m.map_or(Ok(0.35), |given| within("radius_m", given, [0.0, LARGEST_M]))?;
-    let height_m = height_m.map_or(Ok(0.25), |given| within("height_m", given, [-LARGEST_M, LARGEST_M]))?;
+    let radius_m = radius_m.map_or(Ok(0.35), |given| {
+        argument::number_within("radius_m", given, [0.0, LARGEST_M])
+    })?;
+    let height_m = height_m.map_or(Ok(0.25), |given| {
+        argument::number_within("height_m", given, [-LARGEST_M, LARGEST_M])
+    })?;
     let (start, end) = (arrays::fixed::<3>("start", start)?, arrays::fixed::<3>("end", end)?);
     finite(py, "start", &start)?;
     finite(py, "end", &end)?;
@@ -249,7 +247,7 @@ pub fn cubic_samples<'py>(
     let waypoints = arrays::rows::<3>("waypoints", waypoints)?;
     finite(py, "waypoints", waypoints.as_flattened())?;
     if waypoints.len() < 2 {
-        return Err(errors::input(py, "waypoints", "at least two are needed"));
+        return Err(exception::input(py, "waypoints", "at least two are needed"));
     }
     let waypoints: Vec<_> = waypoints.into_iter().map(Vector3::from).collect();
     vectors(py, &cubic::sample(&waypoints, interpolation, samples))

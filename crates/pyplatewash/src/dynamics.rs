@@ -3,6 +3,7 @@
 use crate::argument::{self, ROBOT};
 use crate::arrays::{self, JOINTS, Numbers};
 use crate::errors;
+use crate::exception;
 use crate::robot::Robot;
 use crate::tool::ToolFields;
 use crate::work::{STRETCH, released};
@@ -47,7 +48,7 @@ impl<'py, const K: usize> States<'py, K> {
                 && found != n
             {
                 let wanted = ["(6,)".to_owned(), format!("({n}, 6)")];
-                return Err(errors::shape(py, name, &[found, 6], &wanted));
+                return Err(exception::shape(py, name, &[found, 6], &wanted));
             }
         }
         Ok(Self { columns, stacked })
@@ -103,7 +104,7 @@ fn states<'py, const K: usize>(
         columns.push(Numbers::read(name, value, JOINTS)?);
     }
     let columns = columns.try_into();
-    let columns = columns.map_err(|_| errors::internal(py, "as many columns as arguments"))?;
+    let columns = columns.map_err(|_| exception::internal(py, "as many columns as arguments"))?;
     States::read(py, named.map(|(name, _)| name), columns)
 }
 
@@ -119,7 +120,7 @@ impl DynamicsObject {
         let py = robot.py();
         let robot = argument::object::<Robot>("robot", robot, ROBOT)?;
         let model = robot.get().model();
-        let held = tool.as_ref().map(|tool| ToolFields::of(tool)?.on(py, model));
+        let held = tool.as_ref().map(|tool| ToolFields::read(tool)?.on(py, model));
         let held = held.transpose()?;
         let gravity = match gravity_m_s2 {
             Some(given) => arrays::fixed::<3>("gravity_m_s2", given)?,

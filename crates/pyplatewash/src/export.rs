@@ -3,7 +3,7 @@
 use crate::arrays::{self, Numbers, ONE_POSE};
 use crate::pose;
 use crate::work::patiently;
-use crate::{argument, errors};
+use crate::{argument, errors, exception};
 use platewash::certificate::{CertifyError, Requirement, certify_with};
 use platewash::export::dialect::{DIALECTS, Dialect};
 use platewash::export::program::ProgramFile;
@@ -65,7 +65,7 @@ fn joint_3(value: &Bound<'_, PyAny>) -> PyResult<Joint3> {
 
 fn tip(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("tip", value, ONE_POSE)?;
-    pose::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "tip", &e.0))
+    pose::pose(numbers.values()?).map_err(|e| exception::input(value.py(), "tip", &e.0))
 }
 
 /// The dialect of the argument called `to`.
@@ -111,15 +111,15 @@ impl ExportFailure {
         let unproved = |error: &ProveError| errors::failure(py, &error.clone().into());
         match self {
             Self::Plan(CertifyError::Prove(error @ ProveError::PaperRun)) => {
-                errors::export(py, UNCERTIFIED, &error.to_string())
+                exception::export(py, UNCERTIFIED, &error.to_string())
             }
             Self::Plan(CertifyError::Prove(error)) | Self::Program(ExportError::Prove(error)) => unproved(error),
-            Self::Plan(error) => errors::export(py, UNCERTIFIED, &format!("{error}; prove says more")),
+            Self::Plan(error) => exception::export(py, UNCERTIFIED, &format!("{error}; prove says more")),
             Self::Program(ExportError::Refused(Refusal::Setting { name, expected, found })) => {
-                errors::input(py, name, &format!("must be {expected}; found {found}"))
+                exception::input(py, name, &format!("must be {expected}; found {found}"))
             }
-            Self::Program(ExportError::Refused(refusal)) => errors::export(py, refusal.code(), &refusal.to_string()),
-            Self::Program(error) => errors::internal(py, &error.to_string()),
+            Self::Program(ExportError::Refused(refusal)) => exception::export(py, refusal.code(), &refusal.to_string()),
+            Self::Program(error) => exception::internal(py, &error.to_string()),
         }
     }
 }

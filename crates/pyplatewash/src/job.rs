@@ -5,7 +5,7 @@ use crate::plate::{PlateFields, plates};
 use crate::robot::Robot;
 use crate::simulation::SettingsObject;
 use crate::value::{to_python, to_record};
-use crate::{argument, arrays, errors};
+use crate::{argument, arrays, errors, exception};
 use numpy::PyArrayDyn;
 use platewash::workcell::words::{count_with_noun, quoted};
 use platewash::{Failure, JobTerms, Layout, PaperJob, WashJob};
@@ -40,7 +40,7 @@ struct PickledJob {
 impl PickledJob {
     /// Returns the call that restores a job: `_restore` of its class, with this state as text and the arm as its arguments.
     fn reduced<'py>(&self, job: &Bound<'py, PyAny>, robot: Py<Robot>) -> PyResult<Reduction<'py>> {
-        let text = serde_json::to_string(self).map_err(|e| errors::internal(job.py(), &e.to_string()))?;
+        let text = serde_json::to_string(self).map_err(|e| exception::internal(job.py(), &e.to_string()))?;
         Ok((
             job.get_type().getattr("_restore")?,
             (text, robot).into_pyobject(job.py())?,
@@ -54,7 +54,7 @@ impl PickledJob {
     ) -> PyResult<(Self, &'a Bound<'py, Robot>)> {
         let read = argument::text("text", text, "a pickled job")?;
         let robot = argument::object::<Robot>("robot", robot, argument::ROBOT)?;
-        let pickled = serde_json::from_str(&read).map_err(|e| errors::input(text.py(), "text", &e.to_string()))?;
+        let pickled = serde_json::from_str(&read).map_err(|e| exception::input(text.py(), "text", &e.to_string()))?;
         Ok((pickled, robot))
     }
 }
@@ -154,7 +154,7 @@ impl WashJobObject {
     ///
     /// Raises InputError for plates that are none.
     fn on_plates(&self, py: Python<'_>, plates: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::of(name, plate)?.plate(py);
+        let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::read(name, plate)?.plate(py);
         let plates = argument::each("plates", plates, "a list of Plates", read)?;
         let inner = self.inner.on_plates(plates.clone());
         Ok(Self {

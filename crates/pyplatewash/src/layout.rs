@@ -2,7 +2,7 @@
 
 use crate::plate::plates;
 use crate::value::to_record;
-use crate::{argument, arrays, errors};
+use crate::{argument, arrays, exception};
 use numpy::PyArrayDyn;
 use platewash::workcell::words::count_with_noun;
 use platewash::{Layout, Plate};
@@ -84,7 +84,7 @@ impl LayoutObject {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let py = slf.py();
-        let text = serde_json::to_string(&slf.get().inner).map_err(|e| errors::internal(py, &e.to_string()))?;
+        let text = serde_json::to_string(&slf.get().inner).map_err(|e| exception::internal(py, &e.to_string()))?;
         Ok((slf.get_type().getattr("_restore")?, (text,).into_pyobject(py)?))
     }
 
@@ -92,7 +92,7 @@ impl LayoutObject {
     #[classmethod]
     fn _restore(_class: &Bound<'_, PyType>, py: Python<'_>, text: &Bound<'_, PyAny>) -> PyResult<Self> {
         let text = argument::text("text", text, "a pickled layout")?;
-        let inner = serde_json::from_str(&text).map_err(|e| errors::input(py, "text", &e.to_string()))?;
+        let inner = serde_json::from_str(&text).map_err(|e| exception::input(py, "text", &e.to_string()))?;
         Ok(Self { inner })
     }
 }

@@ -6,7 +6,6 @@
 
 mod argument;
 mod arrays;
-mod cell;
 mod certificate;
 mod clearance;
 mod coverage;
@@ -14,12 +13,15 @@ mod curves;
 mod dry_run;
 mod dynamics;
 mod errors;
+mod exception;
 mod export;
 mod job;
 mod layout;
+mod live_cell;
 mod motion_proof;
 mod page;
 mod paper;
+mod plain_values;
 mod plan;
 mod planned;
 mod plate;
@@ -30,6 +32,8 @@ mod robot;
 mod scenario;
 mod simulation;
 mod study;
+mod study_journal;
+mod study_worker;
 mod sweep;
 mod tool;
 mod trajectory;
@@ -48,8 +52,6 @@ mod _core {
         _argument_word,
     };
     #[pymodule_export]
-    use crate::cell::{_edit_arguments, CellEditorObject, CellQuestionObject};
-    #[pymodule_export]
     use crate::certificate::{CertificateObject, differences, prove};
     #[pymodule_export]
     use crate::clearance::ClearanceObject;
@@ -64,6 +66,8 @@ mod _core {
     #[pymodule_export]
     use crate::layout::LayoutObject;
     #[pymodule_export]
+    use crate::live_cell::{_edit_arguments, CellEditorObject, CellQuestionObject};
+    #[pymodule_export]
     use crate::motion_proof::prove_motion;
     #[pymodule_export]
     use crate::page::{_configuration_page, _plan_page, _save};
@@ -72,11 +76,11 @@ mod _core {
     #[pymodule_export]
     use crate::paper::{PaperRunObject, run_paper};
     #[pymodule_export]
+    use crate::plain_values::_check;
+    #[pymodule_export]
     use crate::plan::PlanObject;
     #[pymodule_export]
     use crate::planned::{PlannedObject, plan};
-    #[pymodule_export]
-    use crate::plate::_check;
     #[pymodule_export]
     use crate::plate::_plate_made;
     #[pymodule_export]
@@ -88,7 +92,11 @@ mod _core {
     #[pymodule_export]
     use crate::simulation::{ExecutionObject, SettingsObject, simulate, tune};
     #[pymodule_export]
-    use crate::study::{_study_check, _study_summary, StudyJournalObject, StudyObject, StudyWorkerObject};
+    use crate::study::{_study_check, _study_summary, StudyObject};
+    #[pymodule_export]
+    use crate::study_journal::StudyJournalObject;
+    #[pymodule_export]
+    use crate::study_worker::StudyWorkerObject;
     #[pymodule_export]
     use crate::sweep::sweep;
     #[pymodule_export]

@@ -3,6 +3,7 @@
 use crate::argument;
 use crate::arrays::{self, MANY_JOINTS, Numbers, ONE_POSE};
 use crate::errors;
+use crate::exception;
 use crate::pose;
 use crate::robot::Robot;
 use crate::tool::ToolFields;
@@ -71,7 +72,7 @@ pub fn prove_motion<'py>(
     let clearance_m = argument::number_or("clearance_m", clearance_m, CLEARANCE_M)?;
     if !(0.0..=1.0).contains(&clearance_m) {
         let problem = format!("a number from 0 to 1 is needed [m]; found {clearance_m}");
-        return Err(errors::input(py, "clearance_m", &problem));
+        return Err(exception::input(py, "clearance_m", &problem));
     }
     let words = Interpolation::ALL.map(|choice| (choice.word(), choice));
     let choice = interpolation.map(|word| argument::word("interpolation", word, &words));
@@ -84,11 +85,11 @@ pub fn prove_motion<'py>(
         None => Robot::built_in(py)?,
     };
     let (arm, meshes) = (robot.get().model().clone(), robot.get().mesh_places());
-    let tool = tool.map(|tool| ToolFields::of(tool)?.tool(py)).transpose()?;
+    let tool = tool.map(|tool| ToolFields::read(tool)?.tool(py)).transpose()?;
     let mount = mount.map_or_else(|| Ok(Pose::identity()), read_mount)?;
     let text = obstacles.map(obstacle_text).transpose()?;
     let motion = points.motion(&arm, choice);
-    let motion = motion.map_err(|error| errors::input(py, argument_of(&error), &error.to_string()))?;
+    let motion = motion.map_err(|error| exception::input(py, argument_of(&error), &error.to_string()))?;
     let judged = patiently(py, move |cancel| -> Result<_, Failure> {
         let mut cell = assembly::workcell_without_tool(&arm, mount, Vec::new())?;
         if let Some(tool) = tool {
@@ -109,7 +110,7 @@ pub fn prove_motion<'py>(
     let judged = judged.map_err(|failure| errors::failure(py, &failure))?;
     let report = judged.map_err(|error| match error {
         ProveError::Cancelled(_) => errors::failure(py, &error.into()),
-        other => errors::input(py, "q", &other.to_string()),
+        other => exception::input(py, "q", &other.to_string()),
     })?;
     to_record(py, &report, Some(report.to_string()))
 }
@@ -117,12 +118,12 @@ pub fn prove_motion<'py>(
 /// Pose of the base in the world.
 fn read_mount(mount: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("mount", mount, ONE_POSE)?;
-    pose::pose(numbers.values()?).map_err(|e| errors::input(mount.py(), "mount", &e.0))
+    pose::pose(numbers.values()?).map_err(|e| exception::input(mount.py(), "mount", &e.0))
 }
 
 /// Acceleration limits \[rad/s²\]. They need times to be judged.
 fn read_acceleration_limits(limits: &Bound<'_, PyAny>, has_times: bool) -> PyResult<JointVector> {
-    let refused = |problem: &str| Err(errors::input(limits.py(), "acceleration_limits", problem));
+    let refused = |problem: &str| Err(exception::input(limits.py(), "acceleration_limits", problem));
     let read = arrays::joint_vector("acceleration_limits", limits)?;
     if let Some(found) = read.iter().find(|limit| !(**limit > 0.0 && limit.is_finite())) {
         return refused(&format!("finite numbers above 0 are needed [rad/s²]; found {found}"));
@@ -171,7 +172,7 @@ fn obstacle_text(obstacles: &Bound<'_, PyAny>) -> PyResult<ObstacleText> {
     };
     Ok(ObstacleText {
         name: "obstacles".to_owned(),
-        text: toml::to_string(&table).map_err(|e| errors::input(py, "obstacles", &e.to_string()))?,
+        text: toml::to_string(&table).map_err(|e| exception::input(py, "obstacles", &e.to_string()))?,
         folder: None,
     })
 }

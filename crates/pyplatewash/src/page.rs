@@ -11,13 +11,13 @@ use crate::scenario::{self, ScenarioObject};
 use crate::simulation::{ExecutionObject, FinishedSimulation, Question};
 use crate::tool::ToolFields;
 use crate::work::patiently;
-use crate::{argument, arrays};
+use crate::{argument, arrays, exception};
 use platewash::motion::plan::Process;
 use platewash::viewer::bundle::Bundle;
-use platewash::viewer::figures::{Figure, Subject, draw};
+use platewash::viewer::figures::{Figure, FigureData, draw};
 use platewash::viewer::page;
 use platewash::viewer::view::{ExecutedMotion, Plate, View, ViewExtras};
-use platewash::workcell::workcell::ArmId;
+use platewash::workcell::ArmId;
 use platewash::{Certificate, Failure, JointVector, SimulationError, SimulationReport, paper_spirals};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -33,7 +33,7 @@ const MISSING: &str = "this build of pyplatewash is without the page that shows 
 /// # Errors
 /// `MissingError` in a build without it.
 pub fn bundle(py: Python<'_>) -> PyResult<Bundle> {
-    Bundle::embedded().ok_or_else(|| errors::missing(py, "page", MISSING))
+    Bundle::embedded().ok_or_else(|| exception::missing(py, "page", MISSING))
 }
 
 /// The argument called `height` \[px\], 640 where it is not given.
@@ -63,7 +63,7 @@ pub fn check(page: &Bound<'_, PyAny>) -> PyResult<()> {
 
 /// HTML page of a view.
 fn html(py: Python<'_>, view: &View, bundle: &Bundle) -> PyResult<String> {
-    page::html(view, bundle).map_err(|e| errors::internal(py, &e.to_string()))
+    page::html(view, bundle).map_err(|e| exception::internal(py, &e.to_string()))
 }
 
 /// Returns the certificate and the execution that are given, after a check that both belong to the plan.
@@ -79,11 +79,11 @@ pub fn of_the_plan(
     let certificate = certificate.map(|certificate| certificate.inner().clone());
     let hash = plan.inner().seal().ok();
     if certificate.as_ref().is_some_and(|c| c.hash.computed != hash) {
-        return Err(errors::input(py, "certificate", "is one of another plan"));
+        return Err(exception::input(py, "certificate", "is one of another plan"));
     }
     let done = execution.map(ExecutionObject::done);
     if done.as_ref().is_some_and(|done| done.question.plan != *plan.inner()) {
-        return Err(errors::input(py, "execution", "is one of another plan"));
+        return Err(exception::input(py, "execution", "is one of another plan"));
     }
     Ok((certificate, done))
 }
@@ -111,7 +111,7 @@ fn view(
         Ok::<_, SimulationError>(View::of_plan(&plan, &arm, &beside))
     })?;
     let made = made.map_err(|error| errors::failure(py, &error.into()))?;
-    made.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
+    made.map_err(|error| exception::keyed(py, "plan", &error.to_string()))
 }
 
 /// The executed motion with its report, for a page.
@@ -148,11 +148,11 @@ pub fn _configuration_page(
     let (py, height) = (q.py(), height_px(height)?);
     let q: JointVector = arrays::joint_vector("q", q)?;
     if !q.iter().all(|v| v.is_finite()) {
-        return Err(errors::input(py, "q", "is not finite"));
+        return Err(exception::input(py, "q", "is not finite"));
     }
-    let tool = tool.map(|tool| ToolFields::of(tool)?.on(py, robot.model()));
+    let tool = tool.map(|tool| ToolFields::read(tool)?.on(py, robot.model()));
     let tool = tool.transpose()?;
-    let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::of(name, plate)?.plate(py);
+    let read = |name: &str, plate: &Bound<'_, PyAny>| PlateFields::read(name, plate)?.plate(py);
     let plates = plates.map(|plates| argument::each("plates", plates, "a list of Plates", read));
     let plates = plates.transpose()?.unwrap_or_default();
     let bundle = bundle(py)?;
@@ -244,7 +244,7 @@ pub fn _plan_figure<'py>(
     let kind = kind.map_or(Ok("layout".to_owned()), |kind| {
         argument::text("kind", kind, "a figure's name")
     })?;
-    let figure = Figure::named(&kind).map_err(|unknown| errors::input(py, "kind", &unknown.to_string()))?;
+    let figure = Figure::named(&kind).map_err(|unknown| exception::input(py, "kind", &unknown.to_string()))?;
     let plan = plan.get();
     let (certificate, done) = of_the_plan(py, plan, execution, certificate)?;
     let (plan, arm) = (plan.inner().clone(), robot.get().model().clone());
@@ -255,7 +255,7 @@ pub fn _plan_figure<'py>(
             known.name,
             arm.name()
         );
-        return Err(errors::input(py, "robot", &words));
+        return Err(exception::input(py, "robot", &words));
     }
     let region = scenario.map(|scenario| scenario.inner().task_region(&arm));
     let drawn = patiently(py, move |cancel| {
@@ -270,17 +270,17 @@ pub fn _plan_figure<'py>(
             Process::Wash => None,
         };
         let draw = || {
-            let mut subject = Subject::new(&plan, &arm)?;
+            let mut data = FigureData::new(&plan, &arm)?;
             if let (Some(done), Some(report)) = (&done, &report) {
-                subject = subject.executed(&done.execution, report)?;
+                data = data.executed(&done.execution, report)?;
             }
-            subject.certificate = certificate.as_ref();
-            subject.region = region.unwrap_or_default();
-            subject.ideal = ideal.unwrap_or(subject.ideal);
-            draw(&subject, figure)
+            data.certificate = certificate.as_ref();
+            data.region = region.unwrap_or_default();
+            data.ideal = ideal.unwrap_or(data.ideal);
+            draw(&data, figure)
         };
         Ok::<_, Failure>(draw())
     })?;
     let drawn = drawn.map_err(|error| errors::failure(py, &error))?;
-    drawn.map_err(|error| errors::keyed(py, "plan", &error.to_string()))
+    drawn.map_err(|error| exception::keyed(py, "plan", &error.to_string()))
 }

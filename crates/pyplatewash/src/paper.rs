@@ -5,7 +5,7 @@ use crate::plan::PlanObject;
 use crate::trajectory::TrajectoryObject;
 use crate::value::to_record;
 use crate::work::patiently;
-use crate::{argument, arrays, errors, scenario};
+use crate::{argument, arrays, errors, exception, scenario};
 use nalgebra::SVector;
 use numpy::{Element, PyArray1, PyArrayDyn};
 use platewash::PaperRun;
@@ -150,7 +150,7 @@ impl PaperRunObject {
         let table = csv::table(motion, &segments, &run.job.arm, &tip, dt_s);
         table
             .map(|table| table.to_string())
-            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+            .map_err(|e| exception::input(py, "dt_s", &e.to_string()))
     }
 
     fn __len__(&self) -> usize {

@@ -6,21 +6,25 @@ use crate::robot::Robot;
 use crate::trajectory::TrajectoryObject;
 use crate::value::{records, to_python, to_record};
 use crate::work::ask;
-use crate::{argument, arrays, dry_run, export, recovery};
+use crate::{argument, arrays, dry_run, exception, export, recovery};
 use numpy::PyArrayDyn;
 use platewash::export::ros2::{self, Ros2};
 use platewash::kinematics::urdf::file;
 use platewash::motion::csv::table as csv_table;
 use platewash::motion::plan::PlanFileError;
 use platewash::motion::trajectory::KnotError;
+use platewash::workcell::ArmId;
 use platewash::workcell::dry_run::{HEIGHT_M, SPEED_M_S};
 use platewash::workcell::wash_path::WashPath;
 use platewash::workcell::words::quoted;
-use platewash::workcell::workcell::ArmId;
 use platewash::{Plan, RobotModel};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple, PyType};
 use std::sync::Arc;
+
+/// Python's class of a recovery.
+static RECOVERY: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 /// Longest plan file that is read \[bytes\].
 const MAX_BYTES: u64 = 1 << 30;
@@ -44,7 +48,7 @@ impl PartialEq for PlanObject {
 
 /// An unreadable or unwritable plan.
 pub fn file_error(py: Python<'_>, error: &PlanFileError) -> PyErr {
-    errors::named(py, "PlanFileError", &error.to_string())
+    exception::named(py, "PlanFileError", &error.to_string())
 }
 
 impl PlanObject {
@@ -84,7 +88,7 @@ impl PlanObject {
         let text = file::read_text(&path, MAX_BYTES).map_err(|e| errors::unread(py, FileKind::Plan, &path, &e))?;
         let plan = Plan::from_json(&text).map_err(|e| {
             let message = format!("{}: {e}", path.display());
-            errors::named(py, "PlanFileError", &message)
+            exception::named(py, "PlanFileError", &message)
         })?;
         Ok(Self::new(plan, None))
     }
@@ -248,7 +252,7 @@ impl PlanObject {
         let curve = |path: &WashPath| {
             let plate = self.inner.job.plates.get(path.plate).filter(|_| path.curve.is_sound());
             let problem = "a path is on no plate, or one of its numbers is out of range";
-            let plate = plate.ok_or_else(|| errors::keyed(py, "wash_paths", problem))?;
+            let plate = plate.ok_or_else(|| exception::keyed(py, "wash_paths", problem))?;
             let theta = path.curve.parameters(&plate.surface, chord_error_m);
             let points = theta.iter().map(|theta| path.contact(plate, *theta).xy());
             let points: Vec<f64> = points.flat_map(<[f64; 2]>::from).collect();
@@ -269,8 +273,8 @@ impl PlanObject {
     #[getter]
     fn trajectory(&self, py: Python<'_>) -> PyResult<TrajectoryObject> {
         let motion = self.inner.knots.motion().map_err(|e| match e {
-            KnotError::Count { .. } => errors::keyed(py, "knots", &e.to_string()),
-            _ => errors::input(py, "knots", &e.to_string()),
+            KnotError::Count { .. } => exception::keyed(py, "knots", &e.to_string()),
+            _ => exception::input(py, "knots", &e.to_string()),
         });
         Ok(motion?.into())
     }
@@ -292,12 +296,12 @@ impl PlanObject {
         let motion = plan
             .knots
             .motion()
-            .map_err(|e| errors::input(py, "knots", &e.to_string()))?;
+            .map_err(|e| exception::input(py, "knots", &e.to_string()))?;
         let tip = plan.job.workcell.tool.tip_frame(&arm);
         let table = csv_table(&motion, &plan.segments, &arm, &tip, dt_s);
         table
             .map(|table| table.to_string())
-            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+            .map_err(|e| exception::input(py, "dt_s", &e.to_string()))
     }
 
     /// A robot program of the plan, as a dictionary of its files' texts by their names: `"ros2"` and the other targets of the command's
@@ -386,7 +390,7 @@ impl PlanObject {
         let (settings, arm) = (given.settings()?, self.arm(py, Robot::given(robot)?)?);
         let files = export::files(py, &self.inner, arm, &Ros2, settings)?;
         let message = files.into_iter().find(|file| file.name == ros2::TRAJECTORY_JSON);
-        let message = message.ok_or_else(|| errors::internal(py, "a ROS 2 program without its message"))?;
+        let message = message.ok_or_else(|| exception::internal(py, "a ROS 2 program without its message"))?;
         py.import("json")?.getattr("loads")?.call1((message.text,))
     }
 
@@ -438,7 +442,14 @@ impl PlanObject {
             .map(|value| argument::number("stopped_s", value))
             .transpose()?;
         let robot = self.robot_for(py, Robot::given(robot)?)?;
-        recovery::recovered(py, &self.inner, robot, stands, stopped_s)
+        let found = recovery::recovered(py, &self.inner, robot.get().model(), stands, stopped_s)?;
+        let object = |plan| Self::new(plan, Some(robot.clone_ref(py)));
+        RECOVERY.import(py, "pyplatewash._records", "Recovery")?.call1((
+            object(found.home),
+            found.rest.map(object),
+            to_record(py, &found.stop, None)?,
+            records(py, &found.near)?,
+        ))
     }
 
     fn __repr__(&self) -> String {

@@ -1,11 +1,8 @@
 //! Python's `Plate`, read field by field, and plates as Python's.
-//!
-//! Checks of Python's plain values at their construction.
 
 use crate::argument::{self};
-use crate::errors;
-use crate::tool::{LARGEST_M, ToolFields, check_length};
-use crate::{arrays, curves, page, robot};
+use crate::tool::{LARGEST_M, check_length};
+use crate::{arrays, exception};
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use platewash::workcell::layout::MAX_PLATES;
 use platewash::workcell::plate::{Foot, PlateTerms};
@@ -55,11 +52,11 @@ impl PlateFields {
     ///
     /// # Errors
     /// `InputTypeError` for what is no `Plate`, or a field of a wrong type.
-    pub fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let number = |field| argument::field((name, "a Plate"), value, ("plate", field), argument::number);
         let length = |field| {
             argument::field((name, "a Plate"), value, ("plate", field), |name, length| {
-                let read = |length| curves::within(name, length, [0.0, 1.0]);
+                let read = |length| argument::number_within(name, length, [0.0, 1.0]);
                 (!length.is_none()).then(|| read(length)).transpose()
             })
         };
@@ -106,7 +103,7 @@ impl PlateFields {
         ] {
             if !(-LARGEST_M..=LARGEST_M).contains(&place_m) {
                 let problem = format!("must be within ±{LARGEST_M} m; found {place_m}");
-                return Err(errors::input(py, name, &problem));
+                return Err(exception::input(py, name, &problem));
             }
         }
         for (name, length_m) in [
@@ -124,7 +121,7 @@ impl PlateFields {
         let off = (quaternion.norm() - 1.0).abs();
         if off.is_nan() || off > UNIT {
             let problem = format!("must have length 1; found {}", quaternion.norm());
-            return Err(errors::input(py, "plate.quaternion_wxyz", &problem));
+            return Err(exception::input(py, "plate.quaternion_wxyz", &problem));
         }
         let at = Translation3::new(self.x_m, self.y_m, self.z_m);
         Ok(Plate {
@@ -146,13 +143,13 @@ impl PlateFields {
             .iter()
             .map(|&[radius_m, slope_rad]| Knot { radius_m, slope_rad })
             .collect();
-        let surface = Surface::profile(&knots).map_err(|e| errors::input(py, "plate.profile", &e.to_string()))?;
+        let surface = Surface::profile(&knots).map_err(|e| exception::input(py, "plate.profile", &e.to_string()))?;
         let (rim_m, stated_m) = (surface.rim_m(), self.radius_m);
         if (stated_m - rim_m).abs() <= SAME_M || stated_m == DEFAULT_RADIUS_M {
             return Ok(surface);
         }
         let problem = format!("is that of the profile's last knot, {rim_m}: leave it out; found {stated_m}");
-        Err(errors::input(py, "plate.radius_m", &problem))
+        Err(exception::input(py, "plate.radius_m", &problem))
     }
 }
 
@@ -206,7 +203,7 @@ fn profile(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Knots>> {
 /// all, its radius \[m\] and its quaternion.
 #[pyfunction]
 pub fn _plate_made<'py>(py: Python<'py>, plate: &Bound<'py, PyAny>) -> PyResult<PlateValues<'py>> {
-    let fields = PlateFields::of("plate", plate)?;
+    let fields = PlateFields::read("plate", plate)?;
     let surface = fields.surface(py)?;
     let [w, x, y, z] = fields.quaternion_wxyz;
     Ok((knots(py, &surface)?, surface.rim_m(), (w, x, y, z)))
@@ -257,23 +254,4 @@ fn foot_object<'py>(py: Python<'py>, foot: &Foot) -> PyResult<Bound<'py, PyAny>>
     fields.set_item("radius_m", foot.radius_m)?;
     fields.set_item("height_m", foot.height_m)?;
     FOOT.import(py, "pyplatewash._values", "Foot")?.call((), Some(&fields))
-}
-
-/// Checks one of Python's plain values when it is made, field by field; `kind` is its class in lower case.
-///
-/// Raises InputTypeError for a field of a wrong type, InputError for one out of its range.
-#[pyfunction]
-pub fn _check(py: Python<'_>, kind: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    match kind {
-        "tool" => ToolFields::of(value)?.tool(py).map(|_| ()),
-        "plate" => PlateFields::of("plate", value)?.plate(py).map(|_| ()),
-        "foot" => check_foot(py, value),
-        "ik_settings" => robot::settings(value).map(|_| ()),
-        "paper_spiral" => curves::spiral_of(value).map(|_| ()),
-        "figure" => page::check_figure(value),
-        "page" => page::check(value),
-        "rings" => curves::rings_of("rings", value).map(|_| ()),
-        "wash_curve" => curves::curve_of(value).map(|_| ()),
-        _ => Err(errors::internal(py, "no such kind of value")),
-    }
 }

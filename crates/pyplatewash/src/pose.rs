@@ -1,6 +1,6 @@
 //! Poses from 4 × 4 matrices.
 
-use crate::errors::Input;
+use crate::exception::Input;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use platewash::Pose;
 

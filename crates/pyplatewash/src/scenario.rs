@@ -6,7 +6,7 @@ use crate::robot::Robot;
 use crate::value::{from_mapping, records, to_python, to_record};
 use crate::warnings::warn;
 use crate::work::patiently;
-use crate::{argument, errors};
+use crate::{argument, errors, exception};
 use platewash::planner::Watch;
 use platewash::scenario::{Program, SHIPPED, ScenarioError};
 use platewash::{Failure, Layout, RobotModel, Scenario};
@@ -43,8 +43,8 @@ impl ScenarioObject {
     fn as_table(&self, py: Python<'_>) -> PyResult<Map<String, Value>> {
         match serde_json::to_value(&self.inner) {
             Ok(Value::Object(map)) => Ok(map),
-            Ok(_) => Err(errors::internal(py, "a scenario is a table")),
-            Err(e) => Err(errors::internal(py, &e.to_string())),
+            Ok(_) => Err(exception::internal(py, "a scenario is a table")),
+            Err(e) => Err(exception::internal(py, &e.to_string())),
         }
     }
 
@@ -65,7 +65,7 @@ impl ScenarioObject {
             in_kilopascals(tool);
         }
         let table = without_nulls(Value::Object(table));
-        let text = toml::to_string(&table).map_err(|e| errors::input(py, "scenario", &e.to_string()))?;
+        let text = toml::to_string(&table).map_err(|e| exception::input(py, "scenario", &e.to_string()))?;
         let inner = Scenario::parse(&text, &name).map_err(|mut e| {
             // The line is one of a text that nobody has seen.
             e.line = None;
@@ -118,7 +118,7 @@ impl ScenarioObject {
     fn load(_class: &Bound<'_, PyType>, py: Python<'_>, name_or_file: &Bound<'_, PyAny>) -> PyResult<Self> {
         let name_or_file = argument::path("name_or_file", name_or_file)?;
         let Some(name) = name_or_file.to_str() else {
-            return Err(errors::input(py, "name_or_file", "is not valid Unicode"));
+            return Err(exception::input(py, "name_or_file", "is not valid Unicode"));
         };
         let loaded = load(name).map_err(|e| errors::scenario(py, &e))?;
         Self::warned(py, loaded)
@@ -183,7 +183,7 @@ impl ScenarioObject {
 
     /// The scenario as a TOML file's text.
     pub fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
-        toml::to_string(&self.inner).map_err(|e| errors::internal(py, &e.to_string()))
+        toml::to_string(&self.inner).map_err(|e| exception::internal(py, &e.to_string()))
     }
 
     /// Checks without running: the arm loads, the start is within its limits, plates have room in principle. The findings on
@@ -238,7 +238,7 @@ impl ScenarioObject {
         match table.get(&key) {
             Some(Value::Object(section)) => to_record(py, section, None),
             Some(plain) => to_python(py, plain),
-            None => Err(errors::no_key(
+            None => Err(exception::no_key(
                 py,
                 &key,
                 &table.keys().map(String::as_str).collect::<Vec<_>>(),
@@ -377,7 +377,7 @@ pub fn wash_job<'py>(
     if let Ok(job) = value.cast::<WashJobObject>() {
         return match seed {
             None => Ok(job.clone()),
-            Some(_) => Err(errors::input(
+            Some(_) => Err(exception::input(
                 py,
                 "seed",
                 "is for scenarios: a WashJob's plates are placed; give the scenario in its stead, or scenario.replace(seed=…).job()",
@@ -465,7 +465,7 @@ pub fn of_program(py: Python<'_>, scenario: &Scenario, wanted: Program) -> PyRes
              here, such as \"paper-appendix\""
         ),
     };
-    Err(errors::input(py, "scenario", &problem))
+    Err(exception::input(py, "scenario", &problem))
 }
 
 /// Places the plates of a scenario: drawn from its seed's own stream, or as given and checked. Where `layout.only_washable` asks for

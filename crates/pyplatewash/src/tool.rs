@@ -2,7 +2,7 @@
 
 use crate::argument::{self, TOOL};
 use crate::arrays;
-use crate::errors;
+use crate::exception;
 use platewash::workcell::tool::StraightTool;
 use platewash::{RobotModel, Tool};
 use pyo3::prelude::*;
@@ -36,7 +36,7 @@ impl ToolFields {
     ///
     /// # Errors
     /// `InputTypeError` for what is no `Tool`, or a field of a wrong type.
-    pub fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    pub fn read(value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let number = |field| argument::field(("tool", TOOL), value, ("tool", field), argument::number);
         let com_m = argument::field(("tool", TOOL), value, ("tool", "com_m"), |name, value| {
             (!value.is_none()).then(|| argument::number(name, value)).transpose()
@@ -88,7 +88,7 @@ impl ToolFields {
                 "must be below length_m = {}; found {}",
                 self.length_m, self.sponge_height_m
             );
-            return Err(errors::input(py, "tool.sponge_height_m", &problem));
+            return Err(exception::input(py, "tool.sponge_height_m", &problem));
         }
         self.check_stiffness(py)?;
         self.check_masses(py)?;
@@ -112,7 +112,7 @@ impl ToolFields {
     /// As [`Self::tool`], and `InputError` for an arm that does not tell the link.
     pub fn on(&self, py: Python<'_>, robot: &RobotModel) -> PyResult<Tool> {
         let tool = self.tool(py)?.on(robot);
-        tool.map_err(|e| errors::input(py, "tool.mounted_on", &e.to_string()))
+        tool.map_err(|e| exception::input(py, "tool.mounted_on", &e.to_string()))
     }
 
     fn check_stiffness(&self, py: Python<'_>) -> PyResult<()> {
@@ -120,7 +120,7 @@ impl ToolFields {
             Some([least, most]) if !(least > 0.0 && least <= most && most <= LARGEST_PA) => {
                 let problem =
                     format!("must be (least, greatest), above 0 and up to {LARGEST_PA} Pa; found ({least}, {most})");
-                Err(errors::input(py, "tool.sponge_stiffness_pa", &problem))
+                Err(exception::input(py, "tool.sponge_stiffness_pa", &problem))
             }
             _ => Ok(()),
         }
@@ -129,14 +129,14 @@ impl ToolFields {
     fn check_masses(&self, py: Python<'_>) -> PyResult<()> {
         if !(0.0..=LARGEST_KG).contains(&self.mass_kg) {
             let problem = format!("must be from 0 to {LARGEST_KG} kg; found {}", self.mass_kg);
-            return Err(errors::input(py, "tool.mass_kg", &problem));
+            return Err(exception::input(py, "tool.mass_kg", &problem));
         }
         let mut entries = self.inertia_kg_m2.iter().flatten();
         match entries.find(|entry| !(-LARGEST_KG..=LARGEST_KG).contains(*entry)) {
             None => Ok(()),
             Some(found) => {
                 let problem = format!("must be within ±{LARGEST_KG} kg·m²; found {found}");
-                Err(errors::input(py, "tool.inertia_kg_m2", &problem))
+                Err(exception::input(py, "tool.inertia_kg_m2", &problem))
             }
         }
     }
@@ -151,5 +151,5 @@ pub fn check_length(py: Python<'_>, name: &str, length_m: f64) -> PyResult<()> {
         return Ok(());
     }
     let problem = format!("must be from 0 to {LARGEST_M} m; found {length_m}");
-    Err(errors::input(py, name, &problem))
+    Err(exception::input(py, name, &problem))
 }

@@ -2,7 +2,7 @@
 
 use crate::arrays::{self, Count, ExpectedShape, MANY_JOINTS, Numbers};
 use crate::work::released;
-use crate::{argument, errors};
+use crate::{argument, exception};
 use numpy::PyArrayDyn;
 use platewash::motion::trajectory::{JointState, KnotError, SegmentExtremes};
 use platewash::{JointVector, Trajectory};
@@ -44,7 +44,7 @@ fn knots(py: Python<'_>, t_s: Vec<f64>, q: &[JointVector], qd: &[JointVector]) -
     for (name, found) in [("q_rad", q.len()), ("qd_rad_s", qd.len())] {
         if found != t_s.len() {
             let wanted = [format!("({}, 6), a row for each of t_s,", t_s.len())];
-            return Err(errors::shape(py, name, &[found, 6], &wanted));
+            return Err(exception::shape(py, name, &[found, 6], &wanted));
         }
     }
     let finite = |all: &[JointVector], knot: usize| all[knot].iter().all(|v| v.is_finite());
@@ -54,7 +54,7 @@ fn knots(py: Python<'_>, t_s: Vec<f64>, q: &[JointVector], qd: &[JointVector]) -
             KnotError::NotFinite { knot } if !finite(qd, knot) => "qd_rad_s",
             _ => "t_s",
         };
-        errors::input(py, name, &e.to_string())
+        exception::input(py, name, &e.to_string())
     })
 }
 
@@ -82,7 +82,7 @@ impl TrajectoryObject {
         let dt_s = argument::number("dt_s", dt_s)?;
         let q = Numbers::read("q_rad", q_rad, MANY_JOINTS)?;
         if !(dt_s.is_finite() && dt_s > 0.0) {
-            return Err(errors::input(
+            return Err(exception::input(
                 py,
                 "dt_s",
                 &format!("must be a positive number of seconds; found {dt_s}"),
@@ -123,12 +123,12 @@ impl TrajectoryObject {
         let times = Numbers::read("t_s", t_s, TIMES)?;
         let values = times.values()?;
         if self.inner.times().is_empty() {
-            return Err(errors::input(py, "t_s", "the motion has no knots"));
+            return Err(exception::input(py, "t_s", "the motion has no knots"));
         }
         let states: Option<Vec<JointState>> = released(py, || {
             values.par_iter().with_min_len(512).map(|t| self.inner.at(*t)).collect()
         })?;
-        let states = states.ok_or_else(|| errors::input(py, "t_s", "times must not be NaN"))?;
+        let states = states.ok_or_else(|| exception::input(py, "t_s", "times must not be NaN"))?;
         let column = |of: fn(&JointState) -> JointVector| {
             let rows: Vec<_> = states.iter().map(of).collect();
             match times.stacked {

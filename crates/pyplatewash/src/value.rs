@@ -1,6 +1,6 @@
 //! Data as plain Python objects and back, by way of JSON's types.
 
-use crate::{argument, errors};
+use crate::{argument, exception};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple, PyType};
@@ -18,7 +18,7 @@ static RECORD: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 /// # Errors
 /// Out of memory, or a value that JSON cannot say.
 pub fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let value = serde_json::to_value(value).map_err(|e| errors::internal(py, &e.to_string()))?;
+    let value = serde_json::to_value(value).map_err(|e| exception::internal(py, &e.to_string()))?;
     plain(py, &value)
 }
 
@@ -78,7 +78,7 @@ fn plain<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
 pub fn from_mapping(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Map<String, Value>> {
     match from_python(name, value, 0)? {
         Value::Object(map) => Ok(map),
-        _ => Err(errors::wrong_type(
+        _ => Err(exception::wrong_type(
             value.py(),
             name,
             &format!("a dictionary is needed; found {}", argument::shown(value)),
@@ -89,7 +89,7 @@ pub fn from_mapping(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Map<String
 fn from_python(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     let py = value.py();
     if depth > DEEPEST {
-        return Err(errors::input(py, name, "is nested too deep"));
+        return Err(exception::input(py, name, "is nested too deep"));
     }
     if value.is_none() {
         return Ok(Value::Null);
@@ -101,18 +101,18 @@ fn from_python(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<V
         let number = value.extract::<i64>();
         return match number {
             Ok(number) => Ok(number.into()),
-            Err(_) => Err(errors::input(py, name, "an integer is out of the range of 64 bits")),
+            Err(_) => Err(exception::input(py, name, "an integer is out of the range of 64 bits")),
         };
     }
     if value.is_instance_of::<PyFloat>() {
         let number: f64 = value.extract()?;
-        let wrong = || errors::input(py, name, &format!("numbers must be finite; found {number}"));
+        let wrong = || exception::input(py, name, &format!("numbers must be finite; found {number}"));
         return Number::from_f64(number).map(Value::Number).ok_or_else(wrong);
     }
     if value.is_instance_of::<PyString>() {
         return match value.extract::<String>() {
             Ok(text) => Ok(Value::String(text)),
-            Err(_) => Err(errors::input(py, name, "a string is not valid Unicode")),
+            Err(_) => Err(exception::input(py, name, "a string is not valid Unicode")),
         };
     }
     if let Ok(mapping) = value.cast::<PyMapping>() {
@@ -135,7 +135,7 @@ fn from_python(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<V
         let list = value.call_method0(intern!(py, "tolist"))?;
         return from_python(name, &list, depth + 1);
     }
-    Err(errors::wrong_type(
+    Err(exception::wrong_type(
         py,
         name,
         &format!(
@@ -151,7 +151,7 @@ fn object(name: &str, mapping: &Bound<'_, PyMapping>, depth: usize) -> PyResult<
         let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
         let Ok(key) = key.extract::<String>() else {
             let found = argument::shown(&key);
-            return Err(errors::wrong_type(
+            return Err(exception::wrong_type(
                 mapping.py(),
                 name,
                 &format!("a string is needed as a key; found {found}"),

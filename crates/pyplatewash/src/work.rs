@@ -4,7 +4,7 @@
 //!
 //! The command `platewash`: the same code as the Rust program.
 
-use crate::{argument, errors};
+use crate::{argument, exception};
 use platewash::CancelToken;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
@@ -46,7 +46,7 @@ fn pool(py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
 
 fn new_pool(py: Python<'_>) -> PyResult<ThreadPool> {
     let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK_BYTES).build();
-    pool.map_err(|e| errors::internal(py, &format!("no threads: {e}")))
+    pool.map_err(|e| exception::internal(py, &format!("no threads: {e}")))
 }
 
 /// Runs short work on the pool without the interpreter lock.
@@ -56,7 +56,7 @@ fn new_pool(py: Python<'_>) -> PyResult<ThreadPool> {
 pub fn released<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = pool(py)?;
     let done = py.detach(|| catch_unwind(AssertUnwindSafe(|| pool.install(work))));
-    done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
+    done.map_err(|panic| exception::internal(py, &panic_text(panic.as_ref())))
 }
 
 /// Runs short work on this thread without the interpreter lock.
@@ -65,7 +65,7 @@ pub fn released<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyR
 /// `InternalError` in place of a panic.
 pub fn alone<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
-    done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
+    done.map_err(|panic| exception::internal(py, &panic_text(panic.as_ref())))
 }
 
 /// Runs work without the interpreter lock on threads of its own, beside other such work: a thread of a shared pool that waits for a
@@ -76,7 +76,7 @@ pub fn alone<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResu
 pub fn aside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = new_pool(py)?;
     let done = py.detach(|| catch_unwind(AssertUnwindSafe(|| pool.install(work))));
-    done.map_err(|panic| errors::internal(py, &panic_text(panic.as_ref())))
+    done.map_err(|panic| exception::internal(py, &panic_text(panic.as_ref())))
 }
 
 /// Runs work that may take long without the interpreter lock, looking for signals: Ctrl-C raises at once, and the work, for whose
@@ -105,7 +105,7 @@ pub fn patiently_by<T: Send + 'static>(
         .stack_size(STACK_BYTES)
         .num_threads(threads);
     let pool = pool.build().map_err(|e| {
-        errors::named(
+        exception::named(
             py,
             "EngineError",
             &format!("no {threads} threads begin: {e}; give fewer workers"),
@@ -128,7 +128,7 @@ fn patiently_on<T: Send + 'static>(
         let _ = answer.send(done);
     };
     let spawned = std::thread::Builder::new().stack_size(STACK_BYTES).spawn(run);
-    spawned.map_err(|e| errors::internal(py, &format!("no thread: {e}")))?;
+    spawned.map_err(|e| exception::internal(py, &format!("no thread: {e}")))?;
     let waiting = Mutex::new(waiting);
     loop {
         let heard = py.detach(|| {
@@ -137,9 +137,9 @@ fn patiently_on<T: Send + 'static>(
         });
         match heard {
             Ok(Ok(done)) => return Ok(done),
-            Ok(Err(panic)) => return Err(errors::internal(py, &panic_text(panic.as_ref()))),
+            Ok(Err(panic)) => return Err(exception::internal(py, &panic_text(panic.as_ref()))),
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(errors::internal(py, "a thread ended without an answer"));
+                return Err(exception::internal(py, "a thread ended without an answer"));
             }
             Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| cancel.cancel())?,
         }

@@ -15,7 +15,7 @@ use platewash_motion::plan::PlanFileError;
 use platewash_paper::PaperError;
 use platewash_paper::tracking::TrackingError;
 use platewash_planner::transit::TransitError;
-use platewash_planner::{PlaceSearch, PlanError};
+use platewash_planner::{InfeasibleReport, PlaceSearch, PlanError};
 use platewash_simulator::{ControlError, DynamicsError, SimulationError};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::layout::LayoutError;
@@ -92,6 +92,24 @@ impl Failure {
             Self::Paper(error) => error.infeasibility(),
             _ => None,
         }
+    }
+
+    /// The error that left a job without a plan; `None` where the input is at fault.
+    #[must_use]
+    pub fn plan_error(&self) -> Option<PlanError> {
+        match self.cause() {
+            Self::Plan(error) => Some(error.clone()),
+            Self::Layout(error) | Self::Paper(PaperError::Layout(error)) => Some(PlanError::Layout(error.clone())),
+            _ => None,
+        }
+    }
+
+    /// Report of a refused job: its verdict, the reason with the keys that decide it, and the plates concerned; `None` where the input
+    /// is at fault. Command, page and studies tell a refused job from this; Python's exceptions have the same words.
+    #[must_use]
+    pub fn report(&self, scenario: &str, seed: u64) -> Option<InfeasibleReport> {
+        let report = InfeasibleReport::new(scenario, seed, &self.plan_error()?)?;
+        Some(report.explained(self.to_string()))
     }
 
     /// Returns true where the work was cancelled on request.

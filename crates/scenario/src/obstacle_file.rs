@@ -11,9 +11,9 @@ use crate::source::{MAX_BYTES, unread};
 use crate::units::{MeshAs, Note};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::{Files, file};
-use platewash_motion_proof::scene;
+use platewash_motion_proof::planning_scene;
+use platewash_workcell::Obstacle;
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::Obstacle;
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
@@ -69,7 +69,7 @@ impl ObstacleText {
         meshes: &MeshPlaces,
     ) -> Result<Vec<Obstacle>, ScenarioError> {
         if is_scene(&self.name) {
-            let all = scene::read(&self.name, &self.text).map_err(|error| {
+            let all = planning_scene::read(&self.name, &self.text).map_err(|error| {
                 let detail = error.reason;
                 refused(&self.name, Some(error.place.line), Problem::Detail { detail })
             })?;
@@ -111,12 +111,12 @@ impl ObstacleText {
     pub fn notes_on_meshes(&self, meshes: &MeshPlaces) -> Vec<Note> {
         match is_scene(&self.name) {
             true => {
-                let note = |mesh: scene::MeshExcess| Note::LargerThanMesh {
+                let note = |mesh: planning_scene::MeshExcess| Note::LargerThanMesh {
                     body: mesh.obstacle,
                     by_m: mesh.by_m,
                     as_what: MeshAs::Parts,
                 };
-                let all = scene::mesh_excesses(&self.text).into_iter();
+                let all = planning_scene::mesh_excesses(&self.text).into_iter();
                 all.filter(|mesh| mesh.by_m > LEAST_EXCESS_M).map(note).collect()
             }
             false => self

@@ -10,7 +10,7 @@ use crate::scenario::Scenario;
 use platewash_bodies::job::{End, JobError};
 use platewash_certificate::{Certificate, Requirement, prove_with};
 use platewash_kinematics::RobotModel;
-use platewash_planner::scene::Hindrance;
+use platewash_planner::placed_arm::Hindrance;
 use platewash_planner::transit::TransitError;
 use platewash_planner::{ContactPromise, PlanError, Watch, plan_unexplained};
 use platewash_workcell::cancel::{Cancelled, system_clock};

@@ -66,7 +66,7 @@ impl Scenario {
             home,
             plate,
             region: suggest_region(&job, &Watch { cancel, ..*watch })?,
-            pairs: TouchingPairs::of(arm)?,
+            pairs: TouchingPairs::find(arm)?,
         })
     }
 

@@ -3,7 +3,7 @@
 use platewash_kinematics::RobotModel;
 use platewash_scenario::{MeshPlaces, ObstacleText};
 use platewash_workcell::tool::{StraightTool, Tool};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 fn read(text: &str) -> Result<Vec<Obstacle>, String> {
     let text = ObstacleText {

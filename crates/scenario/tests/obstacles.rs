@@ -2,7 +2,7 @@
 
 use platewash_kinematics::geometry::Shape;
 use platewash_scenario::{Draft, Failure, Scenario};
-use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape};
+use platewash_workcell::{MOST_BODIES, Obstacle, ObstacleShape};
 use std::path::Path;
 
 const LAYOUT: &str = "wash.height_m = 0\ntool.length_m = 0.15\nlayout.positions_m = [[0.35, 0.2], [0.35, -0.2]]\nlayout.min_distance_m = 0.3\n";

@@ -14,11 +14,10 @@
 //! | a stream with a deadline | `deadline.rs` |
 //! | who is connected, who has to go for another, how much is worked on at a time | `connections.rs` |
 //! | the port, and the thread that accepts | `listener.rs` |
-//! | the site of a live cell: its page and its answers | `cell.rs` |
+//! | the site of a live cell: its page and its answers | `live_cell.rs` |
 //! | a live run as those who watch it share it; samples of a simulation into it, in real time | `live.rs`, `feed.rs` |
 
 mod answer;
-mod cell;
 mod connection;
 mod connections;
 mod deadline;
@@ -26,17 +25,18 @@ mod error;
 mod feed;
 mod listener;
 mod live;
+mod live_cell;
 mod names;
 mod request;
 mod service;
 mod site;
 mod token;
 
-pub use cell::cell_site;
 pub use error::ServerError;
 pub use feed::Feed;
 pub use listener::{Listener, Server};
 pub use live::{LiveEnd, LiveRun, SamplesEvent, StateEvent};
+pub use live_cell::cell_site;
 pub use service::{NoListener, QuestionLimits, Service};
 pub use site::{Page, PageMaker, Site};
 pub use token::token;

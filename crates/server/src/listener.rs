@@ -62,7 +62,7 @@ impl Listener {
     /// # Errors
     /// [`ServerError::Thread`].
     pub fn serve(self, site: Site) -> Result<Server, ServerError> {
-        let (names, turns) = (Names::of(self.address), Turns::default());
+        let (names, turns) = (Names::new(self.address), Turns::default());
         let mut server = Server {
             address: self.address,
             ends: Arc::default(),

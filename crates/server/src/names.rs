@@ -17,7 +17,7 @@ pub struct Names {
 
 impl Names {
     /// Names of a server that listens there.
-    pub fn of(bound: SocketAddr) -> Self {
+    pub fn new(bound: SocketAddr) -> Self {
         Self { bound }
     }
 
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     fn names(bound: &str) -> Names {
-        Names::of(bound.parse().unwrap())
+        Names::new(bound.parse().unwrap())
     }
 
     #[test]

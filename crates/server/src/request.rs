@@ -216,7 +216,7 @@ mod tests {
     use super::*;
 
     fn judged(head: &str) -> Result<Request, Refusal> {
-        Request::judge(head.as_bytes(), Names::of("127.0.0.1:8080".parse().unwrap()), None)
+        Request::judge(head.as_bytes(), Names::new("127.0.0.1:8080".parse().unwrap()), None)
     }
 
     /// A request with a proper Host and more headers, a line each.

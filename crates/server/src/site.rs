@@ -51,7 +51,7 @@ pub enum SiteAnswer<'a> {
 impl Site {
     /// A page alone.
     #[must_use]
-    pub fn of(page: Page) -> Self {
+    pub fn from_page(page: Page) -> Self {
         let (live, service) = (None, None);
         Self { page, live, service }
     }

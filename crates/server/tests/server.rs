@@ -23,7 +23,10 @@ fn serve_page(page: &str, live: Option<Arc<LiveRun>>) -> TestServer {
     let url = listener.url();
     let address = url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
     let page = Page::Fixed(page.to_owned());
-    let site = Site { live, ..Site::of(page) };
+    let site = Site {
+        live,
+        ..Site::from_page(page)
+    };
     TestServer {
         server: Some(listener.serve(site).unwrap()),
         address: address.parse().unwrap(),

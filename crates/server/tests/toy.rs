@@ -121,7 +121,7 @@ pub fn serve_page(page: Page) -> ToyServer {
     let toy = Arc::new(Toy::default());
     let site = Site {
         service: Some(toy.clone()),
-        ..Site::of(page)
+        ..Site::from_page(page)
     };
     ToyServer {
         address: address.parse().unwrap(),

@@ -40,7 +40,7 @@ fn frame() -> (RobotModel, Plan) {
     mass.com_m = [0.0, 0.0, 0.09];
     mass.inertia_kg_m2 = [moment, 0.0, 0.0, moment, 0.0, moment];
     let parts = PlanParts {
-        provenance: Provenance::of("feasibility"),
+        provenance: Provenance::new("feasibility"),
         order: vec![0],
         wash_paths: Vec::new(),
         segments: Vec::new(),

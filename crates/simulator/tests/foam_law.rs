@@ -14,14 +14,14 @@ const FOAM: Foam = Foam {
 #[test]
 fn within_the_limit_the_foam_equals_the_foundation() {
     for w in [1e-6, 0.005, 0.0149] {
-        let (energy, pressure) = FOAM.of(w);
+        let (energy, pressure) = FOAM.energy_and_pressure(w);
         assert!((pressure - 2e4 * w / 0.025).abs() < 1e-9);
         assert!((energy - 0.5 * 2e4 / 0.025 * w * w).abs() < 1e-12);
     }
-    assert_eq!(FOAM.of(0.0), (0.0, 0.0));
-    assert_eq!(FOAM.of(0.05), (0.0, 0.0));
-    assert_eq!(FOAM.of(f64::NAN), (0.0, 0.0));
-    assert_eq!(FOAM.of(f64::INFINITY), (0.0, 0.0));
+    assert_eq!(FOAM.energy_and_pressure(0.0), (0.0, 0.0));
+    assert_eq!(FOAM.energy_and_pressure(0.05), (0.0, 0.0));
+    assert_eq!(FOAM.energy_and_pressure(f64::NAN), (0.0, 0.0));
+    assert_eq!(FOAM.energy_and_pressure(f64::INFINITY), (0.0, 0.0));
     assert_eq!(FOAM.damped(0.005, 10.0, -1.0), 0.0, "it does not pull");
     assert!((FOAM.damped(0.005, 10.0, 0.1) - 410.0).abs() < 1e-9);
 }
@@ -30,8 +30,8 @@ proptest! {
     #[test]
     fn pressure_is_the_slope_of_the_energy(w in -0.01..0.06_f64) {
         let h = 1e-7;
-        let slope = (FOAM.of(w + h).0 - FOAM.of(w - h).0) / (2.0 * h);
-        prop_assert!((FOAM.of(w).1 - slope).abs() < 2.0, "{} {}", FOAM.of(w).1, slope);
+        let slope = (FOAM.energy_and_pressure(w + h).0 - FOAM.energy_and_pressure(w - h).0) / (2.0 * h);
+        prop_assert!((FOAM.energy_and_pressure(w).1 - slope).abs() < 2.0, "{} {}", FOAM.energy_and_pressure(w).1, slope);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use platewash_certificate::{Certificate, Requirement, Verdict};
 use platewash_kinematics::ik::IkPathError;
-use platewash_planner::{InfeasibleReport, PlanError, PlannedJob};
+use platewash_planner::{PlanError, PlannedJob};
 use platewash_scenario::Failure;
 use platewash_workcell::verdict::Infeasibility;
 use serde::{Deserialize, Serialize};
@@ -200,11 +200,11 @@ impl Place {
     }
 
     /// Place of the obstruction of a plan.
-    pub(crate) fn of_failure(error: &Failure) -> Self {
-        let Failure::Plan(error) = error else {
+    pub(crate) fn of_failure(failure: &Failure) -> Self {
+        let report = failure.report("", 0);
+        let Failure::Plan(error) = failure else {
             return Self::default();
         };
-        let report = InfeasibleReport::new("", 0, error);
         let point_m = match error {
             PlanError::Unwashable(plate) => plate.dead_m.first().copied(),
             _ => None,

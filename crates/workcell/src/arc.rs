@@ -1,7 +1,7 @@
 //! Route from one plate to the next: an arc round the base, high above the plates.
 
-use crate::trig::{atan2, sin_cos};
 use nalgebra::Vector3;
+use platewash_kinematics::trig::{atan2, sin_cos};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 

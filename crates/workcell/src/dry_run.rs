@@ -3,9 +3,9 @@
 //! The plates are raised, together with everything that the tip does on them. The real ones stay in place, as obstacles with the usual
 //! clearance.
 
+use crate::obstacle::{Obstacle, ObstacleShape};
 use crate::plate::{GREATEST_M, Plate};
 use crate::words::{plate_name, quoted};
-use crate::workcell::{Obstacle, ObstacleShape};
 use serde::{Deserialize, Serialize};
 
 /// Default height of a dry run \[m\].

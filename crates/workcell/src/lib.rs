@@ -4,7 +4,7 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | mount, arm, tool, obstacles, pairs that are left out | [`workcell`], [`tool`], [`obstacle`] |
+//! | mount, arm, tool, obstacles, pairs that are left out | [`Workcell`], [`tool`], [`Obstacle`] |
 //! | plates, and where they lie | [`plate`], [`surface`], [`layout`] |
 //! | the terms of a job, resolved; the settings of its simulation | [`job`], [`simulation`] |
 //! | the wash path on a plate; the arc between plates | [`wash_path`], [`arc`] |
@@ -31,6 +31,7 @@ pub mod tool;
 pub mod verdict;
 pub mod wash_path;
 pub mod words;
-pub mod workcell;
+mod workcell;
 
-pub(crate) use platewash_kinematics::trig;
+pub use crate::obstacle::{Obstacle, ObstacleShape};
+pub use crate::workcell::{ArmId, Exclusion, ExclusionReason, MOST_BODIES, ReducedClearance, Workcell, is_pair};

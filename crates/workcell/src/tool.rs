@@ -3,10 +3,10 @@
 //! Poses are in the mounting frame, that of the link that carries the tool: `tool0` unless another is stated, z out of the arm.
 
 use crate::pose;
-use crate::trig::atan2;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::geometry::Shape;
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::atan2;
 use platewash_kinematics::{AXES, Frame, Pose, RobotModel, ToolFrame, ToolFrameError};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_1_SQRT_2;

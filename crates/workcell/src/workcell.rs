@@ -5,7 +5,7 @@
 //! All computations with an arm are in the frame of its base. A caller with data in the world frame converts it first:
 //! [`Workcell::seen_from_base`], [`crate::job::JobTerms::seen_from_base`], and the same of a plan.
 
-pub use crate::obstacle::{Obstacle, ObstacleShape};
+use crate::obstacle::Obstacle;
 
 use crate::pose;
 use crate::tool::Tool;

@@ -4,7 +4,7 @@ use crate::mutation::edit::{Edits, ExpectedResult, Kind, good};
 use platewash::Plan;
 use platewash::bodies::clearance;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
-use platewash::workcell::workcell::{Exclusion, ExclusionReason};
+use platewash::workcell::{Exclusion, ExclusionReason};
 
 pub fn add(edits: &mut Edits) {
     stated(edits);

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use platewash::certificate::Requirement::{Clearance, Exclusions};
 use platewash::kinematics::geometry::Shape;
 use platewash::motion::trajectory::SegmentKind::{Depart, Return, Transit, Wash};
-use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Pose};
 
 pub fn add(edits: &mut Edits) {

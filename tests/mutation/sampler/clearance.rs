@@ -6,7 +6,7 @@ use crate::mutation::sampler::motion::{Piece, pieces, within};
 use crate::mutation::sampler::paths::{is_at_plate, path_of, segment_of};
 use platewash::certificate::Requirement;
 use platewash::workcell::words::plate_name;
-use platewash::workcell::workcell::{Exclusion, ExclusionReason, ObstacleShape};
+use platewash::workcell::{Exclusion, ExclusionReason, ObstacleShape};
 use platewash::{ClearanceModel, JointVector, Plan, RobotModel, Workcell};
 use std::collections::HashMap;
 

@@ -10,7 +10,7 @@ use platewash::certificate::Requirement;
 use platewash::kinematics::geometry::Shape;
 use platewash::motion::trajectory::SegmentKind;
 use platewash::workcell::job::Overlap;
-use platewash::workcell::workcell::{Obstacle, ObstacleShape};
+use platewash::workcell::{Obstacle, ObstacleShape};
 use platewash::{Plan, Plate};
 
 /// Height over a plate that every certified plan keeps \[m\].

@@ -1,7 +1,7 @@
 //! Bodies of a world, and their kinds.
 
 use crate::clearance::convex::HullFault;
-use crate::clearance::model::ClearanceError;
+use crate::clearance::error::ClearanceError;
 use crate::clearance::part::{Part, PlacedPart};
 use crate::clearance::tree::Tree;
 use nalgebra::Vector3;
@@ -10,7 +10,7 @@ use platewash_kinematics::{BodyPoses, Frame, Pose, RobotModel};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::plate_name;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 /// Body for which clearances are computed.
 #[derive(Debug, Clone)]
@@ -213,7 +213,7 @@ pub(crate) fn obstacle_body(obstacle: &Obstacle) -> Result<Body, ClearanceError>
 /// Returns the body of a plate. The parts of `like` are reused if it has the same shape.
 pub(crate) fn plate_body(index: usize, plate: &Plate, like: Option<&Body>) -> Body {
     let known = like.and_then(|body| body.tree.as_ref());
-    let (tree, parts) = Tree::of(plate, known).map_or_else(
+    let (tree, parts) = Tree::from_plate(plate, known).map_or_else(
         || {
             // It has a volume.
             let (shape, pose) = plate.enclosure();

@@ -53,12 +53,12 @@ pub(crate) struct ConvexHull {
 
 impl ConvexHull {
     /// Computes the hull of points.
-    pub fn of(points: &[Vector]) -> Result<Self, HullFault> {
+    pub fn from_points(points: &[Vector]) -> Result<Self, HullFault> {
         if points.len() > MOST_VERTICES {
             return Err(HullFault::ManyPoints(points.len()));
         }
-        let frame = Frame::of(points).ok_or(HullFault::Flat)?;
-        let plain = Surface::of(points);
+        let frame = Frame::from_points(points).ok_or(HullFault::Flat)?;
+        let plain = Surface::from_points(points);
         match plain.as_ref().map_or(0, |surface| surface.corners.len()) {
             corners if corners > MOST_CORNERS => return Err(HullFault::ManyCorners(corners)),
             _ => {}
@@ -95,14 +95,14 @@ struct Surface {
 }
 
 impl Surface {
-    fn of(points: &[Vector]) -> Option<Self> {
+    fn from_points(points: &[Vector]) -> Option<Self> {
         let (corners, triangles) = guarded(|| try_convex_hull(points).ok()).flatten()?;
         Some(Self { corners, triangles })
     }
 
     /// Makes a hull that holds some points. Those that are no mixtures of the surface's corners become corners.
     fn holding(self, points: &[Vector]) -> Option<ConvexHull> {
-        let mixtures = Mixtures::of(&self);
+        let mixtures = Mixtures::new(&self);
         let known: BTreeSet<_> = self.corners.iter().map(|corner| bits(*corner)).collect();
         let is_outside = |point: &Vector| !known.contains(&bits(*point)) && !mixtures.have(*point);
         let outside: Vec<_> = points.iter().copied().filter(is_outside).collect();
@@ -152,7 +152,7 @@ struct Mixtures {
 const NEARLY: f64 = 1e-9;
 
 impl Mixtures {
-    fn of(surface: &Surface) -> Self {
+    fn new(surface: &Surface) -> Self {
         let middle = middle(&surface.corners);
         let face = |corners: &[u32; 3]| {
             let [a, b, c] = corners.map(|k| surface.corners[k as usize]);
@@ -224,7 +224,7 @@ struct Frame {
 
 impl Frame {
     /// Returns the axes of points; `None` if they have no volume: no point is off the plane through three that are far apart.
-    fn of(points: &[Vector]) -> Option<Self> {
+    fn from_points(points: &[Vector]) -> Option<Self> {
         let origin = points.first().copied()?;
         let farthest = |distance: &dyn Fn(Vector) -> f64| {
             let far = points
@@ -254,7 +254,7 @@ impl Frame {
             .map(|p| *p - self.origin)
             .map(|p| Vector::new(p.dot(x), p.dot(y), p.dot(z)))
             .collect();
-        let found = Surface::of(&drawn_out)?;
+        let found = Surface::from_points(&drawn_out)?;
         let of: BTreeMap<_, _> = drawn_out.iter().map(|p| bits(*p)).zip(points).collect();
         let corners = found.corners.iter().map(|p| of.get(&bits(*p)).copied().copied());
         Some(Surface {
@@ -266,7 +266,7 @@ impl Frame {
 
 /// True if the points span a volume.
 pub(crate) fn has_volume(points: &[Vector]) -> bool {
-    Frame::of(points).is_some()
+    Frame::from_points(points).is_some()
 }
 
 /// Body given by its triangles.
@@ -282,7 +282,7 @@ pub struct TriangleMesh {
 #[must_use]
 pub fn hull_triangles(points: &[Point3<f64>]) -> Option<TriangleMesh> {
     let vertices: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-    let hull = ConvexHull::of(&vertices).ok()?;
+    let hull = ConvexHull::from_points(&vertices).ok()?;
     let corners = hull.corners.iter().map(|c| Point3::new(c.x, c.y, c.z));
     let triangles = hull
         .triangles

@@ -27,7 +27,7 @@ const CELLS: f64 = 24.0;
 #[must_use]
 pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f64 {
     let vector = |p: &Point3<f64>| Vector::new(p.x, p.y, p.z);
-    let Some(mesh) = Mesh::of(triangles, vector) else {
+    let Some(mesh) = Mesh::from_triangles(triangles, vector) else {
         return f64::INFINITY;
     };
     let mut found_m: f64 = 0.0;
@@ -36,7 +36,7 @@ pub fn excess_m(triangles: &[[Point3<f64>; 3]], parts: &[Vec<Point3<f64>>]) -> f
     let mut open = BinaryHeap::new();
     for part in parts {
         let corners: Vec<_> = part.iter().map(vector).collect();
-        let hull = match ConvexHull::of(&corners) {
+        let hull = match ConvexHull::from_points(&corners) {
             Ok(hull) if hull.is_sound => hull,
             // No point of a hull is farther from a corner, which is of the mesh, than the corners are from each other.
             _ => {
@@ -69,7 +69,7 @@ struct Mesh {
 }
 
 impl Mesh {
-    fn of(triangles: &[[Point3<f64>; 3]], vector: impl Fn(&Point3<f64>) -> Vector) -> Option<Self> {
+    fn from_triangles(triangles: &[[Point3<f64>; 3]], vector: impl Fn(&Point3<f64>) -> Vector) -> Option<Self> {
         let mut numbers = BTreeMap::new();
         let mut points = Vec::new();
         let mut number = |corner: &Point3<f64>| {

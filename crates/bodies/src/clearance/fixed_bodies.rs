@@ -1,9 +1,5 @@
 //! Check that fixed bodies are apart: obstacles from plates and from the arm's base, plates at an angle to the base from the base.
 //!
-//! Two convex parts overlap by no more than max n·a − min n·b along any direction n, from the first to the second. So parts are apart if
-//! one of the directions tried shows it: those of their faces and axes, of their nearest points, and the one in which the collision library
-//! would push them apart. The least value found is stated as the overlap. All else that the library says of two parts is no proof.
-//!
 //! What stands may touch what it stands on, and neither moves. So these pairs need no clearance, and the margins of obstacles, which say
 //! how much more a moving body keeps, do not count. The floor at height 0 that a job has by default may reach into the base: it is the
 //! ground that the base stands on, or higher, and moving bodies keep clear of it.
@@ -15,22 +11,19 @@ mod tests;
 
 use crate::clearance::body::{Body, BodyKind, obstacle_body, place, plate_body, world_with};
 use crate::clearance::distance::bracketed;
-use crate::clearance::model::{ClearanceError, ClearanceModel, from_base};
-use crate::clearance::part::{Core, Extent, Part, PlacedPart};
+use crate::clearance::error::ClearanceError;
+use crate::clearance::model::{ClearanceModel, from_base};
+use crate::clearance::overlap::{TOUCH_M, depth};
+use crate::clearance::part::{Part, PlacedPart};
 use crate::clearance::solid::SHEET_M;
 use nalgebra::Vector6;
-use parry3d_f64::math::Vector;
-use parry3d_f64::query;
 use platewash_kinematics::{BodyPoses, JointVector, RobotModel};
 use platewash_workcell::dry_run::DryRun;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::{plate_name, printable};
-use platewash_workcell::workcell::{Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{Obstacle, ObstacleShape, Workcell};
 use std::fmt;
-
-/// Depth by which touching bodies may overlap by rounding \[m\].
-pub const TOUCH_M: f64 = 1e-6;
 
 /// Fixed body that overlaps another.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -187,57 +180,6 @@ fn overlap(a: &Body, b: &Body, poses: &BodyPoses) -> f64 {
         .filter(|(p, r)| near(p, r))
         .map(|(p, r)| depth(p, r))
         .fold(0.0, f64::max)
-}
-
-/// Upper bound on the depth by which two parts overlap \[m\]; 0 or less if they do not.
-pub(crate) fn depth(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> f64 {
-    let (found, at_least) = bracketed(a, b);
-    if a.outwards().is_some() || b.outwards().is_some() {
-        return -found.distance;
-    }
-    if at_least > 0.0 {
-        return -at_least;
-    }
-    let mut least = f64::INFINITY;
-    let pushed = match (&a.core, &b.core) {
-        (Core::Solid(p, _), Core::Solid(r, _)) => query::contact(&a.pose, &**p, &b.pose, &**r, 0.0).ok().flatten(),
-        _ => None,
-    };
-    let pushed = pushed.map(|contact| contact.normal1);
-    let directions = faces(a).chain(faces(b)).flat_map(|n| [n, -n]);
-    let along = [pushed, Some(Vector::from_array(found.normal))].into_iter().flatten();
-    let all = directions.chain(along).chain(between(a, b));
-    // The library has faces without a normal. Along no direction every two parts are apart.
-    for n in all.filter(|n| (n.length() - 1.0).abs() < 1e-6) {
-        least = least.min(a.support(n) + b.support(-n));
-    }
-    least
-}
-
-/// Returns directions between the middles of two parts: directly, and across the axes of both, which separate round parts.
-fn between(a: &PlacedPart<'_>, b: &PlacedPart<'_>) -> impl Iterator<Item = Vector> {
-    let way = b.pose.translation - a.pose.translation;
-    let across = [a, b].map(|part| {
-        let axis = part.axis().unwrap_or(Vector::ZERO);
-        way - axis * axis.dot(way)
-    });
-    let ways = [way, across[0], across[1]].into_iter();
-    ways.map(|way| way.normalize_or_zero())
-        .filter(|way| *way != Vector::ZERO)
-}
-
-/// Returns the directions of a part's faces, and of its axis if it has one; both ways.
-fn faces(part: &PlacedPart<'_>) -> std::vec::IntoIter<Vector> {
-    let own: Vec<Vector> = match part.core {
-        Core::Solid(solid, Extent::Vertices(_)) => match solid.as_convex_polyhedron() {
-            Some(hull) => hull.faces().iter().map(|face| face.normal).collect(),
-            None => vec![Vector::X, Vector::Y, Vector::Z],
-        },
-        Core::Solid(_, Extent::Cylinder(..)) => vec![Vector::Y],
-        Core::Segment(_) | Core::HalfSpace => Vec::new(),
-    };
-    let turned: Vec<_> = own.into_iter().map(|n| part.pose.rotation * n).collect();
-    turned.into_iter()
 }
 
 /// Lower bound on the distance of two plates \[m\], negative if they overlap: for parallel plates seen along their axis, for others by

@@ -1,5 +1,7 @@
 //! Levers: bounds on the distance of a point that the arm carries from each joint's axis, and so on its speed.
 //!
+//! Formulas (0.2) and (0.3) in `docs/certificate.md`.
+//!
 //! With z_i the axis of joint i and p a point on the body behind joint k, ∂p/∂q_i = z_i × (p − p_i), and every further
 //! derivative puts one more z × in front of that of the outermost joint: for i ≤ j ≤ … ≤ m,
 //! ‖∂ⁿp / ∂q_i ∂q_j … ∂q_m‖ ≤ ‖z_m × (p − p_m)‖ = ρ_m, the lever of the **outermost** joint.
@@ -10,7 +12,7 @@ use platewash_kinematics::{AXES, BodyPoses, JointVector};
 /// Bounds ρ of a point's distances from the six axes \[m\]; 0 for the joints that do not move it.
 pub type Levers = JointVector;
 
-/// Levers that hold in every configuration, for a point on `body` that is at `point` (base frame, m) in the configuration of
+/// Levers R that hold in every configuration, formula (0.2), for a point on `body` that is at `point` (base frame, m) in the configuration of
 /// `poses`: the distance from axis i to the origin of joint i + 1, which never changes, and the constant lengths from
 /// there on (triangle inequality).
 pub fn greatest(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
@@ -26,13 +28,13 @@ pub fn greatest(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers 
     levers
 }
 
-/// Levers at one configuration.
+/// Levers ρ at one configuration, formula (0.2). `point` is p, on the body `body` \[m\].
 pub fn at(poses: &BodyPoses, body: usize, point: &Vector3<f64>) -> Levers {
     Levers::from_fn(|i, _| if i < body { from_axis(poses, i + 1, point) } else { 0.0 })
 }
 
-/// Levers that hold while each joint i is within `drift[i]` \[rad\] of where they were `here`: the distance from axis j
-/// depends on the joints beyond j alone.
+/// Levers ρ that hold while each joint i is within `drift[i]` \[rad\] of where they were `here`, formula (0.2): `here` plus Σ R_i |Δq_i| over the
+/// joints i beyond, and at most R. `drift` is |Δq|, `greatest` is R. The distance from axis j depends on the joints beyond j alone.
 pub fn within(here: &Levers, drift: &JointVector, greatest: &Levers) -> Levers {
     let mut levers = *here;
     let mut moved = 0.0;
@@ -48,8 +50,9 @@ pub fn from(levers: &Levers, first: usize) -> Levers {
     Levers::from_fn(|i, _| if i < first { 0.0 } else { levers[i] })
 }
 
-/// Sum over all tuples of joints, one index from each of `rates`, of the outermost joint's lever times the product of the rates: Σ_m ρ_m
-/// (Π_r S_r,m − Π_r S_r,m−1) with the partial sums S_r,m = Σ_{i ≤ m} rate_r,i. Joints before `first` do not count.
+/// Sum over all tuples of joints as in formula (0.3), one index from each of `rates`, of the outermost joint's lever times the product of
+/// the rates. `levers` is ρ, `rates` are those of D₁, D₂ and D₃ that the sum names. It is Σ_m ρ_m (Π_r S_r,m − Π_r S_r,m−1) with the
+/// partial sums S_r,m = Σ_{i ≤ m} rate_r,i. Joints before `first` do not count.
 pub fn tuples<const N: usize>(levers: &Levers, first: usize, rates: [&JointVector; N]) -> f64 {
     let mut sums = [0.0; N];
     let mut before = 0.0;

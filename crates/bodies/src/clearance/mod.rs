@@ -17,24 +17,29 @@
 //! | a convex part of a body; convex hulls and their facets | `part.rs`; `convex.rs` |
 //! | a body of many parts, from the outside in | `tree.rs` |
 //! | which pairs are checked, and why the others are not; links that touch, as an SRDF | `pairs.rs` |
-//! | the distance of two parts: quickly, and between bounds | `distance.rs` |
+//! | the distance of two parts: quickly, and between bounds; how deep they overlap | `distance.rs`; `overlap.rs` |
 //! | pairs whose distance no joint changes, judged once | `still.rs` |
+//! | the distance of a pair and what is required of it | `pair_clearance.rs` |
 //! | all pairs at one configuration | `model.rs` |
 //! | a quick yes or no for planners | `washing.rs` |
 //! | the convex parts of a mesh | `solid.rs` |
 //! | how far those reach beyond the mesh | `excess.rs` |
 //! | two plates; obstacles that reach into plates or the base | `fixed_bodies.rs` |
-//! | bounds between configurations; of many obstacles at once | `motion.rs`, `lever.rs`; `far.rs` |
+//! | bounds between configurations; of many obstacles at once; those that are near | `motion.rs`, `lever.rs`; `far.rs`; `crowd.rs` |
 
 mod body;
 mod convex;
+mod crowd;
 mod distance;
+mod error;
 mod excess;
 pub mod far;
 mod fixed_bodies;
 pub mod lever;
 mod model;
 pub mod motion;
+mod overlap;
+mod pair_clearance;
 mod pairs;
 mod part;
 mod solid;
@@ -46,9 +51,11 @@ mod tree;
 mod washing;
 
 pub use crate::clearance::convex::{TriangleMesh, hull_triangles};
+pub use crate::clearance::error::ClearanceError;
 pub use crate::clearance::excess::excess_m;
 pub use crate::clearance::fixed_bodies::{FixedBody, FixedOverlap, gap_of_plates, standing_overlaps};
-pub use crate::clearance::model::{ClearanceError, ClearanceModel, NearestBodies, PairClearance, is_clear};
+pub use crate::clearance::model::{ClearanceModel, NearestBodies};
+pub use crate::clearance::pair_clearance::{PairClearance, is_clear};
 pub use crate::clearance::pairs::{TouchingPairs, exclusions};
 pub use crate::clearance::solid::{SolidError, SolidParts, solid_parts};
 pub use crate::clearance::still::{StillPair, still_pairs};

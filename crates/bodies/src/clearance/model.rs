@@ -1,71 +1,17 @@
 //! Distances of all pairs at one configuration.
-//!
-//! Errors of building a clearance model.
 
 use crate::clearance::body::{Ball, Body, BodyKind, is_of_arm, part_pairs, place, plate_body, world};
-use crate::clearance::convex::{MOST_CORNERS, MOST_VERTICES};
+use crate::clearance::crowd::{Crowd, Pairs};
 use crate::clearance::distance::{Separation, bracketed};
-use crate::clearance::far::{Crowd, Pairs};
-use crate::clearance::pairs;
+use crate::clearance::error::ClearanceError;
+use crate::clearance::pair_clearance::{PairClearance, required_of};
+use crate::clearance::pairs::{self, always_touching};
 use crate::clearance::part::PlacedPart;
-use crate::clearance::still::{Still, still};
+use crate::clearance::still::{Still, StillPair, still};
 use crate::clearance::tree::Order;
-use platewash_kinematics::{BodyPoses, JointVector, Pose, RobotModel, ToolFrameError};
+use platewash_kinematics::{BodyPoses, JointVector, Pose, RobotModel};
+use platewash_workcell::Workcell;
 use platewash_workcell::plate::Plate;
-use platewash_workcell::words::printable;
-use platewash_workcell::workcell::Workcell;
-use serde::Serialize;
-
-/// Distance between two bodies at one configuration.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PairClearance {
-    /// Name of the first body.
-    pub a: String,
-    /// Name of the second body.
-    pub b: String,
-    /// Distance \[m\]; ≤ 0 if they touch or overlap.
-    pub distance_m: f64,
-    /// Midpoint between the two nearest points \[m\], base frame.
-    pub place_m: [f64; 3],
-    /// True if the shape of one of the bodies is a convex hull of a mesh or of a part of it, which can reach beyond the mesh.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub has_hull: bool,
-    /// Link and axis on which the tool is mounted, where one of the bodies is of it and its mount is stated.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mounted_on: Option<String>,
-    /// Part of the required clearance that the pair need not keep \[m\].
-    #[serde(skip_serializing_if = "platewash_workcell::json::is_zero")]
-    pub reduced_by_m: f64,
-}
-
-impl PairClearance {
-    /// Clearance required of the pair where `required_m` is required of most pairs \[m\].
-    #[must_use]
-    pub fn required_m(&self, required_m: f64) -> f64 {
-        required_of(required_m, self.reduced_by_m)
-    }
-
-    /// True if the pair keeps the clearance that is required of it where `required_m` is required of most pairs.
-    #[must_use]
-    pub fn is_clear(&self, required_m: f64) -> bool {
-        is_clear(self.distance_m, self.required_m(required_m))
-    }
-
-    /// Words for a message on the pair: that a convex hull was compared, and where the tool is mounted; empty where neither is so.
-    #[must_use]
-    pub fn notes(&self) -> String {
-        let hull = self.has_hull.then(|| "by convex shapes of meshes".to_owned());
-        let mount = self
-            .mounted_on
-            .as_ref()
-            .map(|mount| format!("the tool is mounted on {mount}"));
-        let notes: Vec<_> = hull.into_iter().chain(mount).collect();
-        match notes.is_empty() {
-            true => String::new(),
-            false => format!(" ({})", notes.join("; ")),
-        }
-    }
-}
 
 /// The two bodies of a model that are nearest to each other at one configuration, with their nearest points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -184,6 +130,25 @@ impl ClearanceModel {
     #[must_use]
     pub fn is_of_arm(&self, name: &str) -> bool {
         is_of_arm(&self.bodies, name)
+    }
+
+    /// True if a pair, by index, touches in each of some configurations spread over the limits of the joints, as links that share a joint or
+    /// surround each other do.
+    #[must_use]
+    pub fn touches_in_samples(&self, pair: usize) -> bool {
+        let pairs = [self.pairs[pair]];
+        !always_touching(&self.robot, &self.bodies, &pairs, vec![0]).is_empty()
+    }
+
+    /// Returns the pairs whose distance no joint changes, with their distances: a link over a half-space that joint 1 turns about its
+    /// normal, and bodies of the tool round about axis 6 beside the link that carries joint 6. Pairs that are checked at each configuration
+    /// are not among them.
+    #[must_use]
+    pub fn still_pairs(&self) -> Vec<StillPair> {
+        let once = self.still.iter().filter(|still| !self.pairs.contains(&still.pair));
+        let measured =
+            once.filter_map(|still| still.measured(&self.robot, &self.bodies, |a, b| self.reduced_by_m(a, b)));
+        measured.collect()
     }
 
     /// Distances of all pairs at `q` \[rad\], in the order of [`ClearanceModel::pair_names`].
@@ -357,21 +322,6 @@ pub(crate) fn from_base(to_base: Option<&Pose>, plate: &Plate) -> Plate {
     to_base.map_or(*plate, |to_base| plate.seen_from(to_base))
 }
 
-/// Clearance required of a pair that need not keep all of it \[m\].
-pub(crate) fn required_of(required_m: f64, reduced_by_m: f64) -> f64 {
-    if reduced_by_m == 0.0 {
-        required_m
-    } else {
-        (required_m - reduced_by_m).max(0.0)
-    }
-}
-
-/// True if a distance \[m\] keeps the required clearance \[m\]. If that is 0, only contact breaks it. False for NaN.
-#[must_use]
-pub fn is_clear(distance_m: f64, required_m: f64) -> bool {
-    distance_m > 0.0 && distance_m >= required_m
-}
-
 pub(crate) fn nearest(separations: impl Iterator<Item = Separation>) -> Separation {
     separations
         .min_by(|x, y| x.distance.total_cmp(&y.distance))
@@ -380,52 +330,4 @@ pub(crate) fn nearest(separations: impl Iterator<Item = Separation>) -> Separati
             place: [0.0; 3],
             normal: [0.0; 3],
         })
-}
-
-/// Reason that no clearance model could be built.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ClearanceError {
-    /// The points of a hull span no volume.
-    #[error("body '{}': its hull is flat; a convex hull needs a volume", printable(.link))]
-    FlatHull {
-        /// Name of the link, the body of the tool or the obstacle.
-        link: String,
-    },
-    /// A mesh has too many vertices for its hull to be computed in time.
-    #[error(
-        "body '{}': its collision mesh has {found} vertices; at most {MOST_VERTICES} can be judged: simplify it",
-        printable(.link)
-    )]
-    LargeMesh {
-        /// Name of the link, or the body of the tool.
-        link: String,
-        /// Number of vertices.
-        found: usize,
-    },
-    /// A hull has too many corners to be judged in time.
-    #[error(
-        "body '{}': its convex hull has {found} corners; at most {MOST_CORNERS} can be judged: simplify its collision mesh",
-        printable(.link)
-    )]
-    LargeHull {
-        /// Name of the link, or the body of the tool.
-        link: String,
-        /// Number of corners.
-        found: usize,
-    },
-    /// A pair cannot have a clearance of its own.
-    #[error(
-        "reduced clearance of '{}' and '{}': {fault}; it is for two bodies of the arm or its tool that are checked against each other",
-        printable(&.pair[0]), printable(&.pair[1])
-    )]
-    NotReducible {
-        /// Names of the bodies.
-        pair: [String; 2],
-        /// Reason.
-        fault: &'static str,
-    },
-    /// The arm has no link that carries the tool.
-    #[error(transparent)]
-    Mount(#[from] ToolFrameError),
 }

@@ -15,7 +15,7 @@
 //! No function here allocates.
 
 use crate::clearance::body::BodyKind;
-use crate::clearance::distance::bracketed;
+use crate::clearance::distance::{ROUNDING_M, bracketed};
 use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
 use crate::clearance::part::{Part, PlacedPart};
@@ -25,9 +25,6 @@ use platewash_kinematics::{BodyPoses, JointVector};
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
-
-/// Error of a closed form or a support function \[m\].
-pub(crate) const ROUNDING_M: f64 = 1e-9;
 
 /// Kind of a pair, for rules that depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -253,7 +250,7 @@ impl<'a> PartPair<'a> {
         (self.fixed.place(poses).pose.rotation * Vector::from_array(normal)).to_array()
     }
 
-    /// Measures the distance.
+    /// Measures the distance. Its proved lower bound is g(t_m) of formula (24.2), and its direction an n for formula (24.3).
     pub fn measure(&self, mover: &Mover<'_>) -> PartDistance {
         let (fixed, moving) = (self.fixed.place(mover.poses), mover.placed());
         let (found, at_least) = bracketed(&fixed, moving);
@@ -266,14 +263,16 @@ impl<'a> PartPair<'a> {
         }
     }
 
-    /// Gap along a direction in the frame of the fixed part: a lower bound of the distance \[m\], rounding included.
+    /// Gap g along a direction in the frame of the fixed part, formula (24.3): a lower bound of the distance \[m\], rounding included.
+    /// `normal` is n.
     pub fn gap_along(&self, normal: [f64; 3], poses: &BodyPoses) -> f64 {
         let fixed = self.fixed.place(poses);
         let normal = fixed.pose.rotation * Vector::from_array(normal);
         gap_between(&fixed, &self.moving.place(poses), normal)
     }
 
-    /// Gap along a direction in the base frame. If the fixed part stands still, that is a direction in its frame.
+    /// Gap g along a direction in the base frame \[m\], formula (24.3). `normal` is n. If the fixed part stands still, that is a direction
+    /// in its frame.
     pub fn gap_along_in_base(&self, normal: [f64; 3], mover: &Mover<'_>) -> f64 {
         gap_between(
             &self.fixed.place(mover.poses),
@@ -282,22 +281,23 @@ impl<'a> PartPair<'a> {
         )
     }
 
-    /// Levers of the moving part while each joint is within `drift` \[rad\] of the configuration of `mover`.
+    /// Levers ρ of the moving part while each joint is within `drift` \[rad\] of the configuration of `mover`, formula (0.2).
     pub fn levers(&self, mover: &Mover<'_>, drift: &JointVector) -> Levers {
         let point = mover.rigid.translation;
         let here = self.moving.widened(&lever::at(mover.poses, self.moving.body(), &point));
         lever::within(&lever::from(&here, self.joints.start), drift, &self.greatest)
     }
 
-    /// Upper bound on the acceleration of the moving part's points relative to the fixed part \[m/s²\], for joint speeds \[rad/s\] and
-    /// accelerations \[rad/s²\] up to those given.
+    /// Upper bound A on the acceleration of the moving part's points relative to the fixed part \[m/s²\], formula (24.3). `levers` is ρ,
+    /// `speed` is D₁ \[rad/s\], `acceleration` is D₂ \[rad/s²\].
     pub fn acceleration(&self, levers: &Levers, speed: &JointVector, acceleration: &JointVector) -> f64 {
         let first = self.joints.start;
         lever::tuples(levers, first, [acceleration]) + lever::tuples(levers, first, [speed, speed])
     }
 }
 
-/// Gap between two parts along a direction in the base frame: a lower bound of the distance \[m\], rounding included.
+/// Gap g = min n·b − max n·a between two parts along a direction in the base frame, formula (24.3): a lower bound of the distance \[m\], rounding
+/// included. `normal` is n.
 fn gap_between(fixed: &PlacedPart<'_>, moving: &PlacedPart<'_>, normal: Vector) -> f64 {
     // Over a half-space there is one direction with a gap, which is fixed to it.
     let outwards = || moving.outwards().map(|outwards| -outwards);

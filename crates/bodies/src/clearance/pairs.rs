@@ -6,11 +6,11 @@
 
 use crate::clearance::body::{Body, BodyKind, is_of_arm, part_pairs, place, world};
 use crate::clearance::distance::separation;
-use crate::clearance::model::{ClearanceError, ClearanceModel};
+use crate::clearance::error::ClearanceError;
 use crate::clearance::still::{CARRIER, Still, height_change_m, turn_m};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
+use platewash_workcell::{Exclusion, ExclusionReason, Obstacle, ReducedClearance, is_pair};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -141,7 +141,12 @@ fn carrying_reason(link: usize, held: &Body, moves: impl Fn(&Body) -> bool) -> O
 
 /// Returns those of some pairs, by index, that touch in every sampled configuration. Neighbouring links of a description without a list
 /// often do by design.
-fn always_touching(robot: &RobotModel, bodies: &[Body], pairs: &[(usize, usize)], mut open: Vec<usize>) -> Vec<usize> {
+pub(crate) fn always_touching(
+    robot: &RobotModel,
+    bodies: &[Body],
+    pairs: &[(usize, usize)],
+    mut open: Vec<usize>,
+) -> Vec<usize> {
     for k in 0..SAMPLES {
         let placed = place(bodies, &robot.fk(&spread(robot, k)));
         open.retain(|&pair| {
@@ -151,16 +156,6 @@ fn always_touching(robot: &RobotModel, bodies: &[Body], pairs: &[(usize, usize)]
         });
     }
     open
-}
-
-impl ClearanceModel {
-    /// True if a pair, by index, touches in each of some configurations spread over the limits of the joints, as links that share a joint or
-    /// surround each other do.
-    #[must_use]
-    pub fn touches_in_samples(&self, pair: usize) -> bool {
-        let pairs = [self.pairs[pair]];
-        !always_touching(&self.robot, &self.bodies, &pairs, vec![0]).is_empty()
-    }
 }
 
 /// Returns evenly spread configurations within the limits: an additive sequence on the generalised golden ratio (Roberts 2018), the first
@@ -192,7 +187,7 @@ impl TouchingPairs {
     ///
     /// # Errors
     /// [`ClearanceError`] for an invalid shape.
-    pub fn of(robot: &RobotModel) -> Result<Self, ClearanceError> {
+    pub fn find(robot: &RobotModel) -> Result<Self, ClearanceError> {
         let found = exclusions(&robot.clone().without_disabled_pairs(), &Tool::none(robot), &[])?;
         let of = |reason: ExclusionReason| {
             let found = found.iter().filter(move |e: &&Exclusion| e.reason == reason);

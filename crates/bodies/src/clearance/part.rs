@@ -136,7 +136,7 @@ impl Part {
                     .iter()
                     .map(|p: &Point3<f64>| Vector::new(p.x, p.y, p.z))
                     .collect();
-                let hull = ConvexHull::of(&vertices)?;
+                let hull = ConvexHull::from_points(&vertices)?;
                 Self::solid(
                     SharedShape::new(hull.solid),
                     Extent::Vertices(hull.corners.into()),

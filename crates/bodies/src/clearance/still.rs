@@ -12,15 +12,16 @@
 
 use crate::clearance::body::{Body, BodyKind, place, world_with};
 use crate::clearance::distance::{Separation, bracketed};
-use crate::clearance::fixed_bodies::{TOUCH_M, depth};
-use crate::clearance::model::{ClearanceError, ClearanceModel, PairClearance, is_clear};
+use crate::clearance::error::ClearanceError;
+use crate::clearance::overlap::{TOUCH_M, depth};
+use crate::clearance::pair_clearance::{PairClearance, is_clear};
 use crate::clearance::part::{Part, PlacedPart};
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{BodyPoses, Frame, JointVector, RobotModel};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{ObstacleShape, ReducedClearance, Workcell, is_pair};
+use platewash_workcell::{ObstacleShape, ReducedClearance, Workcell, is_pair};
 
 /// Body of the arm that carries joint 6.
 pub(crate) const CARRIER: usize = 5;
@@ -57,20 +58,7 @@ impl StillPair {
     }
 }
 
-impl ClearanceModel {
-    /// Returns the pairs whose distance no joint changes, with their distances: a link over a half-space that joint 1 turns about its
-    /// normal, and bodies of the tool round about axis 6 beside the link that carries joint 6. Pairs that are checked at each configuration
-    /// are not among them.
-    #[must_use]
-    pub fn still_pairs(&self) -> Vec<StillPair> {
-        let once = self.still.iter().filter(|still| !self.pairs.contains(&still.pair));
-        let measured =
-            once.filter_map(|still| still.measured(&self.robot, &self.bodies, |a, b| self.reduced_by_m(a, b)));
-        measured.collect()
-    }
-}
-
-/// Same as [`ClearanceModel::still_pairs`] for an arm in its workcell, without the other bodies.
+/// Same as [`ClearanceModel::still_pairs`](crate::clearance::ClearanceModel::still_pairs) for an arm in its workcell, without the other bodies.
 ///
 /// # Errors
 /// [`ClearanceError`] for an invalid shape.
@@ -108,7 +96,7 @@ pub(crate) struct Still {
 impl Still {
     /// Measures the pair; `None` where the second body can meet no part of the first before it meets the flange. `reduced_by_m` is the part
     /// of the required clearance that a pair need not keep \[m\].
-    fn measured(
+    pub fn measured(
         &self,
         robot: &RobotModel,
         bodies: &[Body],
@@ -121,7 +109,7 @@ impl Still {
         if let Some(flange) = &self.mounted_on {
             let middle = Part::ball(0.0, *flange);
             let middle = middle.place(&poses);
-            let plane = Plane::of(flange, &poses);
+            let plane = Plane::from_flange(flange, &poses);
             here.retain(|part| bracketed(part, &middle).1 > TOUCH_M || plane.reach_m(part) > THROUGH_M);
         }
         let mut nearest: Option<Separation> = None;
@@ -197,7 +185,7 @@ struct Plane {
 }
 
 impl Plane {
-    fn of(flange: &Frame, poses: &BodyPoses) -> Self {
+    fn from_flange(flange: &Frame, poses: &BodyPoses) -> Self {
         let RigidTransform { rotation, translation } = poses.rigid(flange);
         let vector = |v: Vector3<f64>| Vector::new(v.x, v.y, v.z);
         Self {
@@ -220,7 +208,7 @@ impl Plane {
 /// True if a body of the tool does not reach behind the flange, and the flange faces away from the link that carries joint 6.
 fn is_in_front(robot: &RobotModel, body: &Body, flange: &Frame) -> bool {
     let poses = robot.fk(&JointVector::zeros());
-    let plane = Plane::of(flange, &poses);
+    let plane = Plane::from_flange(flange, &poses);
     let [x, y, z] = poses.bodies()[CARRIER].translation.into();
     let faces_away = plane.out.dot(plane.at - Vector::new(x, y, z)) > 0.0;
     faces_away

@@ -57,7 +57,7 @@ pub(crate) enum Order {
 }
 
 impl Solid {
-    fn of(plate: &Plate) -> Option<Self> {
+    fn from_plate(plate: &Plate) -> Option<Self> {
         let made = PlateParts::of(plate);
         let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&RigidTransform::from(pose))).ok();
         let whole = part(&made.whole)?;
@@ -114,7 +114,7 @@ fn around(parts: &[Part]) -> Option<Part> {
 impl Tree {
     /// Returns the tree of a plate that is no flat disc, and its parts. The parts of `like` are reused if it has the same shape. `None` for
     /// a disc, and for a plate so thin that its parts have no volume.
-    pub fn of(plate: &Plate, like: Option<&Self>) -> Option<(Self, Vec<Part>)> {
+    pub fn from_plate(plate: &Plate, like: Option<&Self>) -> Option<(Self, Vec<Part>)> {
         if plate.surface.is_flat() {
             return None;
         }
@@ -123,7 +123,7 @@ impl Tree {
             .filter(|solid| solid.is_of(plate));
         let solid = match known {
             Some(solid) => solid.clone(),
-            None => Arc::new(Solid::of(plate)?),
+            None => Arc::new(Solid::from_plate(plate)?),
         };
         let by = RigidTransform::from(&plate.pose);
         let groups = solid.groups.iter().map(|group| Group {

@@ -6,9 +6,9 @@
 //! [`Plate::may_touch_beside`]: platewash_workcell::plate::Plate::may_touch_beside
 
 use crate::clearance::body::{BodyKind, place};
-use crate::clearance::distance::{Separation, bracketed, separation, separation_below};
-use crate::clearance::model::{ClearanceModel, PairClearance, is_clear, nearest, required_of};
-use crate::clearance::motion::ROUNDING_M;
+use crate::clearance::distance::{ROUNDING_M, Separation, bracketed, separation, separation_below};
+use crate::clearance::model::{ClearanceModel, nearest};
+use crate::clearance::pair_clearance::{PairClearance, is_clear, required_of};
 use crate::clearance::part::PlacedPart;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::rotation::RigidTransform;

@@ -1,6 +1,7 @@
 //! Bundles of moments, of which those far from a point are passed over together.
 
-use crate::contact::{Moment, SpongePose};
+use crate::contact::moment::Moment;
+use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -31,7 +32,7 @@ struct Bundle {
 impl Bundles {
     /// Bundles some moments in order.
     #[must_use]
-    pub fn of(moments: &[Moment]) -> Self {
+    pub fn new(moments: &[Moment]) -> Self {
         let mut all = Vec::new();
         Bundle::add(&mut all, moments, 0..moments.len(), &SIZES);
         Self(all)

@@ -6,8 +6,9 @@
 //! the sponge.
 //! Beyond the rim there is nothing: a part that is there in part counts for the greatest force and not for the least.
 
+use crate::contact::foundation::Foundation;
 use crate::contact::parts::{PartBounds, Size, Spread, SurfaceHit};
-use crate::contact::{Foundation, SpongePose};
+use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{sin, sin_cos};
 use platewash_workcell::surface::Surface;
@@ -61,7 +62,7 @@ pub struct Column {
 /// Load on the foam for a pose, as bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Load {
-    /// Least and greatest ∫ max(w, 0) dA \[m³\].
+    /// Least and greatest V = ∫ max(w, 0) dA \[m³\].
     pub volume_m3: [f64; 2],
     /// Upper bound on the compression of the columns \[m\].
     pub deepest_m: f64,
@@ -169,7 +170,7 @@ impl Columns {
         self.parts.iter().map(|part| (part.at, part.share))
     }
 
-    /// Bounds the load on the foam for a pose, with every column compressed by `more_m` more.
+    /// Bounds the load on the foam for a pose: V of formula (31.1) in `docs/contact.md`, with every column compressed by `more_m` more.
     #[must_use]
     pub fn load(&self, surface: &Surface, pose: &SpongePose, more_m: f64) -> Load {
         let mut load = Load::NONE;

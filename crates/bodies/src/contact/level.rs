@@ -1,5 +1,7 @@
 //! Load on the foam by a flat face, from bounds of the tip's height and the tilt alone.
 //!
+//! Formulas (30.1) to (31.2) and (33.3) in `docs/contact.md`.
+//!
 //! With the tip at a height z over the face and the axis tilted by τ, the compression is linear across the sponge: its mean is
 //! m = c − z / cos τ, and at the rim it is m ± k, k = s tan τ. The mean of max(w, 0) over the whole face of the sponge is at least m and,
 //! being convex, at most m where m ≥ k, and at most (m + k)/2, half its greatest value, elsewhere; it grows with m and with k. Seen along
@@ -11,7 +13,8 @@
 //! ∫ W ρ² dA ≤ V d² + 2 d π s³ k / (4 cos τ) + V s² / (2 cos² τ). Columns beyond the rim press nothing: of ∫ max(w, 0) x dA they take no more
 //! than their area times m + k and s.
 
-use crate::contact::{Foundation, HolderVolumes, Press};
+use crate::contact::foundation::Foundation;
+use crate::contact::plate_load::{HolderVolumes, Press};
 use platewash_kinematics::trig::acos;
 use std::f64::consts::PI;
 
@@ -29,9 +32,9 @@ pub struct Level {
 /// Load on the foam by a flat face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPress {
-    /// Least and greatest ∫ max(w, 0) dA \[m³\].
+    /// Least and greatest V = ∫ max(w, 0) dA \[m³\].
     pub volume_m3: [f64; 2],
-    /// Greatest compression on the sponge's axis, and an upper bound on that of all columns \[m\].
+    /// Greatest compression on the sponge's axis, m, and an upper bound on that of all columns, m + k \[m\].
     pub deepest_m: [f64; 2],
     /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis.
     pub twist_m4: f64,
@@ -52,7 +55,8 @@ impl From<LevelPress> for Press {
 }
 
 impl Foundation {
-    /// Bounds the load on the foam by a flat face with a rim.
+    /// Bounds the load on the foam by a flat face with a rim: the greatest compression m + k of formula (30.1), V of formula (31.1), the torque of
+    /// formula (31.2) divided by μ E/H, and ∫ W ρ dA of formula (33.3) divided by cos τ. `level` has z, cos τ and d, `rim_m` is the radius of the plate.
     #[must_use]
     pub fn level_press(&self, level: &Level, rim_m: f64) -> LevelPress {
         let Level {
@@ -92,7 +96,8 @@ impl Foundation {
     }
 }
 
-/// Upper bound on the area of a disc, at a distance from the axis, beyond a rim about the axis \[m²\].
+/// Upper bound on the area of a disc beyond a rim about the axis \[m²\], for V beyond the rim in formula (31.1). `disc_m` is the radius of
+/// the disc, s / cos τ, `distance_m` is that of its middle from the axis, d, and `rim_m` is the radius of the rim.
 fn beyond_rim_m2(disc_m: f64, distance_m: f64, rim_m: f64) -> f64 {
     let (r, d, big) = (disc_m, distance_m, rim_m);
     let whole = PI * r * r;

@@ -17,7 +17,7 @@
 //!
 //! The bend of a face between two distances from its axis is looked up in a table: the curvatures of narrow rings.
 
-use crate::contact::Foundation;
+use crate::contact::foundation::Foundation;
 use crate::contact::moment::Drift;
 use nalgebra::{Vector2, Vector3};
 use platewash_workcell::surface::{Patch, Surface};
@@ -103,8 +103,8 @@ impl Spread {
         unsure_m: 0.0,
     };
 
-    /// Returns the spread of a sponge. Its parts reach `reach_m` from their middles, which meet the surface no farther than `along_m` along
-    /// its axis at both ends.
+    /// Returns the spread of a sponge: h/2, |v|, |r̈| and |ȧ| of the head of this file. `drift` bounds the motion of its tip and axis. Its
+    /// parts reach `reach_m` from their middles, which meet the surface no farther than `along_m` along its axis at both ends.
     pub fn new(foundation: &Foundation, reach_m: f64, along_m: f64, drift: &Drift) -> Self {
         let s = foundation.radius_m;
         let half_s = 0.5 * drift.length_s;
@@ -154,8 +154,9 @@ impl PartBounds {
         sag_m: f64::INFINITY,
     };
 
-    /// Bounds a part between two moments, on a face whose `curvatures` returns the least and greatest one between two distances from its
-    /// axis.
+    /// Bounds w of formula (27.1) in `docs/contact.md`, and cos γ, of a part between two moments, as the head of this file derives. `from`
+    /// and `to` are the values at its middle at both, `size` has r and the mean of r², `spread` has h/2, |v|, |r̈| and |ȧ|. `curvatures`
+    /// returns the least and greatest K of the face between two distances from its axis.
     pub fn over(
         [from, to]: [&SurfaceHit; 2],
         size: &Size,
@@ -217,7 +218,7 @@ impl PartBounds {
         Self::UNKNOWN
     }
 
-    /// Upper bound on the mean of max(w, 0) \[m\]. This function is convex, and no higher than the chord between its extremes.
+    /// Upper bound on the mean of max(w, 0) over the part \[m\]. This function of w is convex, and no higher than the chord between its extremes.
     pub fn most_mean_m(&self) -> f64 {
         let ([least, most], [_, mean]) = (self.ends_m, self.mean_m);
         if most <= 0.0 {
@@ -272,7 +273,7 @@ pub struct Bends<'a> {
 impl<'a> Bends<'a> {
     /// Computes the table of a face.
     #[must_use]
-    pub fn of(surface: &'a Surface) -> Self {
+    pub fn new(surface: &'a Surface) -> Self {
         let rim_m = surface.rim_m();
         let width_m = rim_m / RINGS as f64;
         // Wider than the ring by more than what is rounded where a distance finds its ring.
@@ -372,7 +373,7 @@ mod tests {
             let surface = Surface::shipped(platewash_workcell::surface::SHIPPED_PROFILES[profile]).unwrap();
             let (far, ring) = (near + wide, 1.01 * surface.rim_m() / RINGS as f64);
             prop_assume!(far > 0.0);
-            let found = Bends::of(&surface).between([near, far]);
+            let found = Bends::new(&surface).between([near, far]);
             let exact = surface.patch([near.max(0.0), far]).curvature;
             let wider = surface.patch([(near - ring).max(0.0), far + ring]).curvature;
             // If sin β / ρ is constant, it is rounded differently everywhere.

@@ -1,5 +1,7 @@
 //! Load on the foam by a plate over a stretch of time, for every plate height within its error.
 //!
+//! The integrals of formulas (31.1), (31.2), (33.1) and (33.2) in `docs/contact.md`, column by column.
+//!
 //! The bounds of every part of the sponge's face, from the points where its middle meets the plate at both ends of the stretch, are in
 //! `parts.rs`.
 //!
@@ -14,22 +16,23 @@
 //! normal, whose share across the axis is |sin β|, β the slope of the face: at most the greatest one between the distances at which the part
 //! is met. The normals of a face of revolution meet its axis: what turns the plate about it is friction alone, with ρ as its lever.
 
-use crate::contact::SpongePose;
 use crate::contact::columns::{Columns, meet_from};
 use crate::contact::moment::Drift;
 use crate::contact::parts::{Bends, PartBounds, Size, Spread, SurfaceHit};
+use crate::contact::sponge_pose::SpongePose;
 use nalgebra::Vector3;
 
 /// Upper bounds of what the holder of a plate takes, as volumes of foam, with γ the angle between the sponge's axis and the normal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HolderVolumes {
-    /// ∫ max(w, 0) / cos γ dA \[m³\]: what is pressed along normals.
+    /// ∫ max(w, 0) / cos γ dA \[m³\]: what is pressed along normals, N of formula (33.1) divided by E/H.
     pub normal_m3: f64,
-    /// ∫ max(w, 0) |sin β| / cos γ dA \[m³\], β the slope of the face: what of it pushes across the plate's axis.
+    /// ∫ max(w, 0) |sin β| / cos γ dA \[m³\], β the slope of the face: what of it pushes across the plate's axis, for x̄ of formula (33.1).
     pub slope_m3: f64,
-    /// ∫ max(w, 0) ρ / cos γ dA \[m⁴\], ρ the distance from the plate's axis.
+    /// ∫ max(w, 0) ρ / cos γ dA \[m⁴\], ρ the distance from the plate's axis: the torque of formula (33.2) divided by μ E/H.
     pub turn_m4: f64,
-    /// ‖∫ max(w, 0) x / cos γ dA‖ \[m⁴\], x the place across the sponge from its axis; infinite where it is not bounded.
+    /// ‖∫ max(w, 0) x / cos γ dA‖ \[m⁴\], for O of formula (33.5); x is the place across the sponge from its axis; infinite where it is not
+    /// bounded.
     pub lean_m4: f64,
 }
 
@@ -58,11 +61,11 @@ impl HolderVolumes {
 /// Load on the foam by a plate, for every height within its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Press {
-    /// Bounds on ∫ max(w, 0) dA \[m³\]: the least with the plate at its lowest, the greatest with it at its highest.
+    /// Bounds on V = ∫ max(w, 0) dA, formula (31.1) \[m³\]: the least with the plate at its lowest, the greatest with it at its highest.
     pub volume_m3: [f64; 2],
-    /// Upper bound on the compression of the columns \[m\].
+    /// Upper bound on the compression w of the columns, H times the strain of requirement 30 \[m\].
     pub deepest_m: f64,
-    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis.
+    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\], r the distance from the sponge's axis: the torque of formula (31.2) divided by μ E/H.
     pub twist_m4: f64,
     /// Upper bounds of what the plate's holder takes.
     pub holder: HolderVolumes,
@@ -94,7 +97,7 @@ impl Press {
         sag_m: 0.0,
     };
 
-    /// Adds a part on a plate with the given rim.
+    /// Adds a part to V, to the twist and to the holder's integrals. `both` has its bounds, `size` its measures, `bends` the rim and |sin β|.
     fn add(&mut self, both: &PlatePartBounds, size: &Size, bends: &Bends<'_>) {
         let rim_m = bends.rim_m();
         let PlatePartBounds { low, high, .. } = both;
@@ -163,8 +166,8 @@ struct PlatePartBounds {
 }
 
 impl Columns {
-    /// Computes the state of the sponge on a surface that may lie higher and lower by `error_m` \[m\]. `side` is a direction that turns
-    /// with the tool, across its axis.
+    /// Computes the state of the sponge on a surface: w of formula (27.1) where each column meets it, with the plate at its lowest and at
+    /// its highest. `pose` has p and a, `error_m` is δ \[m\]. `side` is a direction that turns with the tool, across its axis.
     #[must_use]
     pub fn sponge_state(&self, bends: &Bends<'_>, pose: &SpongePose, side: &Vector3<f64>, error_m: f64) -> SpongeState {
         let (surface, rim_m, axis) = (bends.surface(), bends.rim_m(), &pose.axis);
@@ -205,7 +208,8 @@ impl Columns {
         standing
     }
 
-    /// Bounds the load on the foam from one moment to another.
+    /// Bounds the load on the foam from one moment to another: the integrals of formulas (31.1), (31.2), (33.1) and (33.2). `drift` bounds
+    /// the motion between both.
     #[must_use]
     pub fn bound_load(&self, bends: &Bends<'_>, ends: [&SpongeState; 2], drift: &Drift) -> Press {
         let mut press = Press::NONE;

@@ -1,14 +1,16 @@
 //! Share of a plate that the sponge sweeps.
 
+mod error;
 mod picture;
 mod raster;
 
-pub use crate::coverage::picture::{CoverageRaster, MAX_CELLS, RasterCell, raster};
+pub use crate::coverage::error::{CoverageError, MAX_CELLS};
+pub use crate::coverage::picture::{CoverageRaster, RasterCell, raster};
 pub use crate::coverage::raster::area_of_rectangle_in_disc;
 
-use crate::coverage::raster::{Capsule, Raster, UnsweptArea};
+use crate::coverage::error::check_lengths;
+use crate::coverage::raster::{Capsule, Raster, UnsweptArea, capsules};
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 /// Least edge of the cells as a part of the plate's radius, so that every call ends soon.
 pub const SMALLEST_CELL: f64 = 1e-5;
@@ -43,43 +45,6 @@ impl Coverage {
     pub fn error(&self) -> f64 {
         self.upper - self.lower
     }
-}
-
-/// Invalid number in a request.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum CoverageError {
-    /// A point of the path is not finite.
-    #[error("point {index} of the path is not finite")]
-    PathNotFinite {
-        /// Index of the point, from 0.
-        index: usize,
-    },
-    /// The centre of the disc is not finite.
-    #[error("the centre of the disc is not finite")]
-    CentreNotFinite,
-    /// A length is not finite or not greater than zero.
-    #[error("{quantity} = {value_m} m is not a finite length greater than zero")]
-    NotPositive {
-        /// Name of the length.
-        quantity: &'static str,
-        /// Value \[m\].
-        value_m: f64,
-    },
-    /// The cells are so small that the raster would take too long.
-    #[error("cell_m = {cell_m} m is less than {smallest_m} m, 1e-5 of the disc's radius")]
-    CellTooSmall {
-        /// Edge of the cells \[m\].
-        cell_m: f64,
-        /// Least edge for this disc \[m\].
-        smallest_m: f64,
-    },
-    /// The raster has no cells, or too many.
-    #[error("a raster has from 1 to {MAX_CELLS} cells along an edge; found {cells}")]
-    Cells {
-        /// Number of cells along an edge.
-        cells: usize,
-    },
 }
 
 /// Computes the part of a disc that a round sponge sweeps while its centre follows a polyline.
@@ -127,19 +92,6 @@ pub fn coverage_of_strokes<P: AsRef<[[f64; 2]]>>(
     Ok(as_fractions(&uncovered, std::f64::consts::PI * radius_m * radius_m))
 }
 
-/// Returns one capsule per segment, relative to the disc's centre.
-fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
-    let about_centre = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
-    match polyline {
-        [] => Vec::new(),
-        &[point] => vec![Capsule::new(about_centre(point), about_centre(point))],
-        _ => polyline
-            .windows(2)
-            .map(|ends| Capsule::new(about_centre(ends[0]), about_centre(ends[1])))
-            .collect(),
-    }
-}
-
 fn as_fractions(unswept: &UnsweptArea, disc_area: f64) -> Coverage {
     let covered = |uncovered_area: f64, rounding: f64| (1.0 - uncovered_area / disc_area + rounding).clamp(0.0, 1.0);
     let (lower, upper) = (covered(unswept.at_most, -ROUNDING), covered(unswept.at_least, ROUNDING));
@@ -168,24 +120,5 @@ fn validate<'a>(
         Err(CoverageError::CellTooSmall { cell_m, smallest_m })
     } else {
         Ok(())
-    }
-}
-
-/// Refuses points that are not finite and lengths that are not greater than zero.
-fn check_lengths<'a>(
-    mut points: impl Iterator<Item = &'a [f64; 2]>,
-    centre: [f64; 2],
-    lengths: &[(&'static str, f64)],
-) -> Result<(), CoverageError> {
-    let finite = |p: &[f64; 2]| p.iter().all(|c| c.is_finite());
-    if let Some(index) = points.position(|p| !finite(p)) {
-        return Err(CoverageError::PathNotFinite { index });
-    }
-    if !finite(&centre) {
-        return Err(CoverageError::CentreNotFinite);
-    }
-    match lengths.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
-        Some(&(quantity, value_m)) => Err(CoverageError::NotPositive { quantity, value_m }),
-        None => Ok(()),
     }
 }

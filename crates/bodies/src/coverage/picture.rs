@@ -1,11 +1,8 @@
 //! The swept part of a disc as a regular raster, for display.
 
-use crate::coverage::raster::Capsule;
-use crate::coverage::{CoverageError, capsules, check_lengths};
+use crate::coverage::error::{CoverageError, MAX_CELLS, check_lengths};
+use crate::coverage::raster::{Capsule, capsules};
 use rayon::prelude::*;
-
-/// Greatest number of cells along an edge of a raster.
-pub const MAX_CELLS: usize = 4096;
 
 /// State of a cell of a raster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -244,6 +244,19 @@ impl Capsule {
     }
 }
 
+/// Returns one capsule per segment, relative to the disc's centre.
+pub(super) fn capsules(polyline: &[[f64; 2]], centre: [f64; 2]) -> Vec<Capsule> {
+    let about_centre = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
+    match polyline {
+        [] => Vec::new(),
+        &[point] => vec![Capsule::new(about_centre(point), about_centre(point))],
+        _ => polyline
+            .windows(2)
+            .map(|ends| Capsule::new(about_centre(ends[0]), about_centre(ends[1])))
+            .collect(),
+    }
+}
+
 /// Returns the range of y with least ≤ slope · y + offset ≤ most; all y if the slope is zero and the offset fits.
 fn solutions(slope: f64, offset: f64, [least, most]: [f64; 2]) -> Option<[f64; 2]> {
     if slope == 0.0 {

@@ -2,9 +2,9 @@
 
 use crate::clearance::{ClearanceError, FixedBody, FixedOverlap, StillPair};
 use platewash_kinematics::LimitViolation;
+use platewash_workcell::ArmId;
 use platewash_workcell::job::TermsError;
 use platewash_workcell::words::{millimetres, printable};
-use platewash_workcell::workcell::ArmId;
 use serde::{Deserialize, Serialize};
 
 /// Reason that a job is invalid.

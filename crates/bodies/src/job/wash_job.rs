@@ -3,9 +3,9 @@
 use crate::job::error::{End, JobError};
 use crate::job::standing::check_standing;
 use platewash_kinematics::RobotModel;
+use platewash_workcell::ArmId;
 use platewash_workcell::job::{JobTerms, TermsError};
 use platewash_workcell::plate::Plate;
-use platewash_workcell::workcell::ArmId;
 use std::borrow::Cow;
 use std::sync::Arc;
 

@@ -3,14 +3,14 @@
 //! Requirement 5 of `docs/certificate.md`.
 
 use crate::clearance::pairs::PairBound;
+use crate::judged_job::JudgedJob;
 use crate::report::check::{Check, Discrepancy, Status};
 use crate::report::requirement::Requirement;
-use crate::subject::Subject;
 use platewash_bodies::clearance::{self, ClearanceError, ClearanceModel};
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_workcell::job::NEARER_M;
 use platewash_workcell::words::{millimetres, pair_text, plate_name};
-use platewash_workcell::workcell::{Exclusion, ReducedClearance, Workcell, is_pair};
+use platewash_workcell::{Exclusion, ReducedClearance, Workcell, is_pair};
 use std::collections::BTreeSet;
 
 /// Excluded pairs: those that follow from the arm, and those that only the job excludes.
@@ -27,9 +27,9 @@ impl Exclusions {
     ///
     /// # Errors
     /// [`ClearanceError`] for a shape that is none.
-    pub fn of(subject: &Subject<'_>) -> Result<Self, ClearanceError> {
-        let world = &subject.job.workcell;
-        let own = clearance::exclusions(subject.robot, &world.tool, &world.obstacles)?;
+    pub fn find(judged: &JudgedJob<'_>) -> Result<Self, ClearanceError> {
+        let world = &judged.job.workcell;
+        let own = clearance::exclusions(judged.robot, &world.tool, &world.obstacles)?;
         let others = world.exclusions.iter().filter(|stated| !own.contains(stated));
         let waived = others.cloned().collect();
         Ok(Self { own, waived })
@@ -39,12 +39,12 @@ impl Exclusions {
     ///
     /// # Errors
     /// [`ClearanceError`] for a shape that is none.
-    pub fn model(&self, subject: &Subject<'_>) -> Result<ClearanceModel, ClearanceError> {
+    pub fn model(&self, judged: &JudgedJob<'_>) -> Result<ClearanceModel, ClearanceError> {
         let world = Workcell {
             exclusions: self.own.clone(),
-            ..subject.job.workcell.clone()
+            ..judged.job.workcell.clone()
         };
-        ClearanceModel::new(subject.robot, &world, subject.plates())
+        ClearanceModel::new(judged.robot, &world, judged.plates())
     }
 
     /// Returns the indices of the model's pairs that only the job excludes.
@@ -56,11 +56,11 @@ impl Exclusions {
 
     /// Checks that the job excludes the pairs that follow from the arm, and that every body has a shape and a unique name. A pair that only
     /// the job excludes keeps clear, or is named as waived.
-    pub fn check(&self, subject: &Subject<'_>, model: &ClearanceModel, clearance: &[PairBound]) -> Check {
-        let mut wrong = shapeless(subject);
-        wrong.extend(twice(subject));
-        wrong.extend(not_near_at_stop(subject, model));
-        let stated = &subject.job.workcell.exclusions;
+    pub fn check(&self, judged: &JudgedJob<'_>, model: &ClearanceModel, clearance: &[PairBound]) -> Check {
+        let mut wrong = shapeless(judged);
+        wrong.extend(twice(judged));
+        wrong.extend(not_near_at_stop(judged, model));
+        let stated = &judged.job.workcell.exclusions;
         let missing = self.own.iter().filter(|own| !stated.contains(own));
         wrong.extend(missing.map(|own| {
             let what = format!("exclusion of {}", exclusion_text(own));
@@ -88,21 +88,21 @@ impl Exclusions {
         }
         let near = clearance.iter().filter(|line| line.status == Status::Waived);
         let near = near
-            .map(|line| not_clear(line, subject.job.requirements.clearance_m))
+            .map(|line| not_clear(line, judged.job.requirements.clearance_m))
             .collect();
         Check::stated(Requirement::Exclusions, near).waived_if(true)
     }
 }
 
 /// Finds pairs that the job calls near at the stop and that are farther apart there: each keeps what it has, less a little.
-fn not_near_at_stop(subject: &Subject<'_>, model: &ClearanceModel) -> Vec<Discrepancy> {
-    let reduced = &subject.job.workcell.reduced_clearances;
+fn not_near_at_stop(judged: &JudgedJob<'_>, model: &ClearanceModel) -> Vec<Discrepancy> {
+    let reduced = &judged.job.workcell.reduced_clearances;
     if !reduced.iter().any(|reduced| reduced.at_stop) {
         return Vec::new();
     }
-    let there = model.all(&subject.job.home_rad[0]);
+    let there = model.all(&judged.job.home_rad[0]);
     let too_little = |reduced: &&ReducedClearance| {
-        let kept_m = subject.job.requirements.clearance_m - reduced.by_m;
+        let kept_m = judged.job.requirements.clearance_m - reduced.by_m;
         let found = there.iter().find(|pair| is_pair(&reduced.pair, (&pair.a, &pair.b)))?;
         (kept_m < found.distance_m - NEARER_M - ROUNDING_M).then(|| {
             let what = format!("clearance of {}, as near at the stop", pair_text(&reduced.pair));
@@ -130,8 +130,8 @@ fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {
 }
 
 /// Finds bodies of the arm without a shape. They keep clear of nothing.
-fn shapeless(subject: &Subject<'_>) -> Vec<Discrepancy> {
-    let wrong = bodies_without_shape(subject.robot).into_iter().map(|names| {
+fn shapeless(judged: &JudgedJob<'_>) -> Vec<Discrepancy> {
+    let wrong = bodies_without_shape(judged.robot).into_iter().map(|names| {
         let names: Vec<_> = names.iter().map(|name| format!("{name:?}")).collect();
         let what = format!("collision geometry of {}", names.join(", "));
         Discrepancy::new(what, "none", "a shape, so that its clearance can be proved")
@@ -154,8 +154,8 @@ pub(crate) fn bodies_without_shape(robot: &RobotModel) -> Vec<Vec<&str>> {
 }
 
 /// Finds names that more than one body has. Exclusions refer to bodies by name.
-fn twice(subject: &Subject<'_>) -> Vec<Discrepancy> {
-    let again = bodies_named_twice(subject.robot, &subject.job.workcell, subject.plates().len());
+fn twice(judged: &JudgedJob<'_>) -> Vec<Discrepancy> {
+    let again = bodies_named_twice(judged.robot, &judged.job.workcell, judged.plates().len());
     let wrong = again
         .into_iter()
         .map(|name| Discrepancy::new(format!("bodies named {name:?}"), "more than one", "one"));
@@ -184,16 +184,16 @@ fn exclusion_text(exclusion: &Exclusion) -> String {
 mod tests {
     use super::*;
     use platewash_fixtures::kitchen;
+    use platewash_workcell::ExclusionReason;
     use platewash_workcell::job::JobTerms;
-    use platewash_workcell::workcell::ExclusionReason;
 
     #[test]
     fn only_pairs_that_follow_from_the_arm_are_excluded_without_a_waiver() {
         let job = kitchen();
         let mut terms = job.terms().clone();
         let waived = |terms: &JobTerms| {
-            let subject = Subject::new(terms, job.arm(), Vec::new());
-            Exclusions::of(&subject).unwrap().waived
+            let judged = JudgedJob::new(terms, job.arm(), Vec::new());
+            Exclusions::find(&judged).unwrap().waived
         };
         assert_eq!(waived(&terms), []);
         let added = Exclusion {

@@ -68,7 +68,7 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// Bounds the distance of some obstacles over an interval.
+    /// Bounds the distance of some obstacles over an interval, formula (24.2) in `docs/certificate.md`.
     fn bound_obstacles(&mut self, interval: &Interval, obstacles: &[usize]) {
         let (_, q) = self.timeline.middle(interval);
         let poses = &*self.poses.middle(interval, &q);

@@ -3,12 +3,12 @@
 use crate::clearance::exclusions::Exclusions;
 use crate::clearance::pairs::may_touch;
 use crate::error::ProveError;
-use crate::statements::wash_paths;
-use crate::subject::Subject;
+use crate::judged_job::JudgedJob;
+use crate::plan_statements::wash_paths;
 use platewash_bodies::clearance::{ClearanceModel, NearestBodies};
 use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::Plan;
-use platewash_workcell::workcell::Workcell;
+use platewash_workcell::Workcell;
 
 /// The pairs of bodies that count in each segment of a plan: all but those that follow from the arm and its SRDF, those that the job
 /// waives, and the sponge with the plates that it may touch in that segment.
@@ -27,8 +27,8 @@ impl ClearanceRule {
     pub fn new(plan: &Plan, arm: &RobotModel) -> Result<Self, ProveError> {
         plan.job.validate().map_err(ProveError::Job)?;
         let plan = &*plan.seen_from_base();
-        let subject = Subject::new(&plan.job, arm, wash_paths::by_plate(plan));
-        let exclusions = Exclusions::of(&subject)?;
+        let judged = JudgedJob::new(&plan.job, arm, wash_paths::by_plate(plan));
+        let exclusions = Exclusions::find(&judged)?;
         let world = Workcell {
             exclusions: exclusions.own.into_iter().chain(exclusions.waived).collect(),
             ..plan.job.workcell.clone()
@@ -37,7 +37,7 @@ impl ClearanceRule {
         let touchable = |(kind, on)| {
             plates
                 .clone()
-                .filter(|&plate| may_touch(&subject, kind, on, plate))
+                .filter(|&plate| may_touch(&judged, kind, on, plate))
                 .collect()
         };
         let segments = plan.segments.iter().map(|segment| (segment.kind, segment.plate));

@@ -10,11 +10,12 @@
 use crate::clearance::far::far;
 use crate::clearance::poses::ArmPoses;
 use crate::clearance::search::{FINE_M, Goal, PairDistance, Search};
+use crate::judged_job::JudgedJob;
 use crate::motion::timeline::Timeline;
-use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
+use crate::plan_statements::schedule::{Schedule, Span};
+use crate::report::check::{Check, Measure, Sense, Status, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span};
-use crate::subject::Subject;
+use crate::report::unit::Unit;
 use crate::washing::reach;
 use platewash_bodies::clearance::motion::{PairKind, PartPairs};
 use platewash_bodies::clearance::{ClearanceModel, StillPair};
@@ -92,16 +93,16 @@ struct Task {
 /// # Errors
 /// [`Cancelled`].
 pub(crate) fn judge(
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     model: &ClearanceModel,
     waived: &[usize],
     timeline: &Timeline<'_>,
     schedule: Option<&Schedule>,
     cancel: &CancelToken,
 ) -> Result<Vec<PairBound>, Cancelled> {
-    let tasks = tasks(subject, model, waived, timeline, schedule);
-    let limit_m = subject.job.requirements.clearance_m;
-    let mut lines = judge_tasks(subject.robot, limit_m, model, &tasks, timeline, cancel)?;
+    let tasks = tasks(judged, model, waived, timeline, schedule);
+    let limit_m = judged.job.requirements.clearance_m;
+    let mut lines = judge_tasks(judged.robot, limit_m, model, &tasks, timeline, cancel)?;
     add_still(limit_m, model, &mut lines);
     Ok(lines)
 }
@@ -411,7 +412,7 @@ fn check(requirement: Requirement, limit_m: f64, lines: &[&PairBound]) -> Check 
 
 /// Returns the rules of each pair, and when they hold. The schedule states when the sponge works on which plate; without one that is unknown.
 fn tasks(
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     model: &ClearanceModel,
     waived: &[usize],
     timeline: &Timeline<'_>,
@@ -445,7 +446,7 @@ fn tasks(
             }
             (Some(schedule), PairKind::SpongeAndPlate(plate)) => (schedule, plate),
         };
-        let touches = |span: &Span| may_touch(subject, span.kind, span.plate, plate);
+        let touches = |span: &Span| may_touch(judged, span.kind, span.plate, plate);
         let clear = joined(schedule, |span| !touches(span));
         if !clear.is_empty() {
             add(keeps, Some(clear), Vec::new());
@@ -461,8 +462,8 @@ fn tasks(
 }
 
 /// True if the sponge may touch `plate` during a segment of this kind at the plate `on`.
-pub(crate) fn may_touch(subject: &Subject<'_>, kind: SegmentKind, on: usize, plate: usize) -> bool {
-    kind.is_at_plate() && (on == plate || reach::is_within_reach(subject, on, plate))
+pub(crate) fn may_touch(judged: &JudgedJob<'_>, kind: SegmentKind, on: usize, plate: usize) -> bool {
+    kind.is_at_plate() && (on == plate || reach::is_within_reach(judged, on, plate))
 }
 
 /// Returns the piece ranges of some spans, with neighbours joined.

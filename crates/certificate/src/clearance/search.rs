@@ -1,5 +1,7 @@
 //! Clearance of one pair of bodies over stretches of time: branch and bound, the least bound first.
 //!
+//! Formulas (24.2) and (24.3) in `docs/certificate.md`.
+//!
 //! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
 //! from its ends by what the parts can accelerate, and jump in speed ([`platewash_bodies::clearance::motion`]). The interval with the least bound is
 //! halved until that is good enough: the limit kept and the least distance found nearly reached. A body of many parts is looked at as a
@@ -118,7 +120,8 @@ struct Stay<'a> {
     time_s: f64,
     mover: &'a Mover<'a>,
     ends: [Mover<'a>; 2],
-    /// Greatest loss of distance compared with the middle, and of a gap compared with both ends \[m\].
+    /// Greatest loss of distance compared with the middle, Σ ρ |Δq| of formula (24.2), and of a gap compared with both ends, A h²/8 + J h/4 of
+    /// formula (24.3) \[m\].
     fall: f64,
     sag: f64,
 }
@@ -245,8 +248,8 @@ impl<'a> Search<'a> {
         }));
     }
 
-    /// Returns a lower bound over an interval, and the direction that led to it. Tries spheres around the parts, then the known direction,
-    /// then the nearest points, until a bound is good enough.
+    /// Returns a lower bound on d over an interval \[m\], the greater one of formulas (24.2) and (24.3), and the direction n that led to it. Tries
+    /// spheres around the parts, then `known`, the n of an interval around this one, then the nearest points, until a bound is good enough.
     fn bound(
         &mut self,
         part: usize,
@@ -302,9 +305,9 @@ impl<'a> Search<'a> {
         (aside.map_or(displaced, |aside| displaced.max(aside)), measured.normal)
     }
 
-    /// Returns a lower bound over an interval on the distance of the pairs of parts that a pair holds. The nearest are examined first,
-    /// until the rest is far enough or one is too near: each from the sphere around it, along the direction of the one before, then from
-    /// its nearest points.
+    /// Returns a lower bound over an interval on the distance of the pairs of parts that a pair holds \[m\], formulas (24.2) and (24.3).
+    /// `stay` has the terms that are subtracted, which hold for all of them. The nearest are examined first, until the rest is far enough
+    /// or one is too near: each from the sphere around it, along the direction of the one before, then from its nearest points.
     fn survey<'s>(&mut self, part: usize, stay: &Stay<'s>) -> f64
     where
         'a: 's,

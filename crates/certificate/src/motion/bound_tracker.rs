@@ -117,8 +117,8 @@ impl BoundTracker {
         }
     }
 
-    /// Bounds a stretch whose ends were recorded. `value` is the quantity at a moment; the other function bounds its rise above the greater
-    /// end within a stretch (by its second derivative in the sense of [`crate::motion::tip`], and by rounding where that matters).
+    /// Bounds a stretch whose ends were recorded, by formula (0.1) in `docs/certificate.md`. `value` is ‖f‖ at a moment. `beyond` is
+    /// h²/8 · sup ‖f″‖ of a stretch, with the rounding where that matters.
     pub fn refine(
         &mut self,
         arm: &Arm<'_>,

@@ -3,11 +3,12 @@
 //!
 //! Requirements 12–14, formulas (12.1) and (12.2) in `docs/certificate.md`.
 
+use crate::judged_job::JointLimits;
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::plan_statements::schedule::Schedule;
+use crate::report::check::{Check, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::Schedule;
-use crate::subject::JointLimits;
+use crate::report::unit::Unit;
 use platewash_kinematics::AXES;
 
 /// The worst joint so far, compared by margin for positions, and by share of the limit for speeds and accelerations.
@@ -29,7 +30,7 @@ impl Extreme {
     }
 }
 
-/// Checks the three requirements, in the order position, speed, acceleration.
+/// Checks the three requirements, in the order position, speed, acceleration: the extremes of formula (12.1) with the rounding of formula (12.2).
 pub(crate) fn checks(pieces: &[Piece], limits: &JointLimits, schedule: Option<&Schedule>) -> [Check; 3] {
     let (speed, acceleration) = (&limits.speed_rad_s, &limits.acceleration_rad_s2);
     let [lower, upper] = &limits.position_rad;

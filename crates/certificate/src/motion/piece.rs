@@ -1,6 +1,6 @@
 //! One cubic or quintic of the motion, with its extremes, and bounds over several pieces.
 //!
-//! Rounding: formula (12.2) in `docs/certificate.md`.
+//! Formulas (12.1), of the cubic, and (12.2), of its rounding, in `docs/certificate.md`.
 //!
 //! The motion is what the numbers in the file say: the cubic c through the knots as they stand. What is computed is another one, ĉ,
 //! and the shorter a piece, the farther its derivatives may be from those of c. With m = Δq/h, M = |m| + |v₀| + |v₁| and the unit
@@ -123,7 +123,7 @@ impl From<&MotionPiece> for Piece {
 }
 
 impl Piece {
-    /// The cubic Hermite piece between two knots: times \[s\], positions \[rad\], speeds \[rad/s\].
+    /// The cubic Hermite piece between two knots, formula (12.1): times \[s\], positions q₀ and q₁ \[rad\], speeds v₀ and v₁ \[rad/s\].
     pub fn new([from, to]: [f64; 2], [q0, q1]: [JointVector; 2], [v0, v1]: [JointVector; 2]) -> Self {
         let h = to - from;
         let mean = (q1 - q0) / h;
@@ -138,7 +138,7 @@ impl Piece {
         }
     }
 
-    /// The quintic Hermite piece between two knots: as [`Piece::new`], and accelerations \[rad/s²\].
+    /// The quintic Hermite piece between two knots: as [`Piece::new`], and accelerations a₀ and a₁ \[rad/s²\].
     fn quintic(
         [from, to]: [f64; 2],
         [q0, q1]: [JointVector; 2],
@@ -167,7 +167,8 @@ impl Piece {
         }
     }
 
-    /// Returns the piece for a length that is known to `by_s` only \[s\].
+    /// Returns the piece for a length h that is known to `by_s` only \[s\]: with δ = `by_s`/h, its bounds of speed and acceleration are larger by
+    /// 48 M δ and 48 M δ/h. M is that of formula (12.2); for a quintic 4096 and M + h |a₀| + h |a₁| take the places of 48 and M.
     pub fn with_length_within(mut self, by_s: f64) -> Self {
         let ([q0, v0, ..], h) = (&self.c, self.length_s);
         let ends = [*q0, self.position(h)];
@@ -184,7 +185,7 @@ impl Piece {
         self
     }
 
-    /// Returns bounds on the rounding of positions, speeds and accelerations.
+    /// Returns bounds on the rounding of positions, speeds and accelerations: |δq|, |δq̇| and |δq̈| of formula (12.2).
     pub fn rounding(&self) -> &Rounding {
         &self.rounding
     }
@@ -225,20 +226,22 @@ impl Piece {
         c2 * 2.0 + c3 * (6.0 * u) + (c4 * 12.0 + c5 * (20.0 * u)) * (u * u)
     }
 
-    /// Upper bound on the third derivative of each joint over the piece \[rad/s³\]; a cubic's is constant.
+    /// Upper bound D₃ on the third derivative of each joint over the piece \[rad/s³\], with |δq⃛| of formula (12.2); a cubic's is constant.
     pub fn jerk(&self) -> JointVector {
         let [_, _, _, c3, c4, c5] = self.c.each_ref().map(|c| c.abs());
         let h = self.length_s;
         c3 * 6.0 + (c4 * 24.0 + c5 * (60.0 * h)) * h + self.rounding.acceleration / h
     }
 
-    /// Upper bound on the speed of each joint from `u0` to `u1` \[rad/s\]. It is extreme at an end or where the acceleration is zero.
+    /// Upper bound D₁ on the speed of each joint from `u[0]` to `u[1]` within the piece \[rad/s\], formulas (12.1) and (12.2). The speed is extreme
+    /// at an end or where the acceleration is zero.
     pub fn greatest_speed(&self, u: [f64; 2]) -> JointVector {
         let ends = u.map(|u| self.speed(u));
         self.greatest(u, ends, Derivative::Acceleration, |joint, u| self.speed_of(joint, u)) + self.rounding.speed
     }
 
-    /// Upper bound on the acceleration of each joint from `u0` to `u1` \[rad/s²\]. It is extreme at an end or where the jerk is zero.
+    /// Upper bound D₂ on the acceleration of each joint from `u[0]` to `u[1]` within the piece \[rad/s²\], formulas (12.1) and (12.2). The
+    /// acceleration is extreme at an end or where the jerk is zero.
     pub fn greatest_acceleration(&self, u: [f64; 2]) -> JointVector {
         let ends = u.map(|u| self.acceleration(u));
         self.greatest(u, ends, Derivative::Jerk, |joint, u| self.acceleration_of(joint, u)) + self.rounding.acceleration
@@ -262,7 +265,7 @@ impl Piece {
         greatest
     }
 
-    /// Returns all bounds from `u0` to `u1`.
+    /// Returns all bounds from `u0` to `u1` within the piece, formulas (12.1) and (12.2).
     pub fn extent(&self, [u0, u1]: [f64; 2]) -> Extent {
         let (start, end) = (self.position(u0), self.position(u1));
         let mut extent = Extent {
@@ -366,7 +369,8 @@ fn zeros_between(c: [f64; 5], h: f64, turns: [f64; 4]) -> [f64; 4] {
 }
 
 impl Rounding {
-    /// Rounding over a piece of `h` \[s\] between two positions \[rad\], from that of its speed \[rad/s\].
+    /// Rounding over a piece, formula (12.2). `speed` is |δq̇| \[rad/s\], `h` is the length \[s\], `q0` and `q1` are the positions at the ends
+    /// \[rad\].
     fn new(speed: JointVector, h: f64, [q0, q1]: [JointVector; 2]) -> Self {
         Self {
             position: speed * h + q0.abs().sup(&q1.abs()) * f64::EPSILON,

@@ -1,5 +1,7 @@
 //! The tip over a stretch of time: its state at both ends, and bounds of its derivatives between.
 //!
+//! Formulas (0.1) to (0.4) in `docs/certificate.md`.
+//!
 //! With p(q) the tip's position and J its Jacobian, v = J q̇ and
 //! a = J q̈ + Σ_j q̇_j (2 ω_j − q̇_j z_j) × J_j, ω_j = Σ_{i ≤ j} q̇_i z_i; the tool turns with ω = ω_6, ω̇ = Σ_j q̈_j z_j + q̇_j ω_j × z_j.
 //! For a vector f of time, ‖f(t)‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ on [a, b], h = b − a. The bounds of the derivatives of
@@ -22,6 +24,7 @@ use std::sync::OnceLock;
 pub(crate) struct Arm<'a> {
     robot: &'a RobotModel,
     tip: Frame,
+    /// Levers R that hold in every configuration, formula (0.2) \[m\].
     greatest: Levers,
     cancel: &'a CancelToken,
 }
@@ -91,7 +94,7 @@ pub(crate) enum Halves<'a> {
     Passing(Stretch<'a>, Box<Middle>),
 }
 
-/// Bounds of derivatives of the tip over a stretch.
+/// Bounds of derivatives of the tip over a stretch: formulas (0.3) and (0.4). `rates` are D₁, D₂ and D₃, `levers` is ρ.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Derivatives {
     rates: [JointVector; 3],
@@ -178,7 +181,8 @@ impl<'a> Arm<'a> {
         })
     }
 
-    /// Returns bounds of derivatives that hold all over a stretch.
+    /// Returns bounds of derivatives that hold all over a stretch: D₁, D₂ and D₃ of its piece, formulas (12.1) and (12.2), and the levers ρ,
+    /// formula (0.2).
     pub fn derivatives<'p>(&self, stretch: &Stretch<'p>) -> &'p Derivatives {
         stretch.part.derivatives.get_or_init(|| {
             let speed = stretch.piece.greatest_speed(stretch.u);
@@ -248,58 +252,61 @@ impl Stretch<'_> {
         self.u.map(|u| self.piece.start_s + u)
     }
 
-    /// Upper bound on the rise above the ends' values, from a bound on the second derivative: h²/8 · `curvature`.
+    /// Upper bound on the rise above the ends' values, h²/8 · sup ‖f″‖ of formula (0.1). `curvature` is sup ‖f″‖, and h is the length of the
+    /// stretch.
     pub fn sag(&self, curvature: f64) -> f64 {
         self.length_s() * self.length_s() * 0.125 * curvature
     }
 }
 
 impl Derivatives {
-    /// Upper bound sup ‖p̈‖ \[m/s²\].
+    /// Upper bound on sup ‖p̈‖ \[m/s²\], formula (0.3).
     pub fn second(&self) -> f64 {
         let [d1, d2, _] = &self.rates;
         self.sum([d2]) + self.sum([d1, d1])
     }
 
-    /// Upper bound sup ‖p⃛‖ \[m/s³\].
+    /// Upper bound on sup ‖p⃛‖ \[m/s³\], formula (0.3).
     pub fn third(&self) -> f64 {
         let [d1, d2, d3] = &self.rates;
         self.sum([d3]) + 3.0 * self.sum([d1, d2]) + self.sum([d1, d1, d1])
     }
 
-    /// Upper bound sup ‖p⁗‖ \[m/s⁴\].
+    /// Upper bound on sup ‖p⁗‖ \[m/s⁴\], formula (0.3). It holds for cubics: q⁗ = 0.
     pub fn fourth(&self) -> f64 {
         let [d1, d2, d3] = &self.rates;
         4.0 * self.sum([d1, d3]) + 3.0 * self.sum([d2, d2]) + 6.0 * self.sum([d1, d1, d2]) + self.sum([d1, d1, d1, d1])
     }
 
-    /// Upper bound on the second derivative of the tool's axis, a unit vector \[1/s²\].
+    /// Upper bound on sup ‖ä‖ of the tool's axis a, a unit vector \[1/s²\], formula (0.4).
     pub fn second_of_axis(&self) -> f64 {
         let [d1, d2, _] = &self.rates;
         d2.sum() + d1.sum() * d1.sum()
     }
 
-    /// Upper bound on the third derivative of the tool's axis \[1/s³\].
+    /// Upper bound on sup ‖a⃛‖ of the tool's axis \[1/s³\], formula (0.4).
     pub fn third_of_axis(&self) -> f64 {
         let [d1, d2, d3] = self.rates.map(|d| d.sum());
         d3 + 3.0 * d1 * d2 + d1 * d1 * d1
     }
 
-    /// Upper bound sup ‖ω̇‖ on the tool's angular acceleration; each joint's axis turns with the joints before it \[rad/s²\].
+    /// Upper bound on sup ‖ω̇‖ of the tool's angular acceleration \[rad/s²\]: the sum of formula (0.4), as each joint's axis turns with the joints
+    /// before it.
     pub fn first_of_turning(&self) -> f64 {
         self.second_of_axis()
     }
 
-    /// Upper bound sup ‖ω̈‖ \[rad/s³\].
+    /// Upper bound on sup ‖ω̈‖ \[rad/s³\]: the sum of formula (0.4).
     pub fn second_of_turning(&self) -> f64 {
         self.third_of_axis()
     }
 
-    /// Upper bound on the rounding of the tip's acceleration, given that of the joints' accelerations, `joints` \[m/s²\].
+    /// Upper bound on the rounding of the tip's acceleration \[m/s²\], Σ ρ δq̈ of formula (16.1). `joints` is δq̈, formula (12.2) \[rad/s²\].
     pub fn rounding(&self, joints: &JointVector) -> f64 {
         self.sum([joints])
     }
 
+    /// Sum over all tuples of joints of ρ times the product of `rates`, as in formula (0.3).
     fn sum<const N: usize>(&self, rates: [&JointVector; N]) -> f64 {
         lever::tuples(&self.levers, 0, rates)
     }

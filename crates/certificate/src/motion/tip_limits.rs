@@ -2,14 +2,14 @@
 //!
 //! Requirements 15–20, formulas (15.1) to (20.1) in `docs/certificate.md`.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Moment, Stretch, TipPiece};
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
+use crate::plan_statements::schedule::{Schedule, Span};
+use crate::report::check::{Check, Measure, Sense, WorstCase, finite, tighter};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span};
-use crate::subject::Subject;
-use crate::washing::contact::tighter;
+use crate::report::unit::Unit;
 use crate::washing::face::{Face, Pass, sine_of_tilt};
 use nalgebra::Vector3;
 use platewash_kinematics::trig::{asin, sin};
@@ -53,9 +53,9 @@ enum TiltNormal {
 }
 
 impl Tips {
-    /// Bounds all quantities. Without a schedule the whole motion counts as not washing.
-    pub fn new(arm: &Arm<'_>, subject: &Subject<'_>, pieces: &[TipPiece<'_>], schedule: Option<&Schedule>) -> Self {
-        let (job, limits) = (subject.job, &subject.job.limits);
+    /// Bounds all quantities, formulas (15.1) to (20.1). Without a schedule the whole motion counts as not washing.
+    pub fn new(arm: &Arm<'_>, judged: &JudgedJob<'_>, pieces: &[TipPiece<'_>], schedule: Option<&Schedule>) -> Self {
+        let (job, limits) = (judged.job, &judged.job.limits);
         let pair = |speed: f64, acceleration: f64| {
             [speed, acceleration].map(|limit| BoundTracker::new(limit, RESOLUTION * limit))
         };
@@ -75,10 +75,10 @@ impl Tips {
         track_rates(arm, &mut tips.moving, &moving.into_iter().map(of).collect::<Vec<_>>());
         // The washes of plates with the same limit of speed are tracked together.
         let limit = |span: &Span| {
-            subject
+            judged
                 .plates()
                 .get(span.plate)
-                .map(|plate| subject.job.wash_speed_of(plate))
+                .map(|plate| judged.job.wash_speed_of(plate))
         };
         let mut of_limit: Vec<(f64, Vec<&[TipPiece<'_>]>)> = Vec::new();
         if washing.is_empty() {
@@ -96,13 +96,13 @@ impl Tips {
             track_rates(arm, &mut rates, &pieces);
             tips.washing.push((limit, rates));
         }
-        let sine = sin(subject.tilt_rad + TILT_ROUNDING_RAD);
+        let sine = sin(judged.tilt_rad + TILT_ROUNDING_RAD);
         for (i, span) in schedule.spans.iter().enumerate().filter(|(_, s)| s.kind.is_at_plate()) {
-            let Some(plate) = subject.plates().get(span.plate) else {
+            let Some(plate) = judged.plates().get(span.plate) else {
                 continue;
             };
-            let face = Face::of(plate);
-            let against = against(subject, span, &face);
+            let face = Face::new(plate);
+            let against = against(judged, span, &face);
             let tracker = BoundTracker::new(sine, TILT_RESOLUTION);
             tips.tilt.push((i, tilted(arm, tracker, of(span), &face, against)));
             if !face.surface().is_flat() {
@@ -135,7 +135,7 @@ impl Tips {
         tips
     }
 
-    /// Lower bound on cos τ during a span; 0 where nothing is known.
+    /// Lower bound on cos τ during a span, from formula (19.1); 0 where nothing is known.
     pub fn least_cosine_of(&self, span: usize) -> f64 {
         let tilt = self.tilt.iter().find(|(index, _)| *index == span);
         tilt.map_or(0.0, |(_, tracker)| cosine(tracker.bound))
@@ -147,7 +147,8 @@ impl Tips {
         upright.map_or_else(|| self.least_cosine_of(span), |(_, tracker)| cosine(tracker.bound))
     }
 
-    /// Upper bound on the height of the tip over or under the face during the wash of a span \[m\]; infinite where nothing is known.
+    /// Upper bound on |z − f|, the height of the tip over or under the face during the wash of a span \[m\], formula (20.1); infinite where nothing
+    /// is known.
     pub fn greatest_height_of(&self, span: usize) -> f64 {
         let height = self.height.iter().find(|(index, _)| *index == span);
         height.map_or(f64::INFINITY, |(_, tracker)| {
@@ -168,8 +169,8 @@ impl Tips {
     }
 
     /// Checks speed and acceleration while the tip does not wash.
-    pub fn moving_checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
-        let (limits, [speed, acceleration]) = (&subject.job.limits, &self.moving);
+    pub fn moving_checks(&self, judged: &JudgedJob<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> [Check; 2] {
+        let (limits, [speed, acceleration]) = (&judged.job.limits, &self.moving);
         let at = |tracker: &BoundTracker| worst_case(tracker, pieces, schedule);
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
         let (v, a) = (limits.tip_speed_m_s, limits.tip_acceleration_m_s2);
@@ -180,10 +181,10 @@ impl Tips {
     }
 
     /// Checks all requirements about the tip.
-    pub fn checks(&self, subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Check> {
+    pub fn checks(&self, judged: &JudgedJob<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Vec<Check> {
         let (m_s, m_s2) = (Unit::MetrePerSecond, Unit::MetrePerSecondSquared);
         let at = |tracker: &BoundTracker| worst_case(tracker, pieces, schedule);
-        let mut all = Vec::from(self.moving_checks(subject, pieces, schedule));
+        let mut all = Vec::from(self.moving_checks(judged, pieces, schedule));
         let rest = [
             Requirement::WashSpeed,
             Requirement::WashAcceleration,
@@ -198,7 +199,7 @@ impl Tips {
         let angle = tilt.through(angle);
         let place = |tracker: &BoundTracker| in_segment(tracker, pieces, schedule);
         let rates = self.washing.iter().map(|(v, [speed, acceleration])| {
-            let a = subject.job.wash_acceleration_m_s2();
+            let a = judged.job.wash_acceleration_m_s2();
             [
                 check(Requirement::WashSpeed, speed, *v, m_s, at(speed)),
                 check(Requirement::WashAcceleration, acceleration, a, m_s2, at(acceleration)),
@@ -206,7 +207,7 @@ impl Tips {
         });
         let rates = rates.reduce(|[v, a], [w, b]| [tighter(v, w), tighter(a, b)]);
         all.extend(rates.unwrap_or([Requirement::WashSpeed, Requirement::WashAcceleration].map(Check::not_judged)));
-        let most_tilt_rad = subject.tilt_rad + TILT_ROUNDING_RAD;
+        let most_tilt_rad = judged.tilt_rad + TILT_ROUNDING_RAD;
         all.extend([
             check(Requirement::Tilt, &angle, most_tilt_rad, Unit::Radian, place(&tilt)),
             check(
@@ -267,7 +268,7 @@ fn angle(sine: f64) -> f64 {
     if sine <= 1.0 { asin(sine) } else { std::f64::consts::PI }
 }
 
-/// Lower bound on cos τ from an upper bound on sin τ; 0 where the bound says nothing.
+/// Lower bound on cos τ. `sine` is an upper bound on sin τ; the result is 0 where it says nothing.
 fn cosine(sine: f64) -> f64 {
     if sine >= 0.0 {
         (1.0 - sine * sine).max(0.0).sqrt()
@@ -278,13 +279,13 @@ fn cosine(sine: f64) -> f64 {
 
 /// Returns the normal for the tilt during a span: that of the line over the end of its path, or that of the face. Without a path there is
 /// no line, and the face counts.
-fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
+fn against(judged: &JudgedJob<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
     if face.surface().is_flat() {
         return TiltNormal::Fixed(*face.plate_axis());
     }
     let feet = || {
-        let plate = subject.plates().get(span.plate)?;
-        Some(subject.path_of(span.plate)?.feet(plate))
+        let plate = judged.plates().get(span.plate)?;
+        Some(judged.path_of(span.plate)?.feet(plate))
     };
     match (span.kind, feet()) {
         (SegmentKind::Approach, Some([start, _])) => TiltNormal::Fixed(face.normal_under(&start)),
@@ -293,7 +294,7 @@ fn against(subject: &Subject<'_>, span: &Span, face: &Face<'_>) -> TiltNormal {
     }
 }
 
-/// Bounds the sine of the tilt during the pieces.
+/// Bounds sin τ, the sine of the tilt, during the pieces: formula (19.1). `against` tells n.
 fn tilted(
     arm: &Arm<'_>,
     mut tracker: BoundTracker,
@@ -319,12 +320,14 @@ fn tilted(
     tracker
 }
 
-/// Upper bound on the speed of the tool's axis over a stretch, whose second derivative is not above `second` \[1/s\].
+/// Upper bound on ‖ȧ‖, the speed of the tool's axis, over a stretch \[1/s\]: its value at the ends, and h/2 times `second`. `second` is sup ‖ä‖ of
+/// formula (0.4) \[1/s²\].
 pub(crate) fn turning(stretch: &Stretch<'_>, second: f64) -> f64 {
     let [from, to] = stretch.ends.map(|m| m.turning.cross(&m.axis).norm());
     from.max(to) + 0.5 * stretch.length_s() * second
 }
 
+/// Bounds the tip's speed, formula (15.1), and its acceleration, formula (16.1), over some spans.
 fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spans: &[&[TipPiece<'_>]]) {
     observe(arm, speed, spans, &|m| m.speed.norm(), &|s| {
         s.sag(arm.derivatives(s).third())
@@ -336,6 +339,7 @@ fn track_rates(arm: &Arm<'_>, [speed, acceleration]: &mut [BoundTracker; 2], spa
     });
 }
 
+/// Bounds a quantity over some spans by formula (0.1). `value` is the quantity at a moment, `beyond` is its rise within a stretch.
 fn observe(
     arm: &Arm<'_>,
     tracker: &mut BoundTracker,

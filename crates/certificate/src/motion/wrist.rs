@@ -2,11 +2,12 @@
 //!
 //! Requirement 32 of `docs/certificate.md`.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
+use crate::plan_statements::schedule::{Schedule, Span};
+use crate::report::check::{Check, Measure, Sense, WorstCase, finite};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span};
-use crate::subject::Subject;
+use crate::report::unit::Unit;
 
 /// Index of joint 5.
 const JOINT: usize = 4;
@@ -23,7 +24,8 @@ struct Visit {
 }
 
 impl Visit {
-    /// Distance from 0 on the better side \[rad\], with its piece; negative where the joint passes 0 by as much.
+    /// Distance from 0 on the better side, the greater of min q₅ and −max q₅ \[rad\], with its piece; negative where the joint passes 0 by as much.
+    /// The extremes are those of formula (12.1).
     fn margin(&self) -> (f64, usize) {
         if self.least.0 >= -self.most.0 {
             self.least
@@ -34,8 +36,8 @@ impl Visit {
 }
 
 /// The requirement, where the job has it.
-pub(crate) fn check(subject: &Subject<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Option<Check> {
-    let limit = subject.job.requirements.wrist_rad?;
+pub(crate) fn check(judged: &JudgedJob<'_>, pieces: &[Piece], schedule: Option<&Schedule>) -> Option<Check> {
+    let limit = judged.job.requirements.wrist_rad?;
     let Some(schedule) = schedule else {
         return Some(Check::not_judged(Requirement::Wrist));
     };

@@ -6,8 +6,8 @@ use crate::clearance::pairs::PairBound;
 use crate::report::check::{Check, Status};
 use crate::report::requirement::Requirement;
 use crate::report::verdict_basis::VerdictBasis;
-use crate::washing::contact::PlateContact;
-use crate::washing::coverage::PlateCoverage;
+use crate::washing::plate_contact::PlateContact;
+use crate::washing::plate_coverage::PlateCoverage;
 use nalgebra::Point3;
 use platewash_bodies::coverage::reaches;
 use platewash_kinematics::Pose;
@@ -43,7 +43,7 @@ pub struct HashFinding {
 impl HashFinding {
     /// Checks the hash of a plan.
     #[must_use]
-    pub fn of(plan: &Plan) -> Self {
+    pub fn check(plan: &Plan) -> Self {
         let computed = plan.seal().ok();
         let is_same = computed.is_some() && plan.hash == computed;
         Self {
@@ -155,7 +155,7 @@ pub(crate) struct World(Option<Pose>);
 
 impl World {
     /// Returns the world in which an arm is mounted at `T_world_base`.
-    pub fn of(mount: &Pose) -> Self {
+    pub fn from_mount(mount: &Pose) -> Self {
         Self((*mount != Pose::identity()).then_some(*mount))
     }
 

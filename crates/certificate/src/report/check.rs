@@ -1,6 +1,7 @@
 //! Checks of requirements, with their results.
 
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use platewash_bodies::coverage::reaches;
 use platewash_motion::trajectory::SegmentKind;
 use serde::{Deserialize, Serialize};
@@ -26,38 +27,6 @@ impl Status {
     pub fn is_kept(self) -> bool {
         matches!(self, Self::Proved | Self::Waived)
     }
-}
-
-/// Unit of a measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
-pub enum Unit {
-    /// Radians.
-    #[serde(rename = "rad")]
-    Radian,
-    /// Radians per second.
-    #[serde(rename = "rad/s")]
-    RadianPerSecond,
-    /// Radians per second squared.
-    #[serde(rename = "rad/s^2")]
-    RadianPerSecondSquared,
-    /// Metres.
-    #[serde(rename = "m")]
-    Metre,
-    /// Metres per second.
-    #[serde(rename = "m/s")]
-    MetrePerSecond,
-    /// Metres per second squared.
-    #[serde(rename = "m/s^2")]
-    MetrePerSecondSquared,
-    /// Newtons.
-    #[serde(rename = "N")]
-    Newton,
-    /// Newton metres.
-    #[serde(rename = "N m")]
-    NewtonMetre,
-    /// Share of one.
-    #[serde(rename = "1")]
-    Share,
 }
 
 /// Side of its limit on which a measure must stay.
@@ -264,5 +233,27 @@ impl Discrepancy {
             stated: stated.to_string(),
             expected: expected.to_string(),
         }
+    }
+}
+
+/// Returns the worse of two sides of a requirement: the one that is not kept, or the one with the smaller relative margin to its limit.
+pub(crate) fn tighter(a: Check, b: Check) -> Check {
+    let spare = |check: &Check| {
+        let Some(Measure {
+            bound: Some(bound),
+            limit,
+            ..
+        }) = check.measure
+        else {
+            return f64::NEG_INFINITY;
+        };
+        // A limit of 0 is kept with everything to spare.
+        (bound - limit).abs() / limit.abs().max(f64::MIN_POSITIVE)
+    };
+    match (a.status.is_kept(), b.status.is_kept()) {
+        (false, true) => a,
+        (true, false) => b,
+        _ if spare(&a) <= spare(&b) => a,
+        _ => b,
     }
 }

@@ -27,7 +27,7 @@ pub struct Explanation {
 impl Explanation {
     /// The explanation of a check, on the basis of its verdict; `None` for a motion without a job.
     #[must_use]
-    pub fn of(check: &Check, basis: Option<&VerdictBasis>) -> Self {
+    pub fn new(check: &Check, basis: Option<&VerdictBasis>) -> Self {
         let row = check.requirement.row();
         Self {
             sentence: row.sentence,

@@ -4,10 +4,11 @@
 //! The file also holds the usual requirements of a washing. A job that requires less is named in the first line.
 
 use crate::report::certificate::{Certificate, Verdict};
-use crate::report::check::{Check, Measure, Sense, Status, Unit};
+use crate::report::check::{Check, Measure, Sense, Status};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::report::words::{number, rounded_bound};
-use crate::washing::contact::PlateContact;
+use crate::washing::plate_contact::PlateContact;
 use platewash_kinematics::words::distinct_decimals;
 use platewash_motion::plan::Plan;
 use platewash_workcell::dry_run;
@@ -46,18 +47,18 @@ pub(crate) fn headline(certificate: &Certificate) -> String {
     let basis = &certificate.rests_on;
     let left_out = basis.recovery.as_ref().map_or(0, |recovery| recovery.left_out.len());
     let duration = seconds(certificate.duration_s);
-    let subject = match basis.plates.len() - left_out.min(basis.plates.len()) {
+    let judged = match basis.plates.len() - left_out.min(basis.plates.len()) {
         0 => format!("home in {duration}"),
         plates => format!("{} in {duration}", count_with_noun(plates, "plate")),
     };
     let judged = match certificate.verdict {
         Verdict::Pass => format!(
-            "PROVED{}: {subject}{}",
+            "PROVED{}: {judged}{}",
             certificate.but_for(),
             achieved_text(certificate)
         ),
         Verdict::Fail => format!(
-            "NOT PROVED: {subject}; {}{}",
+            "NOT PROVED: {judged}; {}{}",
             broken(certificate),
             certificate.and_waived()
         ),

@@ -3,7 +3,7 @@
 //! | concept | module |
 //! | --- | --- |
 //! | what is required | `requirement` |
-//! | what came of one requirement | `check` |
+//! | what came of one requirement; units | `check`; `unit` |
 //! | the requirement, its formula and whose its limit is, for readers | `explanation` |
 //! | all of it; places in the world frame | `certificate` |
 //! | the first line, with what is laxer than usual | `headline` |
@@ -17,5 +17,6 @@ pub(crate) mod explanation;
 pub(crate) mod headline;
 pub(crate) mod requirement;
 pub(crate) mod table;
+pub(crate) mod unit;
 pub(crate) mod verdict_basis;
 pub(crate) mod words;

@@ -1,6 +1,6 @@
 //! Requirements of a plan.
 
-use crate::report::check::Unit;
+use crate::report::unit::Unit;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 

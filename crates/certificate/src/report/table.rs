@@ -2,12 +2,13 @@
 
 use crate::clearance::pairs::{PairBound, PairRule};
 use crate::report::certificate::Certificate;
-use crate::report::check::{Check, Measure, Sense, Status, Unit, WorstCase};
+use crate::report::check::{Check, Measure, Sense, Status, WorstCase};
 use crate::report::requirement::Requirement;
+use crate::report::unit::Unit;
 use crate::report::words::{decimals, number, rounded_bound};
-use crate::washing::contact::{PlateContact, ProvedShare};
-use crate::washing::coverage::PlateCoverage;
-use crate::washing::holding::HolderLoad;
+use crate::washing::holder_load::HolderLoad;
+use crate::washing::plate_contact::{PlateContact, ProvedShare};
+use crate::washing::plate_coverage::PlateCoverage;
 use platewash_kinematics::trig::acos;
 use platewash_kinematics::words::{decimals_down, decimals_up, distinct_decimals, percent};
 use platewash_workcell::words::{plate_name, printable, quoted};

@@ -13,7 +13,7 @@ use platewash_workcell::job::{ContactRequirements, JobTerms, Limits, Overlap, Pl
 use platewash_workcell::plate::Plate;
 use platewash_workcell::tool::{Sponge, Tool};
 use platewash_workcell::words::{count_with_noun, pair_text, plate_name, plate_number, printable, quoted};
-use platewash_workcell::workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{ArmId, Exclusion, ExclusionReason, Obstacle, ObstacleShape, Workcell};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

@@ -2,7 +2,8 @@
 //!
 //! Plates in words: shape, height and position.
 
-use crate::report::check::{Measure, Sense, Unit};
+use crate::report::check::{Measure, Sense};
+use crate::report::unit::Unit;
 use platewash_kinematics::words::{decimals_down, decimals_up, percent, rounded};
 use platewash_workcell::job::Soil;
 use platewash_workcell::plate::Plate;

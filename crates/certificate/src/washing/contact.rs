@@ -3,123 +3,26 @@
 //! Requirements 27–31, formulas (27.1) to (31.2) in `docs/contact.md`.
 
 use crate::error::ProveError;
+use crate::judged_job::JudgedJob;
 use crate::motion::piece::Piece;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase, finite};
+use crate::plan_statements::schedule::Schedule;
+use crate::report::check::{Check, Measure, Sense, WorstCase, finite, tighter};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::Schedule;
-use crate::subject::Subject;
-use crate::washing::coverage::Washing;
-use crate::washing::holding::HolderLoad;
+use crate::report::unit::Unit;
+use crate::washing::face_shares::{Fineness, Share, Shares, shares};
+use crate::washing::holding::holder_load;
 use crate::washing::instants::Instants;
+use crate::washing::plate_contact::{PlateContact, ProvedExtreme, ProvedShare, are_of_all_plates};
 use crate::washing::pressing::{self, DiscWashBounds, Extreme, FRICTION, Pressing};
-use crate::washing::shares::{Fineness, Share, Shares, shares};
+use crate::washing::wash_inputs::ContactInputs;
 use nalgebra::Vector3;
-use platewash_bodies::contact::Foundation;
-use platewash_bodies::coverage::reaches;
-use platewash_workcell::job::ContactRequirements;
-use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-
-/// Edges of the smallest cells \[m\]. Each is used where the ones before it do not suffice.
-pub(crate) const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
 /// Edge of the smallest cells for contact, time and dose, where coarser ones do not suffice \[m\]. Dose and time change fast from place to
 /// place where passes only graze it.
 const SMALLEST_CELL_M: f64 = 6.25e-5;
 
-/// Proved share of a plate's face.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct ProvedShare {
-    /// Lower bound on the share of the face, by area, that gets `threshold` or more.
-    pub at_least: f64,
-    /// Required share of the face.
-    pub required: f64,
-    /// Compression \[m\], time in contact \[s\] or dose \[Pa·m\].
-    pub threshold: f64,
-    /// Value at the worst place found, in the unit of `threshold`; `None` where all places get enough.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub worst: Option<f64>,
-    /// Position of that place, world frame \[m\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub worst_m: Option<[f64; 3]>,
-}
-
-/// Extreme of a quantity over a wash: a proved bound and an attained value.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct ProvedExtreme {
-    /// Proved bound of the quantity; `None` where nothing is proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bound: Option<f64>,
-    /// Value that is certainly attained.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub seen: Option<f64>,
-    /// Time of `seen` \[s\].
-    pub time_s: f64,
-    /// Position on the plate or, for a force, of the tip at that time, world frame \[m\].
-    pub place_m: [f64; 3],
-}
-
-/// Proved bounds of the contact between the sponge and a plate from approach to retreat. They hold for every plate height within the stated
-/// error and every sponge stiffness in the stated range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct PlateContact {
-    /// Index of the plate.
-    pub plate: usize,
-    /// Share that is compressed by the least compression that counts, or more, at some moment.
-    pub pressed: ProvedShare,
-    /// Share that is in contact long enough.
-    pub time: ProvedShare,
-    /// Share with enough dose ∫ p dl in contact.
-    pub dose: ProvedShare,
-    /// Greatest strain of the sponge, from approach to retreat.
-    pub strain: ProvedExtreme,
-    /// Least force along the sponge's axis during the wash \[N\].
-    pub least_force_n: ProvedExtreme,
-    /// Greatest force along the sponge's axis, from approach to retreat \[N\].
-    pub greatest_force_n: ProvedExtreme,
-    /// Greatest friction torque about the sponge's axis \[N·m\], for the assumed friction coefficients 0.3 and 1.0; `None` where nothing is
-    /// proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction_torque_nm: Option<[f64; 2]>,
-    /// Load that the plate's holder takes, from approach to retreat; `None` where nothing is proved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub holder_load: Option<HolderLoad>,
-}
-
-impl PlateContact {
-    /// True where the required shares are pressed, are in contact long enough, and get the dose.
-    pub(crate) fn is_enough(&self) -> bool {
-        [self.pressed, self.time, self.dose]
-            .iter()
-            .all(|share| reaches(share.at_least, share.required))
-    }
-
-    /// Returns every position in the result, for a change of frame.
-    pub(crate) fn places_mut(&mut self) -> impl Iterator<Item = &mut [f64; 3]> {
-        let shares = [&mut self.pressed, &mut self.time, &mut self.dose];
-        let extremes = [&mut self.strain, &mut self.least_force_n, &mut self.greatest_force_n];
-        let worst = shares.into_iter().filter_map(|share| share.worst_m.as_mut());
-        worst.chain(extremes.into_iter().map(|extreme| &mut extreme.place_m))
-    }
-}
-
-/// Wash whose contact is judged, with the data it needs.
-pub(crate) struct ContactInputs<'a> {
-    pub washing: &'a Washing<'a>,
-    pub foundation: &'a Foundation,
-    pub wanted: &'a ContactRequirements,
-    pub instants: &'a Instants,
-    /// Moments of the approaches to the plate and the retreats from it.
-    pub around: &'a [Instants],
-    /// Upper bound on the distance of the tip from the plate's pole during the wash, seen along the plate's axis \[m\].
-    pub distance_m: f64,
-}
-
 impl ContactInputs<'_> {
-    /// Bounds the contact.
+    /// Bounds the contact: the shares of 27 to 29, strain (30.1), force (31.1), friction torque (31.2) and the holder's load (33.1), (33.2).
     ///
     /// # Errors
     /// [`ProveError::Cancelled`].
@@ -176,11 +79,11 @@ impl ContactInputs<'_> {
             least_force_n: extreme(&pressing.volume[0], softest),
             greatest_force_n: extreme(&pressing.volume[1], stiffest),
             friction_torque_nm: Some(torque).filter(|t| t.iter().all(|t| t.is_finite())),
-            holder_load: self.holder_load(&pressing),
+            holder_load: holder_load(self, &pressing),
         })
     }
 
-    /// Bounds the load before or after the wash.
+    /// Bounds the load before or after the wash (30 and 31).
     fn around(&self, instants: &Instants, wash: &Pressing) -> Pressing {
         let (plate, foundation, error_m) = (self.washing.plate, self.foundation, self.wanted.height_error_m);
         if plate.surface.is_flat() {
@@ -192,7 +95,7 @@ impl ContactInputs<'_> {
         }
     }
 
-    /// Computes the shares, refined until they suffice or the smallest cells are reached.
+    /// Computes the shares of 27 to 29, refined until they suffice or the smallest cells are reached.
     fn shares(&self) -> Shares {
         let wanted = self.wanted;
         let asked = wanted.thresholds();
@@ -211,12 +114,12 @@ impl ContactInputs<'_> {
 
 /// Checks the contact requirements, where the job has any.
 pub(crate) fn checks(
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     pieces: &[Piece],
     schedule: Option<&Schedule>,
     all: &[PlateContact],
 ) -> Vec<Check> {
-    let Some(wanted) = &subject.job.requirements.contact else {
+    let Some(wanted) = &judged.job.requirements.contact else {
         return Vec::new();
     };
     let asked = [
@@ -226,7 +129,7 @@ pub(crate) fn checks(
         Requirement::Strain,
         Requirement::ContactForce,
     ];
-    if !are_of_all_plates(subject, all) {
+    if !are_of_all_plates(judged, all) {
         return asked.map(Check::not_judged).into();
     }
     let share = |requirement, of: fn(&PlateContact) -> &ProvedShare| {
@@ -239,10 +142,10 @@ pub(crate) fn checks(
     let strain = (Requirement::Strain, wanted.strain, Sense::AtMost, Unit::Share);
     // Plates with the same window of forces are judged together.
     let window = |plate: usize| {
-        let own = subject
+        let own = judged
             .plates()
             .get(plate)
-            .and_then(|plate| subject.job.contact_of(plate));
+            .and_then(|plate| judged.job.contact_of(plate));
         own.map_or(wanted.force_n, |own| own.force_n)
     };
     let mut windows: Vec<[f64; 2]> = Vec::new();
@@ -318,32 +221,4 @@ fn of_extreme(
         ..WorstCase::on_plate(worst.plate)
     };
     Check::measured(requirement, measure, place)
-}
-
-/// True if the contact with every plate to wash is known.
-pub(crate) fn are_of_all_plates(subject: &Subject<'_>, all: &[PlateContact]) -> bool {
-    let mut plates = subject.job.plates_to_wash();
-    plates.all(|plate| all.iter().any(|c| c.plate == plate))
-}
-
-/// Returns the worse of two sides of a requirement: the one that is not kept, or the one with the smaller relative margin to its limit.
-pub(crate) fn tighter(a: Check, b: Check) -> Check {
-    let spare = |check: &Check| {
-        let Some(Measure {
-            bound: Some(bound),
-            limit,
-            ..
-        }) = check.measure
-        else {
-            return f64::NEG_INFINITY;
-        };
-        // A limit of 0 is kept with everything to spare.
-        (bound - limit).abs() / limit.abs().max(f64::MIN_POSITIVE)
-    };
-    match (a.status.is_kept(), b.status.is_kept()) {
-        (false, true) => a,
-        (true, false) => b,
-        _ if spare(&a) <= spare(&b) => a,
-        _ => b,
-    }
 }

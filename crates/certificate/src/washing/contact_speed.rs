@@ -25,15 +25,15 @@
 //!
 //! A plate that may lie higher touches earlier: H less the error of its height.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Derivatives, Moment, Stretch, TipPiece};
 use crate::motion::tip_limits::{self, Tips};
-use crate::report::check::{Check, Discrepancy, Unit, WorstCase};
+use crate::plan_statements::schedule::{Schedule, Span};
+use crate::report::check::{Check, Discrepancy, WorstCase, tighter};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::{Schedule, Span};
-use crate::subject::Subject;
-use crate::washing::contact::tighter;
+use crate::report::unit::Unit;
 use crate::washing::face::Face;
 use crate::washing::instants;
 use nalgebra::Vector3;
@@ -60,22 +60,22 @@ struct ContactSpeedLimit<'a> {
 /// Checks that the retreat of a motion home begins and goes on with the sponge at the face that it leaves; `None` for other plans. Behind
 /// the plate, or beside it and lower, a way along the normal would lead into it.
 pub(crate) fn from_face(
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     along: &[TipPiece<'_>],
     schedule: Option<&Schedule>,
     tips: &Tips,
 ) -> Option<Check> {
-    let retreat = subject.job.recovery.as_ref().and_then(Recovery::retreat)?;
+    let retreat = judged.job.recovery.as_ref().and_then(Recovery::retreat)?;
     let requirement = Requirement::ContactHeight;
     let spans = schedule?.spans.iter().enumerate();
     let (index, span) = spans.clone().find(|(_, span)| span.kind == SegmentKind::Retreat)?;
-    let (Some(plate), Some(first)) = (subject.plates().get(retreat.plate), along.get(span.pieces.start)) else {
+    let (Some(plate), Some(first)) = (judged.plates().get(retreat.plate), along.get(span.pieces.start)) else {
         return Some(Check::not_judged(requirement));
     };
     // The tip keeps to the line up from where it begins.
     let height_m = plate.height_of(&first.stretch().ends[0].position) - LINE_TOLERANCE_M;
     let cosine = tips.least_upright_cosine_of(index);
-    if subject.job.workcell.tool.is_over_face(height_m, cosine) {
+    if judged.job.workcell.tool.is_over_face(height_m, cosine) {
         return Some(Check::stated(requirement, Vec::new()));
     }
     let found = format!(
@@ -94,7 +94,7 @@ pub(crate) fn from_face(
 /// Checks the contact speed on every plate that the sponge comes down on or leaves.
 pub(crate) fn check(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: Option<&Schedule>,
     tips: &Tips,
@@ -102,18 +102,18 @@ pub(crate) fn check(
     let Some(schedule) = schedule else {
         return Check::not_judged(Requirement::ContactSpeed);
     };
-    let wanted = &subject.job.requirements;
-    let judged = |limit: &ContactSpeedLimit<'_>| judge(arm, subject, (pieces, along), schedule, tips, limit);
-    let limit = subject.job.wash_speed_m_s();
+    let wanted = &judged.job.requirements;
+    let judge_limit = |limit: &ContactSpeedLimit<'_>| judge(arm, judged, (pieces, along), schedule, tips, limit);
+    let limit = judged.job.wash_speed_m_s();
     if wanted.landing_m_s.is_none() && wanted.lifting_m_s.is_none() {
-        return judged(&ContactSpeedLimit {
+        return judge_limit(&ContactSpeedLimit {
             kinds: &[SegmentKind::Approach, SegmentKind::Retreat],
             limit,
             is_free: false,
         });
     }
     let of = |kind, stated: Option<f64>| {
-        judged(&ContactSpeedLimit {
+        judge_limit(&ContactSpeedLimit {
             kinds: &[kind],
             limit: stated.map_or(limit, |stated| stated.min(limit)),
             is_free: stated.is_some(),
@@ -127,7 +127,7 @@ pub(crate) fn check(
 
 fn judge(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: &Schedule,
     tips: &Tips,
@@ -139,12 +139,12 @@ fn judge(
     let spans = || schedule.spans.iter().enumerate().filter(|(_, span)| touching(span));
     // A plate that is not there is found elsewhere.
     let rim = |index: usize, span: &Span| {
-        let plate = subject.plates().get(span.plate)?;
-        let sponge = &subject.job.workcell.tool.sponge;
+        let plate = judged.plates().get(span.plate)?;
+        let sponge = &judged.job.workcell.tool.sponge;
         let far = if touch.is_free {
             FarFace {
                 beyond_m: sponge.compression_m,
-                error_m: subject.job.height_error_of(plate),
+                error_m: judged.job.height_error_of(plate),
             }
         } else {
             FarFace {
@@ -224,7 +224,8 @@ struct Parts<'a> {
 }
 
 impl<'a> Rim<'a> {
-    /// A sponge over a plate, with cos τ never below `cosine`.
+    /// A sponge over a plate. `far` has b and δ of formula (21.1), `cosine` is a lower bound on cos τ. From both follows ϱ of formula (21.2); on a
+    /// profile the height of the sponge takes the place of s tan τ + 1 mm.
     pub fn new(plate: &'a Plate, sponge: &Sponge, far: FarFace, cosine: f64) -> Self {
         let (s, b) = (sponge.radius_m, far.beyond_m);
         let flat = plate.surface.is_flat();
@@ -243,7 +244,7 @@ impl<'a> Rim<'a> {
         };
         Self {
             plate,
-            face: Face::of(plate),
+            face: Face::new(plate),
             radius_m: s,
             far,
             reach_m: if flat && b == 0.0 {
@@ -252,7 +253,7 @@ impl<'a> Rim<'a> {
                 (s * s + along_m * along_m).sqrt()
             },
             highest_m: plate.surface.height_bounds_m()[1],
-            columns: (!flat).then(|| (Columns::fine(&foundation), Bends::of(&plate.surface))),
+            columns: (!flat).then(|| (Columns::fine(&foundation), Bends::new(&plate.surface))),
         }
     }
 
@@ -270,12 +271,13 @@ impl<'a> Rim<'a> {
         columns.sponge_state(bends, &instants::pose(self.plate, m), &side, self.far.error_m)
     }
 
-    /// Height H of the lowest point of the rim over a disc \[m\].
+    /// Height H of the lowest point of the rim over a disc \[m\], formula (21.1).
     fn height(&self, m: &Moment) -> f64 {
         self.face.height_of_rim(&self.middle(m), &m.axis, self.radius_m) - self.far.error_m
     }
 
-    /// Checks that no part of the sponge touches anywhere in a stretch over a disc.
+    /// Checks that no part of the sponge touches anywhere in a stretch over a disc: the bound of H in formula (21.1) is above 0. `bounds` has
+    /// sup ‖p̈‖ and sup ‖ä‖.
     fn is_clear(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> bool {
         let [from, to] = stretch.ends.map(|m| self.height(m));
         let lower = if from < to || from.is_nan() { from } else { to };
@@ -283,7 +285,8 @@ impl<'a> Rim<'a> {
         lower - stretch.sag(bounds.second() + arm_m * bounds.second_of_axis()) - ROUNDING_M > 0.0
     }
 
-    /// Checks that a face that is no disc is out of reach all through a stretch, by the plate's enclosing cylinder.
+    /// Checks that a face that is no disc is out of reach all through a stretch, by the plate's enclosing cylinder: no touching point is farther
+    /// than ϱ from the tip.
     fn is_far(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> bool {
         let arm_m = self.reach_m + self.far.error_m;
         let [from, to] = stretch.ends.map(|m| {
@@ -297,20 +300,21 @@ impl<'a> Rim<'a> {
         nearer - 0.5 * stretch.length_s() * speed - arm_m - ROUNDING_M > 0.0
     }
 
-    /// Upper bound G on the speed of a touching point at a moment \[m/s\].
+    /// Upper bound G on the speed of a touching point at a moment \[m/s\], formula (21.2).
     fn fastest(&self, m: &Moment) -> f64 {
         let (v, w, r) = (m.speed, m.turning, self.reach_m);
         (v.norm_squared() + 2.0 * r * v.cross(&w).norm() + r * r * w.norm_squared()).sqrt()
     }
 
-    /// Upper bound on the speed of a touching point over a stretch \[m/s\].
+    /// Upper bound on the speed of a touching point over a stretch \[m/s\], formula (21.2). `bounds` has sup ‖p⃛‖ and sup ‖a⃛‖.
     fn at_most(&self, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
         let [from, to] = stretch.ends.map(|m| self.fastest(m));
         let greater = if from > to || from.is_nan() { from } else { to };
         greater + stretch.sag(bounds.third() + self.reach_m * bounds.third_of_axis())
     }
 
-    /// Upper bound on the speed of a point of the touching parts over a stretch \[m/s\], taken part by part.
+    /// Upper bound on the speed of a point of the touching parts over a stretch \[m/s\]: formula (21.2), refined part by part. `bounds` has
+    /// sup ‖p⃛‖ and sup ‖a⃛‖.
     fn at_most_of(&self, parts: &Parts<'_>, stretch: &Stretch<'_>, bounds: &Derivatives) -> f64 {
         let reach_m = parts.columns.reach_m();
         let ends = stretch.ends;
@@ -366,14 +370,15 @@ impl<'a> Rim<'a> {
     }
 }
 
-/// Upper bound on the speed of the points within a disc of radius r across the axis, whose centre moves at p \[m/s\]:
-/// |p + ω × u|² = |p|² + 2 u·(p × ω) + |ω × u|² ≤ |p|² + 2 r |P (p × ω)| + r² |ω|², P the projection across the axis.
-fn fastest_within(m: &Moment, p: &Vector3<f64>, radius_m: f64) -> f64 {
+/// Upper bound on the speed of the points within a disc across the axis \[m/s\], as G in formula (21.2): with v the velocity of its centre
+/// and P the projection across the axis, ‖v + ω × u‖² = ‖v‖² + 2 u·(v × ω) + ‖ω × u‖² ≤ ‖v‖² + 2 ϱ ‖P (v × ω)‖ + ϱ² ‖ω‖². `centre_speed` is
+/// v, `radius_m` is ϱ.
+fn fastest_within(m: &Moment, centre_speed: &Vector3<f64>, radius_m: f64) -> f64 {
     let across = {
-        let way = p.cross(&m.turning);
-        (way - m.axis * way.dot(&m.axis)).norm()
+        let turned = centre_speed.cross(&m.turning);
+        (turned - m.axis * turned.dot(&m.axis)).norm()
     };
-    (p.norm_squared() + 2.0 * radius_m * across + radius_m * radius_m * m.turning.norm_squared()).sqrt()
+    (centre_speed.norm_squared() + 2.0 * radius_m * across + radius_m * radius_m * m.turning.norm_squared()).sqrt()
 }
 
 /// Returns the velocity of a point of the tool \[m/s\]: `[x, y]` across the axis, `along_m` along it from the tip.
@@ -383,7 +388,7 @@ fn velocity(m: &Moment, [x, y]: [f64; 2], along_m: f64) -> Vector3<f64> {
 }
 
 impl Rim<'_> {
-    /// Bounds a stretch and, where needed, its halves.
+    /// Bounds a stretch by formulas (21.1) and (21.2) and, where needed, its halves.
     pub fn halve(&self, arm: &Arm<'_>, stretch: &Stretch<'_>, tracker: &mut BoundTracker, depth: u32) {
         let bounds = arm.derivatives(stretch);
         let bound = match &self.columns {
@@ -411,7 +416,8 @@ impl Rim<'_> {
         }
     }
 
-    /// Upper bound on the contact speed on a face that is no disc over a stretch \[m/s\]; `None` where nothing touches.
+    /// Upper bound on the contact speed on a face that is no disc over a stretch \[m/s\]: formula (21.2), and part by part where that does not keep
+    /// the limit; `None` where nothing touches.
     fn bound_on(
         &self,
         columns: &(Columns, Bends<'_>),

@@ -7,55 +7,32 @@
 //! would along the polyline.
 //!
 //! What is pressed is swept: where the share proved to be pressed (requirement 27) reaches the required one, it is the bound.
-//!
-//! Moments of the tip, seen along the axis of a plate, as a polyline that the tip never leaves by much.
 
 use crate::error::ProveError;
-use crate::motion::tip::{Arm, Stretch, TipPiece};
+use crate::judged_job::JudgedJob;
+use crate::motion::tip::{Arm, TipPiece};
 use crate::motion::tip_limits::Tips;
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::plan_statements::schedule::Schedule;
+use crate::report::check::{Check, Measure, Sense, WorstCase};
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::Schedule;
-use crate::subject::Subject;
-use crate::washing::contact::{CELLS_M, ContactInputs, PlateContact};
-use crate::washing::face::{Face, norm};
+use crate::report::unit::Unit;
+use crate::washing::face::Face;
+use crate::washing::face_shares::{Fineness, shares};
 use crate::washing::instants::Instants;
-use crate::washing::reach::ReachedNeighbour;
-use crate::washing::shares::{Fineness, shares};
+use crate::washing::plate_contact::PlateContact;
+use crate::washing::plate_coverage::PlateCoverage;
+use crate::washing::polyline::{MOST_HALVINGS, Polyline};
+use crate::washing::wash_inputs::{ContactInputs, Washing};
 use platewash_bodies::contact::Foundation;
 use platewash_bodies::coverage::coverage;
 use platewash_motion::trajectory::SegmentKind;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::job::PATH_TOLERANCE_M;
-use platewash_workcell::plate::Plate;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
-/// The swept share of a plate.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PlateCoverage {
-    /// Index of the plate.
-    pub plate: usize,
-    /// Proved lower bound of the swept share. It is that of the pressed share where that reaches the required one.
-    pub at_least: f64,
-    /// Proved upper bound of the swept share; `None` where it was not needed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_most: Option<f64>,
-    /// Proved lower bound of cos τ while washing.
-    pub cos_tilt: f64,
-    /// Upper bound on the reach of the sponge beyond the rim, at the height of the plate's face, while it comes down, washes and leaves
-    /// \[m\]; negative where it stays within the rim, `None` where nothing is proved.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beyond_rim_m: Option<f64>,
-    /// Reach beyond the rim of a sponge with the same tilt at the tip positions that were computed \[m\].
-    pub beyond_rim_seen_m: f64,
-    /// Reach beyond the rim that the wash path allows \[m\].
-    pub beyond_rim_allowed_m: f64,
-    /// Neighbouring plates that the sponge may touch there.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub touches: Vec<ReachedNeighbour>,
-}
+/// Edges of the smallest cells \[m\]. Each is used where the ones before it do not suffice.
+const CELLS_M: [f64; 2] = [1e-3, 2.5e-4];
 
 /// Results for one wash.
 #[derive(Debug)]
@@ -71,13 +48,13 @@ pub(crate) struct Wash {
     pub contact: Option<PlateContact>,
 }
 
-/// Coverage of every plate that is washed, and contact with it where the job asks for that.
+/// Coverage of every plate that is washed, formula (26.1), and contact with it where the job asks for that.
 ///
 /// # Errors
 /// [`ProveError::Coverage`] for lengths that make no sense, [`ProveError::Cancelled`].
 pub(crate) fn washes(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     pieces: &[TipPiece<'_>],
     schedule: &Schedule,
     tips: &Tips,
@@ -85,10 +62,10 @@ pub(crate) fn washes(
 ) -> Result<Vec<Wash>, ProveError> {
     let spans = schedule.spans.par_iter().enumerate();
     let washed = spans.filter_map(|(index, span)| {
-        let plate = subject.plates().get(span.plate)?;
+        let plate = judged.plates().get(span.plate)?;
         (span.kind == SegmentKind::Wash).then_some(Washing {
             arm,
-            subject,
+            judged,
             pieces: &pieces[span.pieces.clone()],
             around: schedule
                 .around(span.plate)
@@ -105,28 +82,11 @@ pub(crate) fn washes(
     washed.map(|washing| washing.judge()).collect()
 }
 
-/// The wash under judgement, with the data it needs.
-pub(crate) struct Washing<'a> {
-    arm: &'a Arm<'a>,
-    pub subject: &'a Subject<'a>,
-    pieces: &'a [TipPiece<'a>],
-    /// Pieces of the approaches to the plate and the retreats from it.
-    around: Vec<&'a [TipPiece<'a>]>,
-    /// Lower bound on the cosine of the angle between the tool and the plate's axis, from approach to retreat.
-    pub around_cosine: f64,
-    pub span: usize,
-    pub plate: &'a Plate,
-    /// Index of the plate.
-    pub index: usize,
-    pub tips: &'a Tips,
-    pub cancel: &'a CancelToken,
-}
-
 impl Washing<'_> {
     fn judge(&self) -> Result<Wash, ProveError> {
-        let subject = self.subject;
-        let within_m = subject.path_radius_m(self.index).unwrap_or(0.0) + PATH_TOLERANCE_M;
-        let line = Polyline::new(self.arm, self.pieces, &Face::of(self.plate), within_m, MOST_HALVINGS);
+        let judged = self.judged;
+        let within_m = judged.path_radius_m(self.index).unwrap_or(0.0) + PATH_TOLERANCE_M;
+        let line = Polyline::new(self.arm, self.pieces, &Face::new(self.plate), within_m, MOST_HALVINGS);
         let contact = self.contact(&line)?;
         let mut swept = PlateCoverage {
             plate: self.index,
@@ -139,7 +99,7 @@ impl Washing<'_> {
             touches: Vec::new(),
         };
         let pressed = contact.map(|contact| contact.pressed.at_least);
-        match pressed.filter(|pressed| *pressed >= self.subject.job.requirements.coverage) {
+        match pressed.filter(|pressed| *pressed >= self.judged.job.requirements.coverage) {
             Some(pressed) => swept.at_least = pressed,
             None if self.plate.surface.is_flat() => self.sweep(&line, &mut swept)?,
             None => swept.at_least = self.touched_share(pressed.unwrap_or(0.0))?,
@@ -153,16 +113,16 @@ impl Washing<'_> {
         })
     }
 
-    /// Bounds the share of a disc that the sponge sweeps: with cos τ at its lower bound, at least the share swept by a disc of radius s cos
-    /// τ.
+    /// Bounds the share of a disc that the sponge sweeps: at least that which a disc of the radius s cos τ − Δ sweeps along the polyline, formula
+    /// (26.1). `line` has Δ, `swept` has the lower bound on cos τ.
     fn sweep(&self, line: &Polyline, swept: &mut PlateCoverage) -> Result<(), ProveError> {
-        let (plate, sponge_m) = (self.plate, self.subject.sponge_m());
+        let (plate, sponge_m) = (self.plate, self.judged.sponge_m());
         let share = |radius_m: f64, cell_m: f64| {
             self.cancel.check()?;
             let (rim_m, cell_m) = (plate.rim_m(), cell_m.max(1e-4 * plate.rim_m()));
             coverage(&line.points, [0.0; 2], rim_m, radius_m, cell_m).map_err(ProveError::Coverage)
         };
-        let required = self.subject.job.requirements.coverage;
+        let required = self.judged.job.requirements.coverage;
         let shrunk = sponge_m * swept.cos_tilt - line.off_m;
         if shrunk > 0.0 {
             swept.at_least = share(shrunk, CELLS_M[0])?.lower;
@@ -182,8 +142,8 @@ impl Washing<'_> {
         if !self.meets_from_above() {
             return Ok(pressed);
         }
-        let required = self.subject.job.requirements.coverage;
-        let sponge = &self.subject.job.workcell.tool.sponge;
+        let required = self.judged.job.requirements.coverage;
+        let sponge = &self.judged.job.workcell.tool.sponge;
         // Whatever its stiffness: no dose is asked for.
         let foundation = Foundation::stiff(sponge, [0.0; 2]);
         let wanted = ContactThresholds {
@@ -205,9 +165,11 @@ impl Washing<'_> {
 
     /// Bounds the contact, where the job has contact requirements.
     fn contact(&self, line: &Polyline) -> Result<Option<PlateContact>, ProveError> {
-        let job = self.subject.job;
-        let (Some(wanted), Some(foundation)) = (job.contact_of(self.plate), Foundation::of(&job.workcell.tool.sponge))
-        else {
+        let job = self.judged.job;
+        let (Some(wanted), Some(foundation)) = (
+            job.contact_of(self.plate),
+            Foundation::from_sponge(&job.workcell.tool.sponge),
+        ) else {
             return Ok(None);
         };
         let error_m = wanted.height_error_m;
@@ -224,121 +186,19 @@ impl Washing<'_> {
         };
         Ok(Some(pressed.judge()?))
     }
-
-    /// Checks that every line along the tool's axis meets the face once, and from above: the tilt of the tool from the plate's axis is less
-    /// than a right angle minus the steepest slope.
-    pub fn meets_from_above(&self) -> bool {
-        self.meets_at(self.tips.least_upright_cosine_of(self.span))
-    }
-
-    /// Same check, with a lower bound `cosine` on the cosine of the angle between the tool and the plate's axis.
-    pub fn meets_at(&self, cosine: f64) -> bool {
-        let surface = &self.plate.surface;
-        let steepest = surface.patch([0.0, f64::INFINITY]);
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let slope = steepest.sine[0].abs().max(steepest.sine[1].abs());
-        cosine * steepest.least_cosine() > sine * slope
-    }
 }
 
 /// Checks that every plate is swept to the required share. Reports the plate with the least share.
-pub(crate) fn check(subject: &Subject<'_>, coverage: &[PlateCoverage]) -> Check {
+pub(crate) fn check(judged: &JudgedJob<'_>, coverage: &[PlateCoverage]) -> Check {
     let worst = coverage.iter().min_by(|a, b| a.at_least.total_cmp(&b.at_least));
     let Some(worst) = worst else {
         return Check::not_judged(Requirement::Swept);
     };
-    let all_washed = subject
+    let all_washed = judged
         .job
         .plates_to_wash()
         .all(|i| coverage.iter().any(|c| c.plate == i));
     let bounds = [Some(if all_washed { worst.at_least } else { 0.0 }), worst.at_most];
-    let measure = Measure::new(Sense::AtLeast, subject.job.requirements.coverage, Unit::Share, bounds);
+    let measure = Measure::new(Sense::AtLeast, judged.job.requirements.coverage, Unit::Share, bounds);
     Check::measured(Requirement::Swept, measure, WorstCase::on_plate(worst.plate))
-}
-
-/// Distance between tip and chord above which a stretch is halved \[m\].
-const CHORD_M: f64 = 5e-5;
-
-/// Greatest depth of halving of a piece of a wash.
-pub(crate) const MOST_HALVINGS: u32 = 6;
-
-/// Halvings allowed for any motion besides those of its pieces.
-const SPLITS: usize = 4096;
-
-/// Positions of the tip, seen along the plate's axis, from the plate's pole \[m\].
-#[derive(Debug)]
-pub(crate) struct Polyline {
-    pub points: Vec<[f64; 2]>,
-    /// Upper bound on the distance of the tip from the polyline \[m\].
-    pub off_m: f64,
-    /// Largest distance of a point from the pole \[m\].
-    pub seen_m: f64,
-    /// Upper bound on the distance of the tip from the pole \[m\].
-    pub within_m: f64,
-    /// Distance from the pole that the tip should keep within \[m\].
-    allowed_m: f64,
-    most_halvings: u32,
-    /// Halvings left.
-    splits: usize,
-}
-
-impl Polyline {
-    /// The tip during some pieces over a face. It should keep within `allowed_m` of the pole: where it does, that is proved.
-    pub fn new(arm: &Arm<'_>, pieces: &[TipPiece<'_>], face: &Face<'_>, allowed_m: f64, most_halvings: u32) -> Self {
-        let mut line = Self {
-            points: Vec::new(),
-            off_m: 0.0,
-            seen_m: 0.0,
-            within_m: 0.0,
-            allowed_m,
-            most_halvings,
-            splits: SPLITS + (pieces.len() << MOST_HALVINGS),
-        };
-        for (i, piece) in pieces.iter().enumerate() {
-            let stretch = piece.stretch();
-            if i == 0 {
-                line.points.push(tip_from_pole(face, &stretch, 0));
-            }
-            line.add(arm, face, &stretch, 0);
-        }
-        line
-    }
-
-    /// Adds a stretch whose first end is there already.
-    fn add(&mut self, arm: &Arm<'_>, face: &Face<'_>, stretch: &Stretch<'_>, depth: u32) {
-        let off_m = stretch.sag(arm.derivatives(stretch).second());
-        let ends = [0, 1].map(|end| tip_from_pole(face, stretch, end));
-        let far_m = ends.map(|[x, y]| norm(x, y)).into_iter().fold(0.0, f64::max);
-        let undecided = far_m <= self.allowed_m && far_m + off_m > self.allowed_m;
-        let halves = if (off_m > CHORD_M || undecided) && depth < self.most_halvings && self.splits > 0 {
-            self.splits -= 1;
-            arm.halves(stretch)
-        } else {
-            None
-        };
-        if let Some(halves) = halves {
-            return halves
-                .both()
-                .iter()
-                .for_each(|half| self.add(arm, face, half, depth + 1));
-        }
-        self.off_m = if off_m.is_nan() {
-            f64::INFINITY
-        } else {
-            self.off_m.max(off_m)
-        };
-        // ‖f‖ ≤ max(‖f(a)‖, ‖f(b)‖) + h²/8 · sup ‖f″‖ for f from the pole to the tip.
-        self.seen_m = self.seen_m.max(far_m);
-        self.within_m = if off_m.is_nan() {
-            f64::INFINITY
-        } else {
-            self.within_m.max(far_m + off_m)
-        };
-        self.points.push(ends[1]);
-    }
-}
-
-/// Returns the tip at an end of a stretch, seen along the plate's axis, from the pole \[m\].
-fn tip_from_pole(face: &Face<'_>, stretch: &Stretch<'_>, end: usize) -> [f64; 2] {
-    face.project(&stretch.ends[end].position).into()
 }

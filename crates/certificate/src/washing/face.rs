@@ -1,5 +1,7 @@
 //! The face of a plate as the bounds need it: heights over it, and its normal.
 //!
+//! Formulas (19.1) and (20.1) on a profile, in `docs/certificate.md`.
+//!
 //! Heights are along the plate's axis. The normal of a face that is no disc is taken under a place, seen along that axis; `Pass` bounds its
 //! rate of turning.
 //!
@@ -39,7 +41,7 @@ pub(crate) struct Face<'a> {
 
 impl<'a> Face<'a> {
     /// Returns the face of a plate.
-    pub fn of(plate: &'a Plate) -> Self {
+    pub fn new(plate: &'a Plate) -> Self {
         let upright = plate.axis();
         Self {
             plate,
@@ -75,7 +77,8 @@ impl<'a> Face<'a> {
         self.plate.pose.rotation * Vector3::new(-at.sine * out.x, -at.sine * out.y, at.cosine)
     }
 
-    /// Height over a flat face of the lowest point of a round rim about a point, across an axis \[m\].
+    /// Height over a flat face of the lowest point of a round rim \[m\], H + δ of formula (21.1). `point` is p + b a, the middle of the
+    /// rim; `axis` is a, `radius_m` is s.
     pub fn height_of_rim(&self, point: &Vector3<f64>, axis: &Vector3<f64>, radius_m: f64) -> f64 {
         point.dot(&self.upright) - radius_m * across(axis, &self.upright) - self.level_m
     }
@@ -102,7 +105,7 @@ impl<'a> Face<'a> {
     }
 }
 
-/// Sine of the angle between an axis out of the tool and the way against a normal; 2 where it points away, beyond every limit.
+/// Sine of the tilt τ, formula (19.1): ‖a − (a·n) n‖; 2 where the axis points away, beyond every limit. `axis` is a, `normal` is n.
 pub(crate) fn sine_of_tilt(axis: &Vector3<f64>, normal: &Vector3<f64>) -> f64 {
     if axis.dot(normal) < 0.0 {
         across(axis, normal)
@@ -142,7 +145,7 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
-    /// Bounds the pass of a stretch over a face.
+    /// Bounds the pass of a stretch over a face, as the head of this file derives. `bounds` has sup ‖p̈‖ and sup ‖p⃛‖, formula (0.3).
     pub fn new(face: &Face<'_>, stretch: &Stretch<'_>, bounds: &Derivatives) -> Self {
         let surface = face.surface();
         let acceleration = bounds.second();
@@ -185,21 +188,21 @@ impl Pass {
         }
     }
 
-    /// Returns an upper bound on the second derivative of the height over the face \[m/s²\].
+    /// Returns an upper bound on the second derivative of the height over the face, z − f \[m/s²\]: a / cos β + K v² / cos³ β, formula (20.1).
     pub fn bend_of_height(&self) -> f64 {
         let (c, v) = (self.cosine, self.speed);
         self.acceleration / c + self.greatest / (c * c * c) * v * v
     }
 
-    /// Returns an upper bound on the rise of the sine between an axis and the normal above its values at the ends of a stretch. `first` and
-    /// `second` bound the derivatives of the axis \[1/s, 1/s²\].
+    /// Returns an upper bound on the rise of sin τ above its values at the ends of a stretch, formula (19.1), with what the jumps of curvature
+    /// between arcs add. `first` and `second` are sup ‖ȧ‖ \[1/s\] and sup ‖ä‖ \[1/s²\].
     pub fn sag_of_sine(&self, stretch: &Stretch<'_>, [first, second]: [f64; 2]) -> f64 {
         let [turn, bend] = self.of_normal();
         let kinks = (self.kappa[1] - self.kappa[0]) * (self.rho_m[1] - self.rho_m[0]) / self.cosine;
         stretch.sag(bend + 2.0 * turn * first + second) + kinks
     }
 
-    /// Returns upper bounds on ‖ṅ‖ and ‖n̈‖ \[1/s, 1/s²\].
+    /// Returns upper bounds on ‖ṅ‖ \[1/s\] and ‖n̈‖ \[1/s²\] of formula (19.1), within one piece of the meridian.
     fn of_normal(&self) -> [f64; 2] {
         let Self {
             speed: v,
@@ -261,7 +264,7 @@ mod tests {
         ) {
             let mut plate = platewash_fixtures::kitchen_plate([0.2, -0.1]);
             plate.pose.rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
-            let (face, point) = (Face::of(&plate), Vector3::new(x, y, z));
+            let (face, point) = (Face::new(&plate), Vector3::new(x, y, z));
             let axis = Vector3::new(lean.sin() * way.cos(), lean.sin() * way.sin(), -lean.cos());
             prop_assert!((face.height_of(&point) - (z - 0.03)).abs() < 1e-15);
             prop_assert!((sine_of_tilt(&axis, face.plate_axis()) - lean.sin()).abs() < 1e-15);

@@ -2,21 +2,22 @@
 //!
 //! Requirements 22 and 23, formula (22.1) in `docs/certificate.md`.
 //!
-//! To every moment belongs a parameter θ(t) that starts at 0, never falls and ends at the curve's end; between two moments a
-//! and b it runs evenly. The deviation e(t) = p(t) − c(θ(t)) then keeps
-//! ‖e‖ ≤ max(‖e(a)‖, ‖e(b)‖) + h²/8 · sup ‖p̈‖ + Δθ²/8 · sup ‖c″‖. Which θ is chosen at a moment (the nearest point's;
-//! where these run back, half-way between the greatest so far and the least to come) decides how tight this is, and nothing else.
+//! To every moment belongs a parameter θ(t) that starts at 0, never falls and ends at the end of the curve γ; between two moments t₀ and t₁
+//! it runs evenly. The deviation e(t) = p(t) − γ(θ(t)) then keeps ‖e‖ ≤ max(‖e(t₀)‖, ‖e(t₁)‖) + h²/8 · sup ‖p̈‖ + Δθ²/8 · sup ‖γ″‖. Which θ
+//! is chosen at a moment (the nearest point's; where these run back, half-way between the greatest so far and the least to come) decides
+//! how tight this is, and nothing else.
 //!
 //! The curves that the tip must follow, by one parameter θ that never runs back.
 
+use crate::judged_job::JudgedJob;
 use crate::motion::bound_tracker::BoundTracker;
 use crate::motion::piece::Piece;
 use crate::motion::tip::{Arm, Stretch, TipPiece};
 use crate::motion::tip_limits;
-use crate::report::check::{Check, Unit};
+use crate::plan_statements::schedule::Schedule;
+use crate::report::check::Check;
 use crate::report::requirement::Requirement;
-use crate::statements::schedule::Schedule;
-use crate::subject::Subject;
+use crate::report::unit::Unit;
 use crate::washing::face::Face;
 use nalgebra::Vector3;
 use platewash_motion::trajectory::SegmentKind;
@@ -37,7 +38,7 @@ struct Leg<'a> {
 /// Checks the deviation of the tip from the wash paths, and from the lines over their ends.
 pub(crate) fn checks(
     arm: &Arm<'_>,
-    subject: &Subject<'_>,
+    judged: &JudgedJob<'_>,
     (pieces, along): (&[Piece], &[TipPiece<'_>]),
     schedule: Option<&Schedule>,
 ) -> [Check; 2] {
@@ -50,9 +51,9 @@ pub(crate) fn checks(
     let mut no_curve = [false; 2];
     for span in schedule.spans.iter().filter(|span| span.kind.is_at_plate()) {
         let which = usize::from(span.kind != SegmentKind::Wash);
-        let plate = subject.plates().get(span.plate);
-        let of_path = |plate| Curve::new(plate, subject.path_of(span.plate)?, span.kind);
-        let curve = match subject.job.recovery.as_ref().and_then(Recovery::retreat) {
+        let plate = judged.plates().get(span.plate);
+        let of_path = |plate| Curve::new(plate, judged.path_of(span.plate)?, span.kind);
+        let curve = match judged.job.recovery.as_ref().and_then(Recovery::retreat) {
             Some(line) => plate
                 .zip(along.get(span.pieces.start))
                 .map(|(plate, first)| Curve::up_from(plate, first.stretch().ends[0].position, line.length_m)),
@@ -72,7 +73,7 @@ pub(crate) fn checks(
     })
 }
 
-/// Bounds the deviation of the tip from a curve during the pieces.
+/// Bounds the deviation ‖e‖ of the tip from a curve γ during the pieces, formula (22.1).
 fn follow(arm: &Arm<'_>, pieces: &[TipPiece<'_>], curve: &Curve<'_>, tracker: &mut BoundTracker) {
     tracker.allow_for(pieces.len());
     let theta = in_order(nearest(pieces, curve));
@@ -117,6 +118,7 @@ fn in_order(mut values: Vec<f64>) -> Vec<f64> {
     values
 }
 
+/// Bounds the deviation ‖e‖ over a leg by formula (22.1) and, where needed, over its halves. `curve` is γ.
 fn refine(arm: &Arm<'_>, curve: &Curve<'_>, leg: &Leg<'_>, tracker: &mut BoundTracker, depth: u32) {
     let [from, to] = [0, 1].map(|k| deviation(curve, leg, k));
     let greater = if from > to || from.is_nan() { from } else { to };
@@ -148,7 +150,7 @@ fn refine(arm: &Arm<'_>, curve: &Curve<'_>, leg: &Leg<'_>, tracker: &mut BoundTr
     }
 }
 
-/// Deviation at an end of a leg \[m\].
+/// Deviation ‖e‖ = ‖p − γ(θ)‖ at an end of a leg \[m\].
 fn deviation(curve: &Curve<'_>, leg: &Leg<'_>, end: usize) -> f64 {
     (leg.stretch.ends[end].position - curve.at(leg.theta[end])[0]).norm()
 }
@@ -181,7 +183,7 @@ impl<'a> Curve<'a> {
                 Some(Self::Line { from, along, length })
             }
             SegmentKind::Wash => {
-                let (face, curve) = (Face::of(plate), &path.curve);
+                let (face, curve) = (Face::new(plate), &path.curve);
                 Some(Self::Wash { face, curve })
             }
             SegmentKind::Retreat => {
@@ -214,7 +216,7 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// Bound of the second derivative by θ between two θ: [`WashCurve::greatest_second`].
+    /// Upper bound on sup ‖γ″‖ of formula (22.1), the second derivative by θ between two θ: [`WashCurve::greatest_second`].
     pub fn bend(&self, between: [f64; 2]) -> f64 {
         match self {
             Self::Line { .. } => 0.0,

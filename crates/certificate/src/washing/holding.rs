@@ -13,28 +13,29 @@
 //! p the pressure at r, has the sum A P, and about c the torque B ∫ p |r − c|² = B P (R² − |c|²): the friction that holds the plate is nowhere
 //! more than (F + T/(R − |c|))/P of the pressure. That it is no more than the coefficient, with |c| < R, suffices: such friction is in
 //! balance with the load, whatever the pressure. So much is needed for every N from 0 to its greatest. With the tip at d from the axis, the
-//! columns within s of it, S the greatest |sin β| under the sponge, W and G the plate's weight along its axis and across it, and z the height
+//! columns within ς of it, S the greatest |sin β| under the sponge, W and G the plate's weight along its axis and across it, and z the height
 //! of the plate over its ring:
 //!
-//! - P ≥ W + (√(1 − S²) − μ S) N, and of each column at most k p, k = min(1 + μ S, √(1 + μ²));
+//! - P ≥ W + (√(1 − S²) − μ S) N, and of each column at most κ p, κ = min(1 + μ S, √(1 + μ²));
 //! - F ≤ f + G, f ≤ h(S) N, and f is no more than the load above;
-//! - |c| P ≤ M = min(ρ k N, d k N + O) + z F, with ρ the greatest distance from the axis that the sponge reaches on the plate and O the moment
-//!   of what is pressed about the tip, at most s k N;
-//! - |tip − c| P ≤ W d + O + z F, so that T P ≤ (W d + O + z F) f + M G + t P, with t the torque about the tip, at most s h(S) N.
+//! - |c| P ≤ M = min(ρ κ N, d κ N + O) + z F, with ρ the greatest distance from the axis that the sponge reaches on the plate and O the moment
+//!   of what is pressed about the tip, at most ς κ N;
+//! - |tip − c| P ≤ W d + O + z F, so that T P ≤ (W d + O + z F) f + M G + t P, with t the torque about the tip, at most ς h(S) N.
 //!
 //! Where a second bound of f, O or t holds for every N, the lesser one counts: each is a line over some intervals of N. P, F and M are lines
 //! there, too, and the friction suffices where (u μ′ P − F)(R P − M) ≥ T P (u = 1, μ′ the coefficient): a parabola in N, which is not below 0
 //! if it is not so at both ends and at its vertex. The least u is found by halving.
 
-use crate::report::check::{Check, Measure, Sense, Unit, WorstCase};
+use crate::judged_job::JudgedJob;
+use crate::report::check::{Check, Measure, Sense, WorstCase, tighter};
 use crate::report::requirement::Requirement;
-use crate::subject::Subject;
-use crate::washing::contact::{ContactInputs, PlateContact, are_of_all_plates, tighter};
+use crate::report::unit::Unit;
+use crate::washing::holder_load::{HolderLoad, RingShares};
 use crate::washing::instants::Instants;
+use crate::washing::plate_contact::{PlateContact, are_of_all_plates};
 use crate::washing::pressing::{FRICTION, Pressing};
+use crate::washing::wash_inputs::ContactInputs;
 use platewash_workcell::job::RingTerms;
-use serde::{Deserialize, Serialize};
-use ts_rs::TS;
 
 /// Acceleration of gravity, down in the world \[m/s²\].
 const GRAVITY_M_S2: f64 = 9.81;
@@ -42,130 +43,80 @@ const GRAVITY_M_S2: f64 = 9.81;
 /// Relative amount by which the bounds of a ring are enlarged: far above their rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// Upper bounds of the load on what holds a plate, from approach to retreat: for every plate height within the stated error and every sponge
-/// stiffness in the stated range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct HolderLoad {
-    /// Friction coefficients of the sponge on the plate, least and greatest: assumptions. The loads below are for each of both.
-    pub sponge_friction: [f64; 2],
-    /// Force of the sponge across the plate's axis \[N\].
-    pub lateral_n: [f64; 2],
-    /// Torque of the sponge about the plate's axis \[N·m\].
-    pub torque_nm: [f64; 2],
-    /// Weight of the plate, along its axis and across it \[N\]; `None` where the job states no mass. It is no part of the force above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub weight_n: Option<[f64; 2]>,
-    /// Bounds of a plate that stands on a ring, for the greatest friction of the sponge.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ring: Option<RingShares>,
+/// Bounds the load from approach to retreat: the force across the plate's axis, formula (33.1), and the torque about it, formula (33.2). `pressing`
+/// has the integrals. `None` where nothing is proved.
+pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Option<HolderLoad> {
+    let (plate, judged) = (inputs.washing.plate, inputs.washing.judged);
+    let (volumes, terms) = (&pressing.holder, judged.job.requirements.holder.as_ref());
+    let stiffest = inputs.foundation.stiffness_pa[1] / inputs.foundation.free_height_m;
+    let [least, assumed] = FRICTION;
+    let most = terms.map_or(assumed, |terms| terms.sponge_friction);
+    let sponge_friction = [least.min(most), most];
+    let slope = volumes.slope_m3 / volumes.normal_m3;
+    let lateral_n = sponge_friction.map(|friction| stiffest * volumes.normal_m3 * across(slope, friction));
+    let torque_nm = sponge_friction.map(|friction| stiffest * friction * volumes.turn_m4);
+    let is_known = lateral_n.iter().chain(&torque_nm).all(|bound| bound.is_finite());
+    let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
+    let weight_n = mass_kg.map(|mass_kg| {
+        let (axis, whole_n) = (plate.axis(), mass_kg * GRAVITY_M_S2);
+        [whole_n * axis.dot(&judged.up), whole_n * axis.cross(&judged.up).norm()]
+    });
+    let standing = terms.and_then(|terms| terms.ring.as_ref()).zip(weight_n);
+    let on_ring = |weight_n| ring_load(inputs, pressing, stiffest, most, lateral_n[1], weight_n);
+    is_known.then(|| HolderLoad {
+        sponge_friction,
+        lateral_n,
+        torque_nm,
+        weight_n,
+        ring: standing.map(|(ring, weight_n)| on_ring(weight_n).shares(ring)),
+    })
 }
 
-/// Upper bounds of what a ring bears, as shares of what it can. Each is `None` where nothing is proved.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, TS)]
-#[ts(optional_fields)]
-pub struct RingShares {
-    /// Distance from the axis of the centre of what presses the plate down, over the ring's radius. At 1 the plate may tip.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tipping: Option<f64>,
-    /// Force across the axis over the greatest friction: above 1 the plate may slide.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sliding: Option<f64>,
-    /// Needed friction over the greatest one, of that force and the torque together: above 1 the plate may turn or slide.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<f64>,
-}
-
-impl RingShares {
-    /// Returns what the plate may do; `None` if it stays.
-    pub fn fault(&self) -> Option<&'static str> {
-        let is_below = |share: Option<f64>| share.is_some_and(|share| share <= 1.0);
-        match self {
-            _ if !self.tipping.is_some_and(|share| share < 1.0) => Some("it may tip"),
-            _ if !is_below(self.sliding) => Some("it may slide"),
-            _ if !is_below(self.friction) => Some("it may turn"),
-            _ => None,
-        }
+/// Collects the load on a ring for formula (33.5). `stiffest` is E/H \[Pa/m\], `friction` is μ, `lateral_n` is the bound of formula (33.1),
+/// `weight_n` is W and G.
+fn ring_load(
+    inputs: &ContactInputs<'_>,
+    pressing: &Pressing,
+    stiffest: f64,
+    friction: f64,
+    lateral_n: f64,
+    weight_n: [f64; 2],
+) -> RingLoad {
+    let (washing, plate, foundation) = (inputs.washing, inputs.washing.plate, inputs.foundation);
+    let volumes = &pressing.holder;
+    // A column that is pressed ends no farther from the tip along the sponge's axis than it may be compressed.
+    let c = foundation.compression_m;
+    let along_m = c.max(pressing.deepest.bound - c);
+    let cosine = washing.tips.least_upright_cosine_of(washing.span);
+    let cosine = washing.around_cosine.min(cosine).max(0.0);
+    let aside_m = along_m * (1.0 - cosine * cosine).max(0.0).sqrt();
+    let reach_m = foundation.radius_m + aside_m;
+    let instants = std::iter::once(inputs.instants).chain(inputs.around);
+    let tip_m = instants.map(Instants::tip_within_m).fold(0.0, f64::max);
+    let farthest_m = plate.rim_m().min(tip_m + reach_m);
+    let [least, most] = plate.surface.patch([0.0, farthest_m]).sine;
+    let aside_m4 = aside_m * volumes.normal_m3;
+    let [bottom_m, top_m] = plate.extent_m();
+    RingLoad {
+        pressed_n: stiffest * volumes.normal_m3,
+        weight_n,
+        sine: most.max(-least),
+        friction,
+        tip_m,
+        reach_m,
+        farthest_m,
+        height_m: top_m - bottom_m,
+        lateral_n,
+        lean_nm: stiffest * (volumes.lean_m4 + aside_m4),
+        twist_nm: stiffest * (friction * (pressing.twist_m4 + aside_m4) + reach_m * volumes.slope_m3),
     }
 }
-
-impl ContactInputs<'_> {
-    /// Bounds the load from approach to retreat; `None` where nothing is proved.
-    pub fn holder_load(&self, pressing: &Pressing) -> Option<HolderLoad> {
-        let (plate, subject) = (self.washing.plate, self.washing.subject);
-        let (volumes, terms) = (&pressing.holder, subject.job.requirements.holder.as_ref());
-        let stiffest = self.foundation.stiffness_pa[1] / self.foundation.free_height_m;
-        let [least, assumed] = FRICTION;
-        let most = terms.map_or(assumed, |terms| terms.sponge_friction);
-        let sponge_friction = [least.min(most), most];
-        let slope = volumes.slope_m3 / volumes.normal_m3;
-        let lateral_n = sponge_friction.map(|friction| stiffest * volumes.normal_m3 * across(slope, friction));
-        let torque_nm = sponge_friction.map(|friction| stiffest * friction * volumes.turn_m4);
-        let is_known = lateral_n.iter().chain(&torque_nm).all(|bound| bound.is_finite());
-        let mass_kg = terms.and_then(|terms| terms.plate_mass_kg);
-        let weight_n = mass_kg.map(|mass_kg| {
-            let (axis, whole_n) = (plate.axis(), mass_kg * GRAVITY_M_S2);
-            [
-                whole_n * axis.dot(&subject.up),
-                whole_n * axis.cross(&subject.up).norm(),
-            ]
-        });
-        let standing = terms.and_then(|terms| terms.ring.as_ref()).zip(weight_n);
-        let on_ring = |weight_n| self.ring_load(pressing, stiffest, most, lateral_n[1], weight_n);
-        is_known.then(|| HolderLoad {
-            sponge_friction,
-            lateral_n,
-            torque_nm,
-            weight_n,
-            ring: standing.map(|(ring, weight_n)| on_ring(weight_n).shares(ring)),
-        })
-    }
-
-    fn ring_load(
-        &self,
-        pressing: &Pressing,
-        stiffest: f64,
-        friction: f64,
-        lateral_n: f64,
-        weight_n: [f64; 2],
-    ) -> RingLoad {
-        let (washing, plate, foundation) = (self.washing, self.washing.plate, self.foundation);
-        let volumes = &pressing.holder;
-        // A column that is pressed ends no farther from the tip along the sponge's axis than it may be compressed.
-        let c = foundation.compression_m;
-        let along_m = c.max(pressing.deepest.bound - c);
-        let cosine = washing.tips.least_upright_cosine_of(washing.span);
-        let cosine = washing.around_cosine.min(cosine).max(0.0);
-        let aside_m = along_m * (1.0 - cosine * cosine).max(0.0).sqrt();
-        let reach_m = foundation.radius_m + aside_m;
-        let instants = std::iter::once(self.instants).chain(self.around);
-        let tip_m = instants.map(Instants::tip_within_m).fold(0.0, f64::max);
-        let farthest_m = plate.rim_m().min(tip_m + reach_m);
-        let [least, most] = plate.surface.patch([0.0, farthest_m]).sine;
-        let aside_m4 = aside_m * volumes.normal_m3;
-        let [bottom_m, top_m] = plate.extent_m();
-        RingLoad {
-            pressed_n: stiffest * volumes.normal_m3,
-            weight_n,
-            sine: most.max(-least),
-            friction,
-            tip_m,
-            reach_m,
-            farthest_m,
-            height_m: top_m - bottom_m,
-            lateral_n,
-            lean_nm: stiffest * (volumes.lean_m4 + aside_m4),
-            twist_nm: stiffest * (friction * (pressing.twist_m4 + aside_m4) + reach_m * volumes.slope_m3),
-        }
-    }
-}
-
-/// Load on a ring, as upper bounds. The head of this file explains it.
+/// Load on a ring, as upper bounds: the symbols of formula (33.5).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RingLoad {
     /// Greatest force along normals, N \[N\].
     pub pressed_n: f64,
-    /// Weight of the plate along its axis and across it \[N\].
+    /// Weight of the plate along its axis and across it, W and G \[N\].
     pub weight_n: [f64; 2],
     /// Greatest |sin β| under the sponge, S.
     pub sine: f64,
@@ -173,7 +124,7 @@ pub(crate) struct RingLoad {
     pub friction: f64,
     /// Distance of the tip from the axis, d \[m\].
     pub tip_m: f64,
-    /// Distance of the columns from the tip, seen along the plate's axis, s \[m\].
+    /// Distance of the columns from the tip, seen along the plate's axis, ς \[m\].
     pub reach_m: f64,
     /// Distance of the columns from the axis, ρ \[m\].
     pub farthest_m: f64,
@@ -185,7 +136,7 @@ pub(crate) struct RingLoad {
     pub twist_nm: f64,
 }
 
-/// Greatest force across the plate's axis of what is pressed along a normal, h(|sin β|).
+/// Greatest force across the plate's axis over what is pressed along a normal, h(x) of formula (33.1). `sine` is x = |sin β|, `friction` is μ.
 fn across(sine: f64, friction: f64) -> f64 {
     let cosine = (1.0 - sine * sine).sqrt();
     if friction * sine <= cosine {
@@ -220,7 +171,7 @@ fn share(demand: f64, supply: f64) -> f64 {
     }
 }
 
-/// Bounds over an interval of N.
+/// Bounds of formula (33.5) over an interval of N.
 struct Stretch {
     ends: [f64; 2],
     /// Lower bound of P.
@@ -234,7 +185,7 @@ struct Stretch {
 }
 
 impl RingLoad {
-    /// Bounds the shares of what a ring can bear.
+    /// Bounds the shares of what a ring can bear, formula (33.4). `ring` has R and μ′.
     pub fn shares(&self, ring: &RingTerms) -> RingShares {
         let stretches = self.stretches();
         let greatest = |of: &dyn Fn(&Stretch, f64) -> f64| {
@@ -277,7 +228,7 @@ impl RingLoad {
         }
     }
 
-    /// The intervals of N in which each bound is one line.
+    /// The intervals of N in which each bound of formula (33.5) is one line.
     fn stretches(&self) -> Vec<Stretch> {
         let [down_n, across_n] = self.weight_n;
         let (sine, friction, most) = (self.sine, self.friction, self.pressed_n);
@@ -325,7 +276,8 @@ impl RingLoad {
 }
 
 impl Stretch {
-    /// True if friction of a coefficient holds the plate on a ring, whatever N in the interval. The plate must not tip.
+    /// True if formula (33.4) holds for every N in the interval: the plate does not slide. `radius_m` is R, `friction` is the coefficient that is
+    /// tried for μ′. The plate must not tip.
     fn is_held(&self, radius_m: f64, friction: f64) -> bool {
         let spare = sum([(friction, self.pressed), (-1.0, self.lateral)]);
         let inside = sum([(radius_m, self.pressed), (-1.0, self.moment)]);
@@ -352,11 +304,11 @@ impl Stretch {
 }
 
 /// Checks that every plate stays where it is, where the job states what holds the plates.
-pub(crate) fn check(subject: &Subject<'_>, all: &[PlateContact]) -> Option<Check> {
+pub(crate) fn check(judged: &JudgedJob<'_>, all: &[PlateContact]) -> Option<Check> {
     let requirement = Requirement::PlateStays;
-    let terms = subject.job.requirements.holder?;
-    subject.job.requirements.contact?;
-    if !are_of_all_plates(subject, all) {
+    let terms = judged.job.requirements.holder?;
+    judged.job.requirements.contact?;
+    if !are_of_all_plates(judged, all) {
         return Some(Check::not_judged(requirement));
     }
     let side = |contact: &PlateContact, bound: Option<f64>, limit: f64, unit: Unit| {

@@ -1,5 +1,7 @@
 //! Moments of a wash, close enough to each other that contact between them is bounded.
 //!
+//! Formula (28.1) in `docs/contact.md`, where Λ stands for R.
+//!
 //! With p the tip, a the tool's axis, x a point in contact, d = x − p, R what ‖d‖ is not above, ω how fast the tool turns and
 //! P = I − a aᵀ; V, A, J bound ‖ṗ‖, ‖p̈‖, ‖p⃛‖, a₁ and a₂ bound ‖ȧ‖ and ‖ä‖, W, W₁ and W₂ bound ω and its derivatives:
 //!
@@ -13,7 +15,7 @@
 
 use crate::motion::tip::{self, Arm, Derivatives, Stretch, TipPiece};
 use crate::motion::tip_limits;
-use crate::washing::shares::Sags;
+use crate::washing::face_shares::sags::Sags;
 use platewash_bodies::contact::{Drift, Foundation, Moment, SpongePose};
 use platewash_workcell::plate::Plate;
 
@@ -68,7 +70,7 @@ impl Instants {
         plate: &Plate,
         (foundation, error_m): (&Foundation, f64),
     ) -> Self {
-        let look = StretchInputs {
+        let inputs = StretchInputs {
             arm,
             plate,
             foundation,
@@ -80,7 +82,7 @@ impl Instants {
             if all.moments.is_empty() {
                 all.see(plate, &stretch, 0);
             }
-            all.add(&look, &stretch, 0);
+            all.add(&inputs, &stretch, 0);
         }
         all
     }
@@ -115,7 +117,8 @@ impl Instants {
         self.see(inputs.plate, stretch, 1);
     }
 
-    /// Upper bound on the distance of the tip from the plate's axis \[m\]: the chord bound between moments; infinite where it is not known.
+    /// Upper bound on the distance of the tip from the plate's axis \[m\]: the chord bound, formula (0.1) in `docs/certificate.md`, between
+    /// moments; infinite where it is not known.
     pub fn tip_within_m(&self) -> f64 {
         let distances = self.moments.iter().map(|moment| moment.pose.tip.xy().norm());
         let sags = self.drifts.iter().map(|d| 0.125 * d.length_s * d.length_s * d.tip_m_s2);
@@ -144,7 +147,7 @@ pub(crate) fn pose(plate: &Plate, there: &tip::Moment) -> SpongePose {
     }
 }
 
-/// Bounds the motion of a sponge over a stretch.
+/// Bounds the motion of a sponge over a stretch: V, A, W, a₁ and a₂ of the head of this file. `bounds` has the suprema of formulas (0.3) and (0.4).
 pub(crate) fn drift(stretch: &Stretch<'_>, bounds: &Derivatives) -> Drift {
     let half_s = 0.5 * stretch.length_s();
     let greatest = |of: fn(&tip::Moment) -> f64| {
@@ -165,7 +168,8 @@ pub(crate) fn drift(stretch: &Stretch<'_>, bounds: &Derivatives) -> Drift {
 }
 
 impl StretchInputs<'_> {
-    /// Bounds the sags over a stretch: see the head of this file.
+    /// Bounds the sags over a stretch, formula (28.1), and that of the sliding way: see the head of this file. `drift` has V, A, W, a₁ and a₂,
+    /// `bounds` has W₁, W₂ and J.
     fn sags(&self, stretch: &Stretch<'_>, bounds: &Derivatives, drift: &Drift) -> Sags {
         let h = stretch.length_s();
         let (s, height_m) = (self.foundation.radius_m, self.foundation.free_height_m);

@@ -1,5 +1,7 @@
 //! Load on the sponge while it washes: strain, contact force, and friction torque about its axis.
 //!
+//! Formulas (30.1) to (31.2) in `docs/contact.md`, as compressions and volumes of foam.
+//!
 //! The foam presses with E w / H over a column of the cross-section dA, along the sponge's axis: with the volume V = ∫ max(w, 0) dA the
 //! force along the axis is E V / H, whatever way the surface faces, as long as there is no friction. Friction μ acts on what the plate
 //! presses along its normal, which is 1/cos γ as much, at a lever of at most r: its torque about the axis is no more than
@@ -25,7 +27,7 @@ use platewash_bodies::contact::{
 };
 use platewash_workcell::plate::Plate;
 
-/// Friction between a wet sponge and a plate, least and greatest: an assumption.
+/// Friction coefficient μ between a wet sponge and a plate, least and greatest: an assumption.
 pub(crate) const FRICTION: [f64; 2] = [0.3, 1.0];
 
 /// Proved bounds of a wash on a disc.
@@ -57,11 +59,12 @@ pub(crate) struct Extreme {
 /// Load on the sponge during a wash, as compression and volumes of foam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pressing {
-    /// Greatest compression \[m\].
+    /// Greatest compression, H times the strain of formula (30.1) \[m\].
     pub deepest: Extreme,
-    /// Volume of compressed foam \[m³\]: the least, with the plate at its lowest, and the greatest, with the plate at its highest.
+    /// Volume V of compressed foam, formula (31.1) \[m³\]: the least, with the plate at its lowest, and the greatest, with the plate at its
+    /// highest.
     pub volume: [Extreme; 2],
-    /// Upper bound on ∫ max(w, 0) r / cos γ dA \[m⁴\].
+    /// Upper bound on ∫ max(w, 0) r / cos γ dA, the friction torque of formula (31.2) divided by μ E/H \[m⁴\].
     pub twist_m4: f64,
     /// Upper bounds of what the plate's holder takes.
     pub holder: HolderVolumes,
@@ -92,7 +95,7 @@ impl Pressing {
         all
     }
 
-    /// Bounds the load during a wash on a disc.
+    /// Bounds the load during a wash on a disc, formulas (30.1) to (31.2). `known` has the worst |z| without δ, cos τ, distance d and δ.
     pub fn on_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, known: &DiscWashBounds) -> Self {
         let mut all = Self::new();
         let rim_m = plate.rim_m();
@@ -126,8 +129,8 @@ impl Pressing {
         all
     }
 
-    /// Bounds the load before or after the wash, on a disc that may lie higher by `error_m`. Each stretch is bounded from the two moments
-    /// at its ends. With h the length of the stretch, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖, and the axis no
+    /// Bounds the load before or after the wash on a disc, formulas (30.1) to (31.2). `error_m` is δ. Each stretch is bounded from the two
+    /// moments at its ends. With h the length of the stretch, the tip is no lower than the lower end by more than h²/8 · sup ‖p̈‖, and the axis no
     /// farther from the nearer end than h/2 times its greatest speed.
     pub fn around_disc(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Self {
         let mut all = Self::new();
@@ -221,7 +224,7 @@ const NEAR: [f64; QUANTITIES] = [0.01, 0.01, 0.01, 0.02, 0.02, 0.02, 0.02];
 const MOST_SAG_M: f64 = 1e-4;
 
 /// Number of column grids: a coarse one and a fine one.
-const LOOKS: usize = 2;
+const GRIDS: usize = 2;
 
 /// Number of bounded quantities, and of those on the sponge, which come first. Each is expressed so that greater is worse, see
 /// [`severities`].
@@ -233,7 +236,7 @@ struct Span {
     from: usize,
     to: usize,
     /// Index of the column grid: 0 is coarse, 1 is fine.
-    look: usize,
+    grid: usize,
     press: Press,
 }
 
@@ -243,9 +246,9 @@ struct Search<'a> {
     instants: &'a Instants,
     turning: TurningFrame<'a>,
     error_m: f64,
-    looks: [Columns; LOOKS],
+    grids: [Columns; GRIDS],
     /// State of the columns by column grid and moment; `None` until it is computed.
-    standings: [Vec<Option<SpongeState>>; LOOKS],
+    standings: [Vec<Option<SpongeState>>; GRIDS],
     spans: Vec<Span>,
     /// Worst value at a single moment, per quantity.
     at_moments: [f64; QUANTITIES],
@@ -254,13 +257,13 @@ struct Search<'a> {
     found: Pressing,
 }
 
-/// Bounds the load during a wash on any face, which may lie higher or lower by `error_m`.
+/// Bounds the load during a wash on any face, in columns (30, 31 on a profile). `error_m` is δ.
 pub(crate) fn on_face(plate: &Plate, foundation: &Foundation, instants: &Instants, error_m: f64) -> Pressing {
     search(plate, error_m, foundation, instants, [f64::NEG_INFINITY; QUANTITIES])
 }
 
-/// Bounds the load before or after a wash on any face. Refines until the load is shown to be no higher than in `wash`, otherwise as far as
-/// [`on_face`] does.
+/// Bounds the load before or after a wash on any face, in columns. `error_m` is δ. Refines until the load is shown to be no higher than in
+/// `wash`, otherwise as far as [`on_face`] does.
 pub(crate) fn around_face(
     plate: &Plate,
     foundation: &Foundation,
@@ -293,11 +296,11 @@ fn search(
         return Pressing::unknown();
     }
     let mut search = Search {
-        bends: Bends::of(&plate.surface),
+        bends: Bends::new(&plate.surface),
         instants,
         turning: TurningFrame::new(plate, instants),
         error_m,
-        looks: [Columns::new(foundation), Columns::fine(foundation)],
+        grids: [Columns::new(foundation), Columns::fine(foundation)],
         standings: [vec![None; count], vec![None; count]],
         spans: Vec::new(),
         at_moments: [f64::NEG_INFINITY; QUANTITIES],
@@ -359,50 +362,50 @@ impl Search<'_> {
     /// Refines a stretch, by halving or with more columns. Returns `false` where neither is possible.
     fn refine(&mut self, span: usize) -> bool {
         let Span {
-            from, to, look, press, ..
+            from, to, grid, press, ..
         } = self.spans[span];
-        let finest = look + 1 == LOOKS;
+        let finest = grid + 1 == GRIDS;
         let longer = to - from > 1;
         if longer && (finest || press.sag_m > MOST_SAG_M) {
             let middle = from + (to - from) / 2;
-            self.spans[span] = self.bound_stretch(from, middle, look);
-            let second = self.bound_stretch(middle, to, look);
+            self.spans[span] = self.bound_stretch(from, middle, grid);
+            let second = self.bound_stretch(middle, to, grid);
             self.spans.push(second);
         } else if !finest {
-            self.spans[span] = self.bound_stretch(from, to, look + 1);
+            self.spans[span] = self.bound_stretch(from, to, grid + 1);
         }
         longer || !finest
     }
 
     /// Bounds a stretch with the given column grid.
-    fn bound_stretch(&mut self, from: usize, to: usize, look: usize) -> Span {
-        self.compute_state(from, look);
-        self.compute_state(to, look);
-        let standings = &self.standings[look];
+    fn bound_stretch(&mut self, from: usize, to: usize, grid: usize) -> Span {
+        self.compute_state(from, grid);
+        self.compute_state(to, grid);
+        let standings = &self.standings[grid];
         let press = match (&standings[from], &standings[to]) {
             (Some(a), Some(b)) => {
                 let drift = self.turning.drift(from, to);
-                self.looks[look].bound_load(&self.bends, [a, b], &drift)
+                self.grids[grid].bound_load(&self.bends, [a, b], &drift)
             }
             _ => Press::UNKNOWN,
         };
-        Span { from, to, look, press }
+        Span { from, to, grid, press }
     }
 
     /// Computes the state of the columns at a moment. With the fine grid it also updates the attained values.
-    fn compute_state(&mut self, at: usize, look: usize) {
-        if self.standings[look][at].is_some() {
+    fn compute_state(&mut self, at: usize, grid: usize) {
+        if self.standings[grid][at].is_some() {
             return;
         }
-        let (columns, moment) = (&self.looks[look], &self.instants.moments[at]);
+        let (columns, moment) = (&self.grids[grid], &self.instants.moments[at]);
         let standing = columns.sponge_state(&self.bends, &moment.pose, &self.turning.side(at), self.error_m);
-        if look + 1 == LOOKS {
+        if grid + 1 == GRIDS {
             let (seen, press) = columns.load_at(&self.bends, &standing);
             self.found.see(&seen, moment.t_s, moment.pose.tip.into());
             for (most, found) in self.at_moments.iter_mut().zip(severities(&press)) {
                 *most = most.max(found);
             }
         }
-        self.standings[look][at] = Some(standing);
+        self.standings[grid][at] = Some(standing);
     }
 }

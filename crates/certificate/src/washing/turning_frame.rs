@@ -121,7 +121,7 @@ impl<'a> TurningFrame<'a> {
         drift(&greatest, length_s)
     }
 
-    /// Returns the amounts by which the values between a moment and the next may exceed those at both.
+    /// Returns the amounts by which the values between a moment and the next may exceed those at both. `rate` is the magnitude of Ω \[rad/s\].
     fn between(&self, at: usize, rate: f64) -> UpperBounds {
         let (Some(drift), Some(jerk)) = (self.instants.drifts.get(at), self.instants.jerks.get(at)) else {
             return UpperBounds::repeat(f64::INFINITY);
@@ -140,7 +140,7 @@ impl<'a> TurningFrame<'a> {
 }
 
 impl State {
-    /// Returns the values seen from a frame that turns at `rate` and in which the direction `d` is at rest.
+    /// Returns the values seen from a frame that turns at Ω, which is `rate` \[rad/s\], and in which the direction `d` is at rest.
     fn in_turning_frame(&self, rate: f64, d: &Vector3<f64>) -> UpperBounds {
         let omega = Vector3::z() * rate;
         let round = |v: &Vector3<f64>| omega.cross(v);
@@ -159,7 +159,8 @@ fn greater(a: &UpperBounds, b: &UpperBounds) -> UpperBounds {
     a.zip_map(b, |a, b| if a > b || a.is_nan() { a } else { b })
 }
 
-/// Bounds the motion of columns along u.
+/// Bounds the motion of columns along u over a stretch of the length h: they turn by at most √(a₁² + u₁²), and bend by at most
+/// √(u₂² + b₂² + a₂²). `bounds` has the tip's speed and acceleration, a₁, a₂ and m; `length_s` is h.
 fn drift(bounds: &UpperBounds, length_s: f64) -> Drift {
     let [speed, acceleration, a1, a2, m]: [f64; 5] = (*bounds).into();
     let c = (1.0 - m * m).sqrt();

@@ -50,7 +50,8 @@ impl Dialect for Ros2 {
     }
 
     fn is_in(&self, file: &ProgramFile) -> bool {
-        write::is_script(file) || (Language::of(&file.name).is_some() && file.text.contains("time_from_start"))
+        write::is_script(file)
+            || (Language::from_file_name(&file.name).is_some() && file.text.contains("time_from_start"))
     }
 
     fn points(&self) -> Points {

@@ -70,7 +70,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
 }
 
 fn goal(root: &Node<'_>, file: &str, known: &[&str], settings: &mut SettingList) -> Result<Vec<ReadPoint>, Fault> {
-    let goal = Fields::of(
+    let goal = Fields::new(
         root,
         "a FollowJointTrajectory goal",
         &["trajectory", "path_tolerance", "goal_tolerance", "goal_time_tolerance"],
@@ -108,7 +108,7 @@ fn check_order(time: &Node<'_>, before_ns: Option<i64>, time_ns: i64) -> Result<
 }
 
 fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoint>, Fault> {
-    let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
+    let fields = Fields::new(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
     fields.get("header").map(check_header).transpose()?;
     let order = order(fields.needed("joint_names")?, known)?;
     let points = fields.needed("points")?;
@@ -117,7 +117,7 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
     let nodes = list(points)?;
     for (k, node) in nodes.iter().enumerate() {
         let rows = ["positions", "velocities", "accelerations", "effort"];
-        let point = Fields::of(
+        let point = Fields::new(
             node,
             "a JointTrajectoryPoint",
             &[&rows[..], &["time_from_start"]].concat(),
@@ -158,7 +158,7 @@ fn trajectory(root: &Node<'_>, file: &str, known: &[&str]) -> Result<Vec<ReadPoi
 
 /// Checks that the trajectory starts at once.
 fn check_header(header: &Node<'_>) -> Result<(), Fault> {
-    let header = Fields::of(header, "a Header", &["stamp", "frame_id"])?;
+    let header = Fields::new(header, "a Header", &["stamp", "frame_id"])?;
     header.get("frame_id").map(text).transpose()?;
     if let Some(stamp) = header.get("stamp")
         && duration(stamp)? != 0
@@ -232,7 +232,7 @@ fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<Vec<(usize
     let mut all = Vec::new();
     for tolerance in list(node)? {
         let numbers = ["position", "velocity", "acceleration"];
-        let fields = Fields::of(tolerance, "a JointTolerance", &[&["name"], &numbers[..]].concat())?;
+        let fields = Fields::new(tolerance, "a JointTolerance", &[&["name"], &numbers[..]].concat())?;
         let stated = fields.needed("name")?;
         let name = text(stated)?;
         if !known.contains(&name.as_str()) {
@@ -265,7 +265,7 @@ fn tolerances(node: &Node<'_>, which: &str, known: &[&str]) -> Result<Vec<(usize
 
 /// A Duration \[ns\].
 fn duration(node: &Node<'_>) -> Result<i64, Fault> {
-    let fields = Fields::of(node, "a Duration", &["sec", "nanosec"])?;
+    let fields = Fields::new(node, "a Duration", &["sec", "nanosec"])?;
     let whole = |key: &str, most: i64| {
         let node = fields.needed(key)?;
         match parse_number(node) {

@@ -3,7 +3,7 @@
 //! Positions are `q1_rad` to `q6_rad` in the arm's order, or columns with the names of its joints; `t_s`, speeds and accelerations may be left
 //! out. Other columns of this program's own tables are not read.
 
-use crate::file::{check_fixed, check_fixed_names};
+use crate::file::fixed_joints::{check_fixed, check_fixed_names};
 use crate::place::ReadError;
 use crate::points::JointPoints;
 use crate::time::ExactTime;
@@ -32,7 +32,7 @@ pub(super) fn read(
     fixed: &FixedJoints,
 ) -> Result<(JointPoints, Vec<usize>), ReadError> {
     let text = with_bare_header(text);
-    let columns = Columns::of(&text, arm, fixed);
+    let columns = Columns::from_header(&text, arm, fixed);
     let read = columns.table(&text).and_then(|table| {
         let is_there = |name: &str| table.places(&[name]).is_some();
         let known = check_fixed_names(arm, fixed, is_there);
@@ -85,7 +85,7 @@ struct Columns {
 
 impl Columns {
     /// Names in the table of an arm: those of its joints where the header has one of them.
-    fn of(text: &str, arm: &RobotModel, fixed: &FixedJoints) -> Self {
+    fn from_header(text: &str, arm: &RobotModel, fixed: &FixedJoints) -> Self {
         let named = |name: &str| [name.to_owned(), format!("{name}_rad_s"), format!("{name}_rad_s2")];
         let names = arm.joints().each_ref().map(|joint| joint.name.as_str());
         let header = number_table::header(text, true);

@@ -2,11 +2,13 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | reading by a file's name; joints that do not move | here |
+//! | reading by a file's name | here |
+//! | joints that do not move | `fixed_joints` |
 //! | tables: times, positions, speeds and accelerations as CSV | `csv` |
 //! | ROS messages as YAML and JSON: `JointTrajectory`; messages around one | `ros`; `wrapper` |
 
 mod csv;
+mod fixed_joints;
 mod ros;
 mod wrapper;
 
@@ -14,7 +16,6 @@ use crate::place::ReadError;
 use crate::points::{Interpolation, JointPoints, PointMotion};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::urdf::FixedJoints;
-use platewash_workcell::words::quoted;
 
 /// Points of a file, with the line of each.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,33 +83,5 @@ impl TrajectoryFile {
                 .or(self.lines.first());
             ReadError::at(&self.name, line.copied().unwrap_or(1), error.to_string())
         })
-    }
-}
-
-/// Greatest difference at which a joint is where it is fixed \[rad, m\].
-const SAME: f64 = 1e-9;
-
-/// Checks a number of a joint that is fixed: a position, speed or acceleration.
-fn check_fixed(joint: &str, expected: f64, found: f64) -> Result<(), String> {
-    if (found - expected).abs() <= SAME {
-        return Ok(());
-    }
-    Err(format!(
-        "expected {expected} for joint {}, which is fixed; found {found}",
-        quoted(joint)
-    ))
-}
-
-/// Checks that every joint that is fixed is one of the arm, of its description or of the file.
-fn check_fixed_names(arm: &RobotModel, fixed: &FixedJoints, of_file: impl Fn(&str) -> bool) -> Result<(), String> {
-    let is_known = |name: &String| {
-        of_file(name) || arm.fixed_joints().contains_key(name) || arm.joints().iter().any(|joint| joint.name == *name)
-    };
-    match fixed.keys().find(|name| !is_known(name)) {
-        Some(name) => Err(format!(
-            "joint {} is fixed, and neither the trajectory nor the arm has a joint of that name",
-            quoted(name)
-        )),
-        None => Ok(()),
     }
 }

@@ -4,8 +4,8 @@
 //! Joints are matched by name. A stamp that is not zero becomes a note. Frame and number of a header, tolerances and efforts change nothing of
 //! the positions that are asked of the joints, and are not read.
 
+use crate::file::fixed_joints::{check_fixed, check_fixed_names};
 use crate::file::wrapper::{self, FoundTrajectory, RobotState, number};
-use crate::file::{check_fixed, check_fixed_names};
 use crate::message::{
     Fault, Fields, Kind, NS_PER_S, Node, ParsedNumber, again, documents, list, parse_number, text,
     with_indented_brackets,
@@ -69,7 +69,7 @@ struct Columns<'a> {
 }
 
 fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<usize>), Fault> {
-    let fields = Fields::of(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
+    let fields = Fields::new(root, "a JointTrajectory", &["header", "joint_names", "points"])?;
     let columns = joints.columns(fields.needed("joint_names")?)?;
     let stamp = fields.get("header").map(stamp).transpose()?.unwrap_or_default();
     let nodes = list(fields.needed("points")?)?;
@@ -79,7 +79,7 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
     let has_times = nodes.iter().any(|node| node.get("time_from_start").is_some());
     for node in nodes {
         let known = ["positions", "velocities", "accelerations", "effort", "time_from_start"];
-        let point = Fields::of(node, "a JointTrajectoryPoint", &known)?;
+        let point = Fields::new(node, "a JointTrajectoryPoint", &known)?;
         let row = |name| columns.row(&point, name);
         let Some(positions) = row("positions")? else {
             let count = columns.names.len();
@@ -123,7 +123,7 @@ fn trajectory(root: &Node<'_>, joints: &Joints<'_>) -> Result<(JointPoints, Vec<
 
 /// Reads the stamp of a header.
 fn stamp(header: &Node<'_>) -> Result<ExactTime, Fault> {
-    let fields = Fields::of(header, "a Header", &["stamp", "frame_id", "seq"])?;
+    let fields = Fields::new(header, "a Header", &["stamp", "frame_id", "seq"])?;
     fields.get("stamp").map_or(Ok(ExactTime::default()), duration)
 }
 
@@ -245,7 +245,7 @@ fn duration(node: &Node<'_>) -> Result<ExactTime, Fault> {
         };
         return of_nanoseconds(node, s as i128 * i128::from(NS_PER_S) + ns as i128);
     }
-    let fields = Fields::of(node, "a Duration", &["sec", "nanosec", "secs", "nsecs"])?;
+    let fields = Fields::new(node, "a Duration", &["sec", "nanosec", "secs", "nsecs"])?;
     if matches!(&node.kind, Kind::Table(entries) if entries.is_empty()) {
         return node.refused("expected a Duration with sec; it is missing");
     }

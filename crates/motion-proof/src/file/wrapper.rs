@@ -41,15 +41,15 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
         return bridge(root, &text(operation)?);
     }
     if has("goal") {
-        let fields = Fields::of(root, "an action's goal", &["header", "goal_id", "goal"])?;
+        let fields = Fields::new(root, "an action's goal", &["header", "goal_id", "goal"])?;
         check_header(&fields)?;
         if let Some(id) = fields.get("goal_id") {
-            Fields::of(id, "a goal_id", &["stamp", "id", "uuid"])?;
+            Fields::new(id, "a goal_id", &["stamp", "id", "uuid"])?;
         }
         return find(fields.needed("goal")?);
     }
     if has("motion_plan_response") {
-        let fields = Fields::of(root, "a response of GetMotionPlan", &["motion_plan_response"])?;
+        let fields = Fields::new(root, "a response of GetMotionPlan", &["motion_plan_response"])?;
         return find(fields.needed("motion_plan_response")?);
     }
     if has("joint_trajectory") {
@@ -57,7 +57,7 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
     }
     if has("solution") {
         let known = ["start_state", "solution", "fraction", "error_code"];
-        let fields = Fields::of(root, "a response of GetCartesianPath", &known)?;
+        let fields = Fields::new(root, "a response of GetCartesianPath", &known)?;
         return one(planned(&fields, "solution", "start_state")?);
     }
     if has("planned_trajectory") {
@@ -68,7 +68,7 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
             "executed_trajectory",
             "planning_time",
         ];
-        let fields = Fields::of(root, "a result of MoveGroup", &known)?;
+        let fields = Fields::new(root, "a result of MoveGroup", &known)?;
         let mut found = planned(&fields, "planned_trajectory", "trajectory_start")?;
         let executed = fields.get("executed_trajectory");
         let executed = executed.filter(|node| node.get("joint_trajectory").is_some());
@@ -95,7 +95,7 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
                 "planning_time",
                 "error_code",
             ];
-            let fields = Fields::of(root, "a goal of ExecuteTrajectory, or a MotionPlanResponse,", &known)?;
+            let fields = Fields::new(root, "a goal of ExecuteTrajectory, or a MotionPlanResponse,", &known)?;
             one(planned(&fields, "trajectory", "trajectory_start")?)
         }
         Some(_) => one(follow_goal(root)?),
@@ -107,7 +107,7 @@ pub(super) fn find<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n,
 /// Checks the keys of a header, whose values change nothing of the motion.
 fn check_header(fields: &Fields<'_, '_>) -> Result<(), Fault> {
     let header = fields.get("header");
-    let read = header.map(|header| Fields::of(header, "a Header", &["stamp", "frame_id", "seq"]));
+    let read = header.map(|header| Fields::new(header, "a Header", &["stamp", "frame_id", "seq"]));
     read.transpose().map(|_| ())
 }
 
@@ -163,8 +163,8 @@ fn bridge<'n, 'a>(root: &'n Node<'a>, operation: &str) -> Result<Vec<FoundTrajec
         "args",
     ];
     match operation {
-        "publish" => find(Fields::of(root, "a rosbridge message", &PUBLISH)?.needed("msg")?),
-        "send_action_goal" => find(Fields::of(root, "a rosbridge message", &GOAL)?.needed("args")?),
+        "publish" => find(Fields::new(root, "a rosbridge message", &PUBLISH)?.needed("msg")?),
+        "send_action_goal" => find(Fields::new(root, "a rosbridge message", &GOAL)?.needed("args")?),
         other => root.refused(format!(
             "expected a rosbridge message whose op is publish or send_action_goal; found {}",
             quoted(other)
@@ -174,7 +174,7 @@ fn bridge<'n, 'a>(root: &'n Node<'a>, operation: &str) -> Result<Vec<FoundTrajec
 
 /// The trajectories of a `DisplayTrajectory`. The state from which they were planned is that of the first.
 fn display<'n, 'a>(root: &'n Node<'a>) -> Result<Vec<FoundTrajectory<'n, 'a>>, Fault> {
-    let fields = Fields::of(
+    let fields = Fields::new(
         root,
         "a DisplayTrajectory",
         &["model_id", "trajectory", "trajectory_start"],
@@ -193,7 +193,7 @@ fn planned<'n, 'a>(fields: &Fields<'n, 'a>, key: &str, start: &str) -> Result<Fo
     let mut found = robot_trajectory(fields.needed(key)?)?;
     found.start = fields.get(start);
     if let Some(code) = fields.get("error_code") {
-        let code = Fields::of(code, "a MoveItErrorCodes", &["val", "message", "source"])?;
+        let code = Fields::new(code, "a MoveItErrorCodes", &["val", "message", "source"])?;
         let value = code.get("val").map(number).transpose()?.unwrap_or(0.0);
         if value != SUCCESS {
             found
@@ -214,7 +214,7 @@ fn planned<'n, 'a>(fields: &Fields<'n, 'a>, key: &str, start: &str) -> Result<Fo
 
 fn robot_trajectory<'n, 'a>(node: &'n Node<'a>) -> Result<FoundTrajectory<'n, 'a>, Fault> {
     let known = ["joint_trajectory", "multi_dof_joint_trajectory"];
-    let fields = Fields::of(node, "a RobotTrajectory", &known)?;
+    let fields = Fields::new(node, "a RobotTrajectory", &known)?;
     if let Some(other) = fields.get("multi_dof_joint_trajectory") {
         check_no_points(other)?;
     }
@@ -231,7 +231,7 @@ fn follow_goal<'n, 'a>(root: &'n Node<'a>) -> Result<FoundTrajectory<'n, 'a>, Fa
         "component_goal_tolerance",
         "goal_time_tolerance",
     ];
-    let fields = Fields::of(root, "a FollowJointTrajectory goal", &known)?;
+    let fields = Fields::new(root, "a FollowJointTrajectory goal", &known)?;
     if let Some(other) = fields.get("multi_dof_trajectory") {
         check_no_points(other)?;
     }
@@ -240,7 +240,7 @@ fn follow_goal<'n, 'a>(root: &'n Node<'a>) -> Result<FoundTrajectory<'n, 'a>, Fa
 
 /// Refuses a motion of joints with more than one degree of freedom.
 fn check_no_points(node: &Node<'_>) -> Result<(), Fault> {
-    let fields = Fields::of(node, "a MultiDOFJointTrajectory", &["header", "joint_names", "points"])?;
+    let fields = Fields::new(node, "a MultiDOFJointTrajectory", &["header", "joint_names", "points"])?;
     check_header(&fields)?;
     match fields.get("points").map(list).transpose()? {
         Some([point, ..]) => {
@@ -277,11 +277,11 @@ impl RobotState {
             "attached_collision_objects",
             "is_diff",
         ];
-        let fields = Fields::of(node, "a RobotState", &known)?;
+        let fields = Fields::new(node, "a RobotState", &known)?;
         let mut state = Self::default();
         if let Some(joints) = fields.get("joint_state") {
             let known = ["header", "name", "position", "velocity", "effort"];
-            let joints = Fields::of(joints, "a JointState", &known)?;
+            let joints = Fields::new(joints, "a JointState", &known)?;
             check_header(&joints)?;
             let names = joints.get("name").map(list).transpose()?.unwrap_or_default();
             let positions = joints.get("position").map(list).transpose()?.unwrap_or_default();
@@ -322,13 +322,13 @@ impl RobotState {
 /// Returns true where a `MultiDOFJointState` has a transform that is not the identity.
 fn places_the_robot(node: &Node<'_>) -> Result<bool, Fault> {
     let known = ["header", "joint_names", "transforms", "twist", "wrench"];
-    let fields = Fields::of(node, "a MultiDOFJointState", &known)?;
+    let fields = Fields::new(node, "a MultiDOFJointState", &known)?;
     check_header(&fields)?;
     for transform in fields.get("transforms").map(list).transpose()?.unwrap_or_default() {
-        let parts = Fields::of(transform, "a Transform", &["translation", "rotation"])?;
+        let parts = Fields::new(transform, "a Transform", &["translation", "rotation"])?;
         for key in ["translation", "rotation"] {
             let Some(part) = parts.get(key) else { continue };
-            Fields::of(part, "a Vector3 or a Quaternion", &["x", "y", "z", "w"])?;
+            Fields::new(part, "a Vector3 or a Quaternion", &["x", "y", "z", "w"])?;
             for axis in entries(part, "a vector")? {
                 // The last part of a quaternion of no turn is 1 or -1.
                 let (found, at_rest) = (number(&axis.value)?, if axis.key == "w" { 1.0 } else { 0.0 });

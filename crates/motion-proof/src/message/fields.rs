@@ -54,7 +54,7 @@ pub struct Fields<'n, 'a> {
 }
 
 impl<'n, 'a> Fields<'n, 'a> {
-    pub fn of(node: &'n Node<'a>, what: &'static str, known: &[&str]) -> Result<Self, Fault> {
+    pub fn new(node: &'n Node<'a>, what: &'static str, known: &[&str]) -> Result<Self, Fault> {
         let entries = entries(node, what)?;
         match entries.iter().find(|entry| !known.contains(&entry.key.as_ref())) {
             Some(entry) => {

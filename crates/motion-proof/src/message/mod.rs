@@ -38,7 +38,7 @@ pub fn documents<'a>(name: &str, text: &'a str, other: &str) -> Result<Vec<Node<
 
 /// Language of a text by the end of its file's name; a text of JSON must be some.
 fn language(name: &str, text: &str, other: &str) -> Result<Language, Fault> {
-    let language = Language::of(name).ok_or_else(|| Fault::new(1, other))?;
+    let language = Language::from_file_name(name).ok_or_else(|| Fault::new(1, other))?;
     if language == Language::Json && text.len() <= node::MAX_BYTES {
         let json = serde_json::from_str::<serde::de::IgnoredAny>(text);
         json.map_err(|e| Fault::new(e.line(), format!("not JSON: {e}")))?;

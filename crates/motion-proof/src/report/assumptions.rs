@@ -3,7 +3,7 @@
 use crate::points::{Interpolation, PointMotion};
 use platewash_certificate::MotionRules;
 use platewash_kinematics::RobotModel;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason, Workcell};
+use platewash_workcell::{Exclusion, ExclusionReason, Workcell};
 use std::collections::BTreeMap;
 
 /// Sentences on what the verdict rests on.

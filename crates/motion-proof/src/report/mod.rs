@@ -19,7 +19,7 @@ use platewash_certificate::{ArmMotionProof, Check, Measure, MotionRules, PairBou
 use platewash_kinematics::urdf::FollowerLink;
 use platewash_kinematics::{AXES, RobotModel};
 use platewash_motion::piecewise::PiecewiseMotion;
-use platewash_workcell::workcell::{Exclusion, Workcell};
+use platewash_workcell::{Exclusion, Workcell};
 use serde::Serialize;
 
 /// Verdict on a motion.

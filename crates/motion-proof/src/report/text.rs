@@ -5,7 +5,7 @@ use crate::report::{JudgedRule, MotionMoment, MotionReport};
 use platewash_certificate::{Requirement, Status};
 use platewash_kinematics::words::{decimals_down, rounded};
 use platewash_workcell::words::count_with_noun;
-use platewash_workcell::workcell::{Exclusion, ExclusionReason};
+use platewash_workcell::{Exclusion, ExclusionReason};
 use std::fmt;
 
 impl fmt::Display for MotionMoment {

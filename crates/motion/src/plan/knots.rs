@@ -1,11 +1,47 @@
-//! Canonical JSON (RFC 8785) of the knots of a motion.
+//! Knots of a motion, and their canonical JSON (RFC 8785).
 
 use crate::digits::push_shortest;
-use crate::plan::Knots;
+use crate::trajectory::{KnotError, Trajectory};
 use platewash_kinematics::JointVector;
+use serde::{Deserialize, Serialize};
+
+/// Knots of a motion.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Knots {
+    /// Times \[s\].
+    pub t_s: Vec<f64>,
+    /// Positions \[rad\], one row per knot.
+    pub q_rad: Vec<JointVector>,
+    /// Speeds \[rad/s\], one row per knot.
+    pub qd_rad_s: Vec<JointVector>,
+}
+
+impl Knots {
+    /// Returns the motion through the knots.
+    ///
+    /// # Errors
+    /// [`KnotError`] with the first knot that does not fit.
+    pub fn motion(&self) -> Result<Trajectory, KnotError> {
+        Trajectory::from_knots(self.t_s.clone(), self.q_rad.clone(), self.qd_rad_s.clone())
+    }
+}
+
+impl From<&Trajectory> for Knots {
+    fn from(motion: &Trajectory) -> Self {
+        Self {
+            t_s: motion.times().to_vec(),
+            q_rad: motion.positions().to_vec(),
+            qd_rad_s: motion.speeds().to_vec(),
+        }
+    }
+}
+
+/// Text of a plan without knots, where those of others are.
+pub(super) const NO_KNOTS: &str = r#"{"q_rad":[],"qd_rad_s":[],"t_s":[]}"#;
 
 /// Text of the knots.
-pub(crate) fn canonical(knots: &Knots) -> String {
+pub(super) fn canonical(knots: &Knots) -> String {
     let mut text = Text::default();
     text.0.push_str(r#"{"q_rad":"#);
     text.rows(&knots.q_rad);
@@ -77,6 +113,6 @@ mod tests {
 
     #[test]
     fn no_knots_are_empty_lists() {
-        assert_eq!(canonical(&Knots::default()), crate::plan::NO_KNOTS);
+        assert_eq!(canonical(&Knots::default()), NO_KNOTS);
     }
 }

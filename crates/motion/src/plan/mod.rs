@@ -1,25 +1,27 @@
 //! Plan file: a job and a motion that does it, sealed with a hash. A verifier needs only the file and the arm.
 //!
 //! `reading.rs` reads it strictly: unknown, missing and repeated keys are refused, and sizes are bounded before anything is read.
-//!
-//! Formats and kinds of plan files.
-//!
-//! Errors of writing and reading plan files.
 
+mod error;
 mod knots;
+mod process;
 mod reading;
 
-use crate::trajectory::{KnotError, PlanSegment, Trajectory};
+pub use error::{FORMAT, PlanFileError};
+pub use knots::Knots;
+pub use process::Process;
+
+use crate::trajectory::PlanSegment;
+use error::BEFORE;
+use knots::NO_KNOTS;
+use platewash_kinematics::sha256_hex;
 use platewash_kinematics::words::is_hidden;
-use platewash_kinematics::{JointVector, sha256_hex};
-use platewash_workcell::job::{JobTerms, Planner};
-use platewash_workcell::json::{self, JsonError};
+use platewash_workcell::job::JobTerms;
+use platewash_workcell::json;
 use platewash_workcell::wash_path::WashPath;
-use platewash_workcell::words::{printable, quoted, without_mark};
+use platewash_workcell::words::without_mark;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::fmt;
-use ts_rs::TS;
 
 /// Plan file, `"format": "platewash-plan/2"`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,42 +61,10 @@ pub struct Provenance {
 impl Provenance {
     /// Returns the provenance of a scenario planned by this version.
     #[must_use]
-    pub fn of(scenario: &str) -> Self {
+    pub fn new(scenario: &str) -> Self {
         Self {
             scenario: scenario.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-        }
-    }
-}
-
-/// Knots of a motion.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Knots {
-    /// Times \[s\].
-    pub t_s: Vec<f64>,
-    /// Positions \[rad\], one row per knot.
-    pub q_rad: Vec<JointVector>,
-    /// Speeds \[rad/s\], one row per knot.
-    pub qd_rad_s: Vec<JointVector>,
-}
-
-impl Knots {
-    /// Returns the motion through the knots.
-    ///
-    /// # Errors
-    /// [`KnotError`] with the first knot that does not fit.
-    pub fn motion(&self) -> Result<Trajectory, KnotError> {
-        Trajectory::from_knots(self.t_s.clone(), self.q_rad.clone(), self.qd_rad_s.clone())
-    }
-}
-
-impl From<&Trajectory> for Knots {
-    fn from(motion: &Trajectory) -> Self {
-        Self {
-            t_s: motion.times().to_vec(),
-            q_rad: motion.positions().to_vec(),
-            qd_rad_s: motion.speeds().to_vec(),
         }
     }
 }
@@ -321,110 +291,4 @@ fn refused(format: String) -> PlanFileError {
 
 fn unwritable(e: serde_json::Error) -> PlanFileError {
     PlanFileError::Unwritable { detail: e.to_string() }
-}
-
-/// Text of a plan without knots, where those of others are.
-const NO_KNOTS: &str = r#"{"q_rad":[],"qd_rad_s":[],"t_s":[]}"#;
-
-/// Format that this version writes and reads.
-pub const FORMAT: &str = "platewash-plan/2";
-
-/// Format of the version before.
-const BEFORE: &str = "platewash-plan/1";
-
-/// Kind of a plan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, TS)]
-#[serde(rename_all = "snake_case")]
-pub enum Process {
-    /// A washing, planned as a whole from home to home. Certificates are about these.
-    Wash,
-    /// A run of the paper's program, waypoint after waypoint. It has no certificate.
-    Paper,
-}
-
-impl fmt::Display for Process {
-    /// Writes the name that files have.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(f)
-    }
-}
-
-impl From<&Planner> for Process {
-    fn from(planner: &Planner) -> Self {
-        match planner {
-            Planner::Wash(_) => Self::Wash,
-            Planner::Paper(_) => Self::Paper,
-        }
-    }
-}
-
-/// Reason that a plan file cannot be written or read.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlanFileError {
-    /// A number in the plan is not finite; JSON cannot represent it.
-    #[error("plan cannot be written as JSON: {detail}")]
-    Unwritable {
-        /// Message of the serialiser.
-        detail: String,
-    },
-    /// The text is not a plan file.
-    #[error("not a plan file: {0}")]
-    Unreadable(#[from] JsonError),
-    /// There is a key that no plan has.
-    #[error("unknown key '{key}': a plan states what this program knows and nothing else")]
-    UnknownKey {
-        /// Path of the key, e.g. `wash_paths[2].extra`.
-        key: String,
-    },
-    /// A key is missing. Nothing is filled in, as the hash covers the file's contents.
-    #[error("'{key}' is missing: a plan states every value, defaults too; plan the scenario again")]
-    MissingKey {
-        /// Path of the key, e.g. `job.requirements.coverage`.
-        key: String,
-    },
-    /// A value would be read as another one.
-    #[error("'{key}' is {found}; expected {read}")]
-    Inexact {
-        /// Path of the value.
-        key: String,
-        /// Value in the file.
-        found: String,
-        /// Value as it is read.
-        read: String,
-    },
-    /// The file has the previous format.
-    #[error(
-        "this is a {BEFORE}: it carries a scenario, and this version reads {FORMAT}, which carries the resolved job; plan its \
-         scenario again (platewash plan)"
-    )]
-    Before,
-    /// Process and planner contradict each other.
-    #[error("process is \"{stated}\", and the job was planned as \"{planned}\"; a plan states one process")]
-    Process {
-        /// Process that the plan states.
-        stated: Process,
-        /// Process that its job implies.
-        planned: Process,
-    },
-    /// A list is longer than that of any job.
-    #[error("the plan is too large: {detail}")]
-    TooLarge {
-        /// Name of the list and its position.
-        detail: String,
-    },
-    /// A name has control or direction characters.
-    #[error("'{key}' is {}, a name with a control or direction character (escaped here): plan the scenario with another name", quoted(.found))]
-    HiddenCharacter {
-        /// Path of the name.
-        key: String,
-        /// Name found.
-        found: String,
-    },
-    /// The file has another format.
-    #[error("plan format must be \"{FORMAT}\"; found \"{}\"", printable(.found))]
-    Format {
-        /// Format found.
-        found: String,
-    },
 }

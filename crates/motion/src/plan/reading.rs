@@ -6,7 +6,7 @@
 //! The sizes of lists are counted before a file is read: a file with too long lists is refused at the cost of its text.
 
 use crate::differences::{Difference, NOTHING, by_place};
-use crate::plan::PlanFileError;
+use crate::plan::error::PlanFileError;
 use platewash_workcell::job::MAX_SEED;
 use platewash_workcell::json::JsonError;
 use platewash_workcell::layout::MAX_PLATES;

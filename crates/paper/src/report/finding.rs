@@ -1,6 +1,6 @@
 //! Findings of a run that no figure shows.
 
-use super::PlateReport;
+use super::waypoints::PlateReport;
 use crate::cubic::Interpolation;
 use crate::run::PaperRun;
 use platewash_motion::trajectory::SegmentKind;

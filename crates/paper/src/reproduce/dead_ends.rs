@@ -1,7 +1,8 @@
 //! Rate at which sequential sampling comes to a dead end: there the paper's program hangs.
 
+use super::row::Row;
+use super::settings::ReproduceSettings;
 use super::statistics::binomial_percent;
-use super::{ReproduceSettings, Row};
 use crate::error::PaperError;
 use crate::part::PaperPart;
 use platewash_workcell::cancel::{CancelToken, Cancelled};

@@ -1,6 +1,6 @@
 //! The paper's control law as a filter, with a gain and a phase.
 
-use super::Row;
+use super::row::Row;
 use super::statistics::Estimate;
 use crate::tracking::moved;
 use platewash_kinematics::JointVector;

@@ -11,10 +11,14 @@
 mod dead_ends;
 mod law;
 mod layout;
+mod row;
 mod rows;
+mod settings;
 mod statistics;
 
 pub use law::FrequencyResponse;
+pub use row::Row;
+pub use settings::ReproduceSettings;
 
 use crate::error::PaperError;
 use crate::job::PaperJob;
@@ -24,58 +28,9 @@ use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::layout::Layout;
 use rayon::prelude::*;
 use serde::Serialize;
-use statistics::Estimate;
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Settings of the reproduction: the quantities to measure, and the sample sizes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct ReproduceSettings {
-    /// Layouts simulated in each of the paper's two regions.
-    pub layouts: usize,
-    /// Layouts begun to measure each dead-end rate.
-    pub draws: usize,
-    /// Seed of every random stream.
-    pub seed: u64,
-}
-
-impl ReproduceSettings {
-    /// Most layouts that are simulated in a region: minutes of work.
-    pub const MOST_LAYOUTS: usize = 10_000;
-
-    /// Most layouts begun for each dead-end rate: tens of seconds of work, for rates right to a tenth of a percent.
-    pub const MOST_DRAWS: usize = 1_000_000;
-}
-
-impl Default for ReproduceSettings {
-    fn default() -> Self {
-        Self {
-            layouts: 400,
-            draws: 20_000,
-            seed: 1,
-        }
-    }
-}
-
-/// One measured quantity.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
-    /// Stable key, e.g. `dead_end_rate.text.4_plates`; listed in `docs/reproduce.md`.
-    pub key: String,
-    /// Group heading.
-    pub group: &'static str,
-    /// Name of the quantity, in words.
-    pub quantity: String,
-    /// Unit: `%`, `mm`, `deg` or empty for a ratio.
-    pub unit: &'static str,
-    /// Value that the paper's text takes for granted, in the same unit; `None` where it states none.
-    pub paper: Option<f64>,
-    /// Measured value, in the same unit.
-    pub measured: f64,
-    /// Half-width of the 95 % interval; `None` where the value has no sampling error or too few samples.
-    pub half_width_95: Option<f64>,
-}
 
 /// Everything measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -124,27 +79,6 @@ pub fn reproduce(
     })
 }
 
-impl Row {
-    fn new(
-        group: &'static str,
-        key: impl Into<String>,
-        quantity: impl Into<String>,
-        unit: &'static str,
-        paper: impl Into<Option<f64>>,
-        estimate: Estimate,
-    ) -> Self {
-        Self {
-            key: key.into(),
-            group,
-            quantity: quantity.into(),
-            unit,
-            paper: paper.into(),
-            measured: estimate.value,
-            half_width_95: estimate.half_width_95,
-        }
-    }
-}
-
 impl Display for Reproduction {
     /// The table as a person reads it.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -165,22 +99,5 @@ impl Display for Reproduction {
             group.iter().try_for_each(|row| writeln!(f, "{row}"))?;
         }
         Ok(())
-    }
-}
-
-impl Display for Row {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let (quantity, digits) = match self.unit {
-            "" => (self.quantity.clone(), 3),
-            unit => (format!("{} [{unit}]", self.quantity), 1),
-        };
-        let known =
-            |value: Option<f64>, digits: usize| value.map_or_else(|| "–".to_owned(), |v| format!("{v:.digits$}"));
-        let (paper, error) = (known(self.paper, digits), known(self.half_width_95, digits + 1));
-        write!(
-            f,
-            "  {quantity:<62} {paper:>9} {:>10.digits$} {error:>8}",
-            self.measured
-        )
     }
 }

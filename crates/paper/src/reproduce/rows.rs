@@ -1,7 +1,7 @@
 //! The measured quantities, from samples of layouts.
 
-use super::Row;
 use super::layout::{SPONGES_MM, Sample, by_sponge};
+use super::row::Row;
 use super::statistics::{Estimate, batch_means, percentile, root_mean_square};
 use crate::part::PaperPart;
 use crate::tool_path::ToolPath;

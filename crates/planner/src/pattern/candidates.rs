@@ -3,11 +3,11 @@
 //! Estimates for a curve: its time at the limits of washing and of the arm, and its effect on the bare face.
 
 use crate::pattern::promise::{Promise, SampledWash};
-use crate::scene::{AxisRule, TiltPolicy};
+use crate::placed_arm::{AxisRule, TiltPolicy};
 use crate::timing::TipLimits;
-use crate::trig::sin_cos;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Moment, SpongePose};
+use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{CandidateRequest, Density, PatternName, SurfacePoint, WashCurve};
 

@@ -19,9 +19,9 @@ pub use crate::pattern::shortfall::{ContactPromise, Shortfall};
 
 use crate::pattern::candidates::{ByTime, Candidate, Estimate, candidates};
 use crate::pattern::promise::Kept;
-use crate::scene::{AXIS_SHARE, AxisRule};
+use crate::placed_arm::{AXIS_SHARE, AxisRule};
 use crate::timing::TipLimits;
-use crate::trig::atan2;
+use platewash_kinematics::trig::atan2;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::plate::Plate;
@@ -118,7 +118,7 @@ impl Patterns {
         arm_m_s2: f64,
         cancel: &CancelToken,
     ) -> Self {
-        let (surface, promise) = (&plate.surface, Promise::of(terms, plate));
+        let (surface, promise) = (&plate.surface, Promise::new(terms, plate));
         let limits = TipLimits {
             speed_m_s: terms.wash_speed_of(plate),
             acceleration_m_s2: terms.wash_acceleration_m_s2().min(arm_m_s2),

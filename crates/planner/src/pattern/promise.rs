@@ -2,11 +2,11 @@
 
 use crate::pattern::shortfall::ContactPromise;
 use crate::pattern::shortfall::Shortfall;
-use crate::scene::Scene;
-use crate::trig::{acos, sin_cos};
+use crate::placed_arm::PlacedArm;
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Columns, ContactSampler, Dwell, Foundation, Level, Moment, SpongePose};
 use platewash_kinematics::JointVector;
+use platewash_kinematics::trig::{acos, sin_cos};
 use platewash_workcell::job::ContactThresholds;
 use platewash_workcell::job::{JobTerms, PATH_TOLERANCE_M};
 use platewash_workcell::plate::Plate;
@@ -140,7 +140,7 @@ impl Promise {
     /// Promise of a job on a surface. Without a promise about contact the sponge sweeps flat faces with its whole face, and
     /// touches others.
     #[must_use]
-    pub fn of(terms: &JobTerms, plate: &Plate) -> Self {
+    pub fn new(terms: &JobTerms, plate: &Plate) -> Self {
         let surface = &plate.surface;
         let (requirements, sponge) = (&terms.requirements, &terms.workcell.tool.sponge);
         let foundation = foundation(sponge);
@@ -190,8 +190,8 @@ impl Promise {
 
     /// An arm in some configurations along a wash at a constant speed. It is sampled in these configurations, not between them.
     #[must_use]
-    pub fn sampled(&self, scene: &Scene<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f64) -> SampledWash {
-        SampledWash::new(*self, plate.surface, moments(scene, plate, along, speed_m_s))
+    pub fn sampled(&self, placed: &PlacedArm<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f64) -> SampledWash {
+        SampledWash::new(*self, plate.surface, moments(placed, plate, along, speed_m_s))
     }
 
     /// The strain or force of the sponge that exceeds the promise.
@@ -459,11 +459,11 @@ impl SampledWash {
 }
 
 /// The sponge in some configurations along a wash.
-fn moments(scene: &Scene<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f64) -> Vec<Moment> {
+fn moments(placed: &PlacedArm<'_>, plate: &Plate, along: &[JointVector], speed_m_s: f64) -> Vec<Moment> {
     let mut moments: Vec<Moment> = Vec::with_capacity(along.len());
     let mut t_s = 0.0;
     for q in along {
-        let pose = SpongePose::on(plate, &scene.robot.fk(q).rigid(&scene.tip));
+        let pose = SpongePose::on(plate, &placed.robot.fk(q).rigid(&placed.tip));
         let way = moments
             .last()
             .map_or_else(Vector3::zeros, |last| pose.tip - last.pose.tip);

@@ -90,7 +90,7 @@ fn keeps_the_stated_number_of_rings() {
             terms.workcell.tool.sponge.radius_m = sponge_m;
             // Without a promise about contact the test sees the curves alone.
             terms.requirements.contact = None;
-            let promise = Promise::of(&terms, &plate(&surface));
+            let promise = Promise::new(&terms, &plate(&surface));
             for turns in [None, Some(1.0), Some(2.0), Some(7.0), Some(99.0)] {
                 for path_radius_m in [None, Some(1e-4), Some(0.05)] {
                     let settings = PlannerSettings {
@@ -183,7 +183,8 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                 .unwrap();
         let tool = &job.terms().workcell.tool;
         let reach = job.terms().planner_settings().unwrap().reach;
-        let scene = crate::scene::Scene::new(job.arm(), tool, &clearance, &job.terms().plates, reach).unwrap();
+        let placed =
+            crate::placed_arm::PlacedArm::new(job.arm(), tool, &clearance, &job.terms().plates, reach).unwrap();
         let knots = &plan.knots;
         plan.segments
             .iter()
@@ -198,9 +199,9 @@ fn the_kitchen_keeps_its_promises_of_contact() {
                     .filter(|(t, _)| during(t))
                     .map(|(_, q)| *q)
                     .collect();
-                let promise = Promise::of(job.terms(), plate);
+                let promise = Promise::new(job.terms(), plate);
                 promise
-                    .sampled(&scene, plate, &along, 0.25)
+                    .sampled(&placed, plate, &along, 0.25)
                     .shortfall(&Margin::ARM)
                     .is_none()
             })

@@ -55,7 +55,7 @@ fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> R
     match WashJob::new(arm.clone(), terms) {
         Err(standing @ (JobError::Standing(_) | JobError::StillNear { .. })) => Ok(Some(standing.to_string())),
         job => {
-            let unwashable = Pipeline::of(&job?, watch)?.first_unwashable()?;
+            let unwashable = Pipeline::from_job(&job?, watch)?.first_unwashable()?;
             Ok(unwashable)
         }
     }
@@ -64,10 +64,10 @@ fn first_refused(arm: &Arc<RobotModel>, terms: JobTerms, watch: &Watch<'_>) -> R
 impl Pipeline<'_> {
     /// Returns the obstruction on the first plate that cannot be washed whole, in words.
     fn first_unwashable(&self) -> Result<Option<String>, PlanError> {
-        let (scene, [start, _]) = (self.scene()?, &self.terms.home_rad);
-        let home = self.home_tip(&scene, start);
+        let (placed, [start, _]) = (self.placed()?, &self.terms.home_rad);
+        let home = self.home_tip(&placed, start);
         for plate in 0..self.plates.len() {
-            match self.washing_by_patterns(&scene, &self.widest_path(plate, &home), start) {
+            match self.washing_by_patterns(&placed, &self.widest_path(plate, &home), start) {
                 Ok(turn) => {
                     if let Err(error) = self.check_promise(&turn) {
                         return Ok(Some(error.to_string()));

@@ -4,13 +4,13 @@
 use crate::error::PlanError;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::Visit;
-use crate::scene::{Scene, TILT_RESERVE_RAD};
+use crate::placed_arm::{PlacedArm, TILT_RESERVE_RAD};
 use crate::timing::TimedPath;
 use crate::transit::{self, BaseArc, LiftLine, Transit, TransitRules};
-use crate::trig::{asin, sin};
 use crate::watch::Activity;
 use nalgebra::Vector3;
 use platewash_kinematics::JointVector;
+use platewash_kinematics::trig::{asin, sin};
 use platewash_motion::trajectory::{KnotError, PlanSegment, SegmentKind, Trajectory};
 use platewash_workcell::random;
 use platewash_workcell::wash_path::WashPath;
@@ -118,10 +118,10 @@ impl Assembly {
 }
 
 impl Pipeline<'_> {
-    /// Rules of the transits of a scene.
-    pub fn transit_rules<'a>(&'a self, scene: &'a Scene<'a>) -> TransitRules<'a> {
+    /// Rules of the transits of a placed arm.
+    pub fn transit_rules<'a>(&'a self, placed: &'a PlacedArm<'a>) -> TransitRules<'a> {
         TransitRules {
-            scene,
+            placed,
             limits: &self.transit,
             clearance_m: self.clearance_m(),
             arc: Some(BaseArc {
@@ -135,14 +135,14 @@ impl Pipeline<'_> {
     /// Each draws from a stream of its own.
     pub fn transits(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         lines: &[[&LiftLine; 2]],
         wanted: impl Fn(usize) -> bool,
     ) -> Result<Vec<Transit>, PlanError> {
         let [start, end] = self.terms.home_rad.map(LiftLine::home);
         let leaving = std::iter::once(&start).chain(lines.iter().map(|[_, exit]| *exit));
         let entering = lines.iter().map(|[entry, _]| *entry).chain(std::iter::once(&end));
-        let rules = self.transit_rules(scene);
+        let rules = self.transit_rules(placed);
         let pairs = leaving.zip(entering).enumerate().filter(|(k, _)| wanted(*k));
         let of = lines.len() + 1;
         pairs
@@ -170,21 +170,21 @@ impl Pipeline<'_> {
     ///
     /// # Errors
     /// [`PlanError::Tilt`], with the worst place.
-    pub fn check_tilt(&self, scene: &Scene<'_>, whole: &WholeMotion, paths: &[WashPath]) -> Result<(), PlanError> {
+    pub fn check_tilt(&self, placed: &PlacedArm<'_>, whole: &WholeMotion, paths: &[WashPath]) -> Result<(), PlanError> {
         let most_rad = self.terms.tilt_max_rad();
         let left_rad = LEFT * TILT_RESERVE_RAD.min(0.5 * most_rad);
         let most = sin(most_rad + ROUNDING_RAD - left_rad);
         let times = whole.motion.times();
         let mut worst: Option<(f64, SegmentKind, usize)> = None;
         for segment in &whole.segments {
-            scene.check_cancelled()?;
+            placed.check_cancelled()?;
             let Some(face) = self.face(segment, paths) else {
                 continue;
             };
             let from = times.partition_point(|t| *t < segment.t_start_s);
             let to = times.partition_point(|t| *t < segment.t_end_s);
             let sine = |at: f64| {
-                let tip = scene.robot.fk(&whole.motion.at(at)?.q).rigid(&scene.tip);
+                let tip = placed.robot.fk(&whole.motion.at(at)?.q).rigid(&placed.tip);
                 Some(tip.rotation.column(2).cross(&face(&tip.translation)).norm())
             };
             for ends in times[from..=to.min(times.len() - 1)].windows(2) {

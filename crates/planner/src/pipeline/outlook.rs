@@ -3,8 +3,8 @@
 use crate::error::PlanError;
 use crate::outlook::PlateOutlook;
 use crate::pipeline::shared::Pipeline;
+use crate::placed_arm::PlacedArm;
 use crate::redundancy::{Chance, Task, chance};
-use crate::scene::Scene;
 use crate::watch::Watch;
 use platewash_bodies::job::WashJob;
 use platewash_workcell::cancel::Cancelled;
@@ -23,11 +23,11 @@ use rayon::prelude::*;
 pub fn plate_outlooks(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<PlateOutlook>, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
     pipeline.check_homes()?;
-    let scene = pipeline.scene()?;
-    let (order, _) = pipeline.order(&scene)?;
+    let placed = pipeline.placed()?;
+    let (order, _) = pipeline.order(&placed)?;
     let turns = (0..order.len()).into_par_iter();
     let outlooks: Result<Vec<PlateOutlook>, Cancelled> =
-        turns.map(|k| pipeline.outlook_on(&scene, &order, k)).collect();
+        turns.map(|k| pipeline.outlook_on(&placed, &order, k)).collect();
     let mut outlooks = outlooks?;
     outlooks.sort_unstable_by_key(|outlook| outlook.plate);
     Ok(outlooks)
@@ -35,9 +35,9 @@ pub fn plate_outlooks(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<PlateOutlo
 
 impl Pipeline<'_> {
     /// The chance of the `k`-th plate of an order.
-    fn outlook_on(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<PlateOutlook, Cancelled> {
-        let (path, [near, _]) = (self.path_of(scene, order, k), &self.terms.home_rad);
-        let chance = match Task::new(scene, &path, self.clearance_m(), near) {
+    fn outlook_on(&self, placed: &PlacedArm<'_>, order: &[usize], k: usize) -> Result<PlateOutlook, Cancelled> {
+        let (path, [near, _]) = (self.path_of(placed, order, k), &self.terms.home_rad);
+        let chance = match Task::new(placed, &path, self.clearance_m(), near) {
             Ok(task) => chance(&task)?,
             // Numbers that planning refuses: it says which.
             Err(_) => Chance::Unclear,

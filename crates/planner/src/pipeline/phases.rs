@@ -6,8 +6,8 @@ use crate::pipeline::motion::assemble;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::tour::least_time;
 use crate::pipeline::visit::Visit;
+use crate::placed_arm::TILT_RESERVE_RAD;
 use crate::planned_job::{PlannedJob, TransitSummary, VisitSummary};
-use crate::scene::TILT_RESERVE_RAD;
 use crate::watch::Watch;
 use platewash_bodies::job::WashJob;
 use platewash_bodies::job::check_standing;
@@ -35,7 +35,7 @@ pub fn plan(job: &WashJob) -> Result<PlannedJob, PlanError> {
 /// # Errors
 /// As [`plan`], and [`PlanError::Cancelled`].
 pub fn plan_with(job: &WashJob, watch: &Watch<'_>) -> Result<PlannedJob, PlanError> {
-    planned(job, Pipeline::of(job, watch)?)
+    planned(job, Pipeline::from_job(job, watch)?)
 }
 
 /// Plans as [`plan_with`], for callers that do not wait: where a plate cannot be washed, no other place is searched for, even if
@@ -104,19 +104,19 @@ fn planned_there(job: &WashJob, mut pipeline: Pipeline<'_>) -> Result<PlannedJob
 fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, PlanError> {
     check_apart(job.arm(), job.terms())?;
     pipeline.check_homes()?;
-    let scene = pipeline.scene()?;
-    let (order, tour) = pipeline.order(&scene)?;
-    let visits = pipeline.visits(&scene, &order)?;
+    let placed = pipeline.placed()?;
+    let (order, tour) = pipeline.order(&placed)?;
+    let visits = pipeline.visits(&placed, &order)?;
     let lines: Vec<_> = visits.iter().map(|visit| visit.lines.each_ref()).collect();
-    let transits = pipeline.transits(&scene, &lines, |_| true)?;
+    let transits = pipeline.transits(&placed, &lines, |_| true)?;
     let whole = assemble(&visits, &transits)?;
     // Every path states the widest cone that any of them needed: all of them keep it.
     let cone_rad = visits.iter().map(|visit| visit.path.cone_rad).fold(0.0, f64::max);
     let stated = |visit: &Visit| WashPath { cone_rad, ..visit.path };
     let wash_paths: Vec<WashPath> = visits.iter().map(stated).collect();
-    pipeline.check_tilt(&scene, &whole, &wash_paths)?;
+    pipeline.check_tilt(&placed, &whole, &wash_paths)?;
     let parts = PlanParts {
-        provenance: Provenance::of(job.name()),
+        provenance: Provenance::new(job.name()),
         order,
         wash_paths,
         segments: whole.segments,
@@ -130,8 +130,8 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
         cone_rad: visit.path.cone_rad,
         curve: visit.path.curve,
         wash_s: duration(&visit.wash.motion),
-        pace: Pace::of(
-            &scene,
+        pace: Pace::measure(
+            &placed,
             &pipeline.plates[visit.path.plate],
             job.terms(),
             (&visit.path.curve, &visit.wash.motion),
@@ -145,7 +145,7 @@ fn planned_with(job: &WashJob, pipeline: &Pipeline<'_>) -> Result<PlannedJob, Pl
             kind: transit.kind,
             duration_s: duration(motion),
             least_s: least_time(&from, &to, &pipeline.transit),
-            limits: LimitShares::of(&scene, motion, &pipeline.transit),
+            limits: LimitShares::measure(&placed, motion, &pipeline.transit),
         }
     });
     Ok(PlannedJob {

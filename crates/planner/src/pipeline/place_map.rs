@@ -41,7 +41,7 @@ pub(crate) fn fill(
 ) -> Result<(), PlanError> {
     with_moved_plate(job, plate, watch, |pipeline, asked| {
         levels.area.check()?;
-        let here = Vector2::from(asked.scene.centre_in_world(&pipeline.plates[plate]));
+        let here = Vector2::from(asked.placed.centre_in_world(&pipeline.plates[plate]));
         while let Some((step_m, mut squares)) = levels.next() {
             let away = |square: &Square| (Vector2::from(levels.centre(step_m, *square)) - here).norm();
             squares.sort_by(|a, b| away(a).total_cmp(&away(b)));

@@ -3,9 +3,9 @@
 use crate::error::PlanError;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{self, Turn};
+use crate::placed_arm::PlacedArm;
 use crate::redundancy::RedundancyError;
 use crate::redundancy::places::{MovedPlate, RING_M, RINGS, Trial, nearest_washable};
-use crate::scene::Scene;
 use crate::transit::LiftLine;
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector2;
@@ -25,35 +25,42 @@ use rayon::prelude::*;
 pub fn nearest_place(job: &WashJob, plate: usize, watch: &Watch<'_>) -> Result<Option<[f64; 2]>, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
     pipeline.check_plate(plate)?;
-    let scene = pipeline.scene()?;
-    let (order, _) = pipeline.order(&scene)?;
-    let (path, near) = pipeline.start_on(&scene, &order, plate)?;
-    let nearest = pipeline.nearest(&scene, &path, &near)?;
-    scene.check_cancelled()?;
+    let placed = pipeline.placed()?;
+    let (order, _) = pipeline.order(&placed)?;
+    let (path, near) = pipeline.start_on(&placed, &order, plate)?;
+    let nearest = pipeline.nearest(&placed, &path, &near)?;
+    placed.check_cancelled()?;
     Ok(nearest)
 }
 
 impl Pipeline<'_> {
     /// Returns the wash path of a plate, and the configuration near which it starts \[rad\]: the last one of the plate before it, or
     /// home, if a check of a few points shows that this plate cannot be washed.
-    fn start_on(&self, scene: &Scene<'_>, order: &[usize], plate: usize) -> Result<(WashPath, JointVector), Cancelled> {
+    fn start_on(
+        &self,
+        placed: &PlacedArm<'_>,
+        order: &[usize],
+        plate: usize,
+    ) -> Result<(WashPath, JointVector), Cancelled> {
         let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
-        let path = self.path_of(scene, order, turn);
+        let path = self.path_of(placed, order, turn);
         let [mut near, _] = self.terms.home_rad;
-        if self.blocked(scene, order, turn)?.is_none() {
+        if self.blocked(placed, order, turn)?.is_none() {
             let before = &order[..turn];
-            let washed = self.turns(scene, order, Self::washing_by_patterns, |other| before.contains(&other));
+            let washed = self.turns(placed, order, Self::washing_by_patterns, |other| {
+                before.contains(&other)
+            });
             let last = washed.filter_map(Result::ok).last();
             near = last.and_then(|turn| turn.washing.q.last().copied()).unwrap_or(near);
         }
-        scene.check_cancelled()?;
+        placed.check_cancelled()?;
         Ok((path, near))
     }
 
     /// The nearest place found at which the job would wash the plate \[m\].
     pub fn nearest(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         path: &WashPath,
         near: &JointVector,
     ) -> Result<Option<[f64; 2]>, Cancelled> {
@@ -72,7 +79,7 @@ impl Pipeline<'_> {
                 away_m,
             });
         };
-        match nearest_washable(&self.moved_plate(scene, path, near), &mut holds, &tell) {
+        match nearest_washable(&self.moved_plate(placed, path, near), &mut holds, &tell) {
             Ok(place) => Ok(place.map(Into::into)),
             Err(RedundancyError::Cancelled(cancelled)) => Err(cancelled),
             Err(_) => Ok(None),
@@ -82,12 +89,12 @@ impl Pipeline<'_> {
     /// The plate of a wash path as a subject of the search for another place.
     pub fn moved_plate<'a>(
         &'a self,
-        scene: &'a Scene<'a>,
+        placed: &'a PlacedArm<'a>,
         path: &'a WashPath,
         near: &'a JointVector,
     ) -> MovedPlate<'a> {
         MovedPlate {
-            scene,
+            placed,
             clearance: &self.clearance,
             path,
             clearance_m: self.clearance_m(),
@@ -99,16 +106,16 @@ impl Pipeline<'_> {
     /// transits to it and from it. Other plates that cannot be washed are left out.
     fn washes_at(&self, plate: usize, centre_m: [f64; 2]) -> Result<bool, PlanError> {
         let mut plates = self.plates.to_vec();
-        plates[plate] = self.scene()?.moved(&plates[plate], centre_m);
+        plates[plate] = self.placed()?.moved(&plates[plate], centre_m);
         if !standing_overlaps(self.robot, &self.terms.workcell, &plates, None)?.is_empty() {
             return Ok(false);
         }
         let moved = self.among(&plates);
         moved.check_homes()?;
-        let scene = moved.scene()?;
-        let (order, _) = moved.order(&scene)?;
+        let placed = moved.placed()?;
+        let (order, _) = moved.order(&placed)?;
         let (mut lines, mut at): (Vec<[LiftLine; 2]>, _) = (Vec::new(), None);
-        for turn in moved.turns(&scene, &order, Pipeline::washing_by_patterns, |_| true) {
+        for turn in moved.turns(&placed, &order, Pipeline::washing_by_patterns, |_| true) {
             let Turn { path, washing, .. } = match turn {
                 Ok(washed) => washed,
                 Err(failed) => match failed.error {
@@ -120,11 +127,11 @@ impl Pipeline<'_> {
             if path.plate == plate {
                 at = Some(lines.len());
             }
-            lines.push(visit::lines(&moved, &scene, &path, &washing)?);
+            lines.push(visit::lines(&moved, &placed, &path, &washing)?);
         }
         let lines: Vec<_> = lines.iter().map(|[entry, exit]| [entry, exit]).collect();
         let beside = |k: usize| at.is_some_and(|at| k == at || k == at + 1);
-        moved.transits(&scene, &lines, beside)?;
+        moved.transits(&placed, &lines, beside)?;
         Ok(true)
     }
 }
@@ -141,12 +148,12 @@ pub(crate) fn with_moved_plate<T>(
 ) -> Result<T, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
     pipeline.check_plate(plate)?;
-    let scene = pipeline.scene()?;
-    let (order, _) = pipeline.order(&scene)?;
+    let placed = pipeline.placed()?;
+    let (order, _) = pipeline.order(&placed)?;
     let turn = order.iter().position(|&other| other == plate).unwrap_or(0);
-    let path = pipeline.path_of(&scene, &order, turn);
+    let path = pipeline.path_of(&placed, &order, turn);
     let [near, _] = &pipeline.terms.home_rad;
-    search(&pipeline, &pipeline.moved_plate(&scene, &path, near))
+    search(&pipeline, &pipeline.moved_plate(&placed, &path, near))
 }
 
 impl Pipeline<'_> {
@@ -189,11 +196,11 @@ mod tests {
         };
         washable_map(&job, 2, &area, &mut tell, &watch).unwrap();
         let pipeline = Pipeline::here(&job, &watch).unwrap();
-        let scene = pipeline.scene().unwrap();
-        let (order, _) = pipeline.order(&scene).unwrap();
+        let placed = pipeline.placed().unwrap();
+        let (order, _) = pipeline.order(&placed).unwrap();
         let turn = order.iter().position(|&other| other == 2).unwrap();
-        let path = pipeline.path_of(&scene, &order, turn);
-        let asked = pipeline.moved_plate(&scene, &path, &job.terms().home_rad[0]);
+        let path = pipeline.path_of(&placed, &order, turn);
+        let asked = pipeline.moved_plate(&placed, &path, &job.terms().home_rad[0]);
         let (mut yes, mut no) = (0, 0);
         for (centre, washable) in told {
             let suits = Trial::new(&asked).is_suitable(&centre.into()).unwrap();
@@ -216,9 +223,9 @@ mod tests {
             let job = WashJob::new(kitchen.shared_arm(), terms).unwrap();
             let chance = plate_outlooks(&job, &watch).unwrap()[0].chance;
             let pipeline = Pipeline::here(&job, &watch).unwrap();
-            let scene = pipeline.scene().unwrap();
-            let path = pipeline.path_of(&scene, &[0], 0);
-            let washing = pipeline.washing(&scene, &path, &job.terms().home_rad[0]);
+            let placed = pipeline.placed().unwrap();
+            let path = pipeline.path_of(&placed, &[0], 0);
+            let washing = pipeline.washing(&placed, &path, &job.terms().home_rad[0]);
             match chance {
                 Chance::Washable => assert!(washing.is_ok(), "{x} {y}: {washing:?}"),
                 Chance::Unwashable => assert!(washing.is_err(), "{x} {y}"),

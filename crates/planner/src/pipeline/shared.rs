@@ -1,17 +1,18 @@
 //! Data that the phases of planning share.
 
-use crate::error::{OutOfRange, PlanError};
-use crate::infeasible::PlaceSearch;
+use crate::error::PlanError;
+use crate::out_of_range::OutOfRange;
 use crate::pattern::Patterns;
+use crate::placed_arm::{AXIS_SHARE, Contact, PlacedArm, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::redundancy::places::SEARCHED_M;
-use crate::scene::{AXIS_SHARE, Contact, Scene, Stance, Stretch, TILT_RESERVE_RAD, TiltPolicy};
 use crate::timing::{MotionLimits, TipLimits};
 use crate::transit::ClearanceShortfall;
-use crate::trig::sin_cos;
+use crate::unwashable_plate::PlaceSearch;
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_bodies::clearance::ClearanceModel;
 use platewash_bodies::job::{End, WashJob};
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{Axes, JointVector, Pose, RobotModel};
 use platewash_workcell::job::{JobTerms, PlannerSettings};
 use platewash_workcell::plate::Plate;
@@ -60,7 +61,7 @@ pub(crate) struct Pipeline<'a> {
 
 impl<'a> Pipeline<'a> {
     /// A job as its arm sees it.
-    pub fn of(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
+    pub fn from_job(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
         let (seen, mount) = (job.seen_from_base(), &job.terms().workcell.mount);
         Self::new(job.arm(), (seen, mount), &seen.plates, watch)
     }
@@ -145,7 +146,7 @@ impl<'a> Pipeline<'a> {
 
     /// A job as it stands: no other place is looked for.
     pub fn here(job: &'a WashJob, watch: &Watch<'a>) -> Result<Self, PlanError> {
-        let pipeline = Self::of(job, watch)?;
+        let pipeline = Self::from_job(job, watch)?;
         let place_search = match pipeline.place_search {
             PlaceSearch::Within(_) => PlaceSearch::Later,
             never => never,
@@ -187,16 +188,16 @@ impl<'a> Pipeline<'a> {
     }
 
     /// The arm among the plates.
-    pub fn scene(&self) -> Result<Scene<'_>, PlanError> {
+    pub fn placed(&self) -> Result<PlacedArm<'_>, PlanError> {
         let (tool, reach) = (&self.terms.workcell.tool, self.settings.reach);
-        let scene = Scene::new(self.robot, tool, &self.clearance, self.plates, reach)?;
+        let placed = PlacedArm::new(self.robot, tool, &self.clearance, self.plates, reach)?;
         let stance = Stance {
             axis_share: self.settings.axis_share.unwrap_or(AXIS_SHARE),
             wrist_rad: self.terms.requirements.wrist_rad,
             tilt_reserve_rad: self.tilt_reserve_rad,
             aside_rad: 0.0,
         };
-        Ok(scene
+        Ok(placed
             .mounted(self.mount)
             .with_stance(stance)
             .with_cancel(self.watch.cancel))
@@ -222,13 +223,13 @@ impl<'a> Pipeline<'a> {
     }
 
     /// Position of the tip at an end \[m\], in the frame of the base.
-    pub fn home_tip(&self, scene: &Scene<'_>, home: &JointVector) -> Vector3<f64> {
-        self.robot.fk(home).rigid(&scene.tip).translation
+    pub fn home_tip(&self, placed: &PlacedArm<'_>, home: &JointVector) -> Vector3<f64> {
+        self.robot.fk(home).rigid(&placed.tip).translation
     }
 
     /// The patterns of each plate; of equal faces they are the same.
     fn patterns_by_plate(&self) -> Result<Vec<Arc<Patterns>>, PlanError> {
-        let scene = self.scene()?;
+        let placed = self.placed()?;
         let mut all: Vec<Arc<Patterns>> = Vec::with_capacity(self.plates.len());
         for (k, plate) in self.plates.iter().enumerate() {
             let is_like = |other: &&Plate| other.surface == plate.surface && other.terms == plate.terms;
@@ -237,7 +238,7 @@ impl<'a> Pipeline<'a> {
                 None => {
                     let alike = self.plates.iter().filter(is_like);
                     let most = alike
-                        .filter_map(|plate| self.tip_acceleration(&scene, plate))
+                        .filter_map(|plate| self.tip_acceleration(&placed, plate))
                         .reduce(f64::max);
                     let most_m_s2 = most.unwrap_or(f64::INFINITY);
                     let cancel = self.watch.cancel;
@@ -251,20 +252,20 @@ impl<'a> Pipeline<'a> {
     /// The configuration near another one with the tool upright at a point of a plate's face \[m\].
     pub fn configuration_at(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         plate: &Plate,
         point: Vector3<f64>,
         near: &JointVector,
     ) -> Option<JointVector> {
         let contact = Contact::on_normal(point, plate.normal_at(&point));
-        scene.configuration(&contact, &self.policy(), near)
+        placed.configuration(&contact, &self.policy(), near)
     }
 
     /// Acceleration of the tip \[m/s²\] along the face at the centre of a plate that the accelerations of the joints allow, with the tool
     /// upright and not turning: the time on a circle is that of this acceleration in every direction.
-    fn tip_acceleration(&self, scene: &Scene<'_>, plate: &Plate) -> Option<f64> {
-        let q = self.configuration_at(scene, plate, plate.centre(), &self.terms.home_rad[0])?;
-        let inverse = self.robot.fk(&q).jacobian(&scene.tip, Axes::Base).try_inverse()?;
+    fn tip_acceleration(&self, placed: &PlacedArm<'_>, plate: &Plate) -> Option<f64> {
+        let q = self.configuration_at(placed, plate, plate.centre(), &self.terms.home_rad[0])?;
+        let inverse = self.robot.fk(&q).jacobian(&placed.tip, Axes::Base).try_inverse()?;
         let axes =
             [Vector3::x(), Vector3::y()].map(|axis| inverse.fixed_columns::<3>(0) * (plate.pose.rotation * axis));
         let slowness = |k: u32| {

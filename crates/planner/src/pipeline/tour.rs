@@ -3,8 +3,8 @@
 use crate::error::PlanError;
 use crate::order::TravelTimes;
 use crate::pipeline::shared::Pipeline;
+use crate::placed_arm::PlacedArm;
 use crate::planned_job::TourSummary;
-use crate::scene::Scene;
 use crate::timing::MotionLimits;
 use nalgebra::Vector3;
 use platewash_kinematics::{AXES, JointVector};
@@ -13,8 +13,8 @@ use platewash_workcell::job::OrderRule;
 
 impl Pipeline<'_> {
     /// Returns the plates in the order of washing, and the gain of that order.
-    pub fn order(&self, scene: &Scene<'_>) -> Result<(Vec<usize>, TourSummary), PlanError> {
-        let times = self.travel_times(scene)?;
+    pub fn order(&self, placed: &PlacedArm<'_>) -> Result<(Vec<usize>, TourSummary), PlanError> {
+        let times = self.travel_times(placed)?;
         let nearest = times.nearest_next();
         let nearest_next_s = times.duration_s(&nearest);
         let (order, optimality) = match (&self.asked_order, self.settings.order) {
@@ -36,23 +36,23 @@ impl Pipeline<'_> {
 
     /// Times between homes and plates: a wash path ends towards where the arm goes next, and the next one begins at its plate's
     /// centre. A contact point that the tilt policy does not reach counts as the plate's centre, and that as home.
-    fn travel_times(&self, scene: &Scene<'_>) -> Result<TravelTimes, Cancelled> {
+    fn travel_times(&self, placed: &PlacedArm<'_>) -> Result<TravelTimes, Cancelled> {
         let ([start, home], limits) = (&self.terms.home_rad, &self.transit);
         let centres: Vec<Vector3<f64>> = self.plates.iter().map(|plate| plate.centre()).collect();
         let at = |plate: usize, point, near: &_| {
-            let found = self.configuration_at(scene, &self.plates[plate], point, near);
+            let found = self.configuration_at(placed, &self.plates[plate], point, near);
             found.unwrap_or(*near)
         };
         let mut entries: Vec<JointVector> = Vec::with_capacity(centres.len());
         for (plate, centre) in centres.iter().enumerate() {
-            scene.check_cancelled()?;
+            placed.check_cancelled()?;
             entries.push(at(plate, *centre, &self.near_rad));
         }
         let exit = |plate: usize, towards: &Vector3<f64>| {
             let [_, foot] = self.widest_path(plate, towards).feet(&self.plates[plate]);
             at(plate, foot, &entries[plate])
         };
-        let home_tip = self.home_tip(scene, home);
+        let home_tip = self.home_tip(placed, home);
         let mut times = TravelTimes {
             out: entries.iter().map(|q| least_time(start, q, limits)).collect(),
             between: Vec::with_capacity(centres.len()),
@@ -61,7 +61,7 @@ impl Pipeline<'_> {
         for a in 0..centres.len() {
             let mut row = Vec::with_capacity(centres.len());
             for (b, centre) in centres.iter().enumerate() {
-                scene.check_cancelled()?;
+                placed.check_cancelled()?;
                 row.push(if a == b {
                     0.0
                 } else {

@@ -4,15 +4,15 @@ use crate::error::PlanError;
 use crate::joint_path::{Ends, JointPath};
 use crate::pattern::{Pattern, Shortfall, foundation};
 use crate::pipeline::shared::Pipeline;
+use crate::placed_arm::PlacedArm;
 use crate::redundancy::Washing;
-use crate::scene::Scene;
 use crate::timing::{self, TimedPath};
 use crate::transit::LiftLine;
-use crate::trig::{atan2, sin};
 use nalgebra::Vector3;
 use platewash_bodies::contact::{Columns, SpongePose};
 use platewash_kinematics::Pose;
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::{atan2, sin};
 use platewash_workcell::wash_path::{WashCurve, WashPath};
 use std::f64::consts::TAU;
 
@@ -49,7 +49,7 @@ pub(crate) struct Turn {
 
 impl Turn {
     /// Times the wash along its configurations.
-    pub fn timed(&self, pipeline: &Pipeline<'_>, scene: &Scene<'_>) -> Result<TimedPath, PlanError> {
+    pub fn timed(&self, pipeline: &Pipeline<'_>, placed: &PlacedArm<'_>) -> Result<TimedPath, PlanError> {
         let mut limits = pipeline.washing_of(self.path.plate);
         if let Some(tip) = &mut limits.tip {
             tip.speed_m_s *= self.pattern.speed_share;
@@ -58,8 +58,8 @@ impl Turn {
             theta, q, end_slopes, ..
         } = &self.washing;
         let joints = JointPath::through(theta.clone(), q.clone(), Ends::Clamped(*end_slopes))?;
-        scene.check_cancelled()?;
-        Ok(timing::time_optimal(&joints, scene.robot, &scene.tip, &limits)?)
+        placed.check_cancelled()?;
+        Ok(timing::time_optimal(&joints, placed.robot, &placed.tip, &limits)?)
     }
 }
 
@@ -100,22 +100,22 @@ pub(crate) fn turned_as(curve: WashCurve, other: &WashCurve) -> WashCurve {
 /// The lines over the beginning and the end of a wash path.
 pub(crate) fn lines(
     pipeline: &Pipeline<'_>,
-    scene: &Scene<'_>,
+    placed: &PlacedArm<'_>,
     path: &WashPath,
     washing: &Washing,
 ) -> Result<[LiftLine; 2], PlanError> {
     let last = washing.q.len() - 1;
-    let scene = &scene.clone().leaning_aside(washing.aside_rad);
+    let placed = &placed.clone().leaning_aside(washing.aside_rad);
     let (wanted, wash_m_s) = (&pipeline.terms.requirements, pipeline.terms.wash_speed_m_s());
     let (plate, lift_m, sponge) = (path.plate, path.lift_m, &pipeline.terms.workcell.tool.sponge);
     // With the tool turned as it is at the end, and no faster than asked from where the free sponge may meet the plate. Where nothing is
     // asked: from where the tilted rim touches while it washes, and a sample more.
     let line = |end: usize, k: usize, asked_m_s: Option<f64>| {
         let (foot, tilt_rad, q) = (&washing.feet[end], washing.tilt_rad[k], &washing.q[k]);
-        let over = |h: &f64| scene.tip_pose(&foot.raised(*h), tilt_rad);
+        let over = |h: &f64| placed.tip_pose(&foot.raised(*h), tilt_rad);
         let (touches_m, speed_m_s) = match asked_m_s {
             None => {
-                let rim_m = sponge.radius_m * sin(scene.stance.lean_rad(tilt_rad));
+                let rim_m = sponge.radius_m * sin(placed.stance.lean_rad(tilt_rad));
                 (rim_m + LINE_STEP_M, TOUCHING * wash_m_s)
             }
             Some(asked) => {
@@ -131,7 +131,7 @@ pub(crate) fn lines(
             heights.extend(evenly(touches_m, lift_m, 2.0));
         }
         let poses: Vec<_> = heights.iter().map(over).collect();
-        let found = scene.solver.solve_path(&poses, q);
+        let found = placed.solver.solve_path(&poses, q);
         let not_found = |error| PlanError::Line {
             plate,
             lift_m,
@@ -193,7 +193,7 @@ mod tests {
             closing_ring in any::<bool>(),
         ) {
             let curve = WashCurve { radius_m: 0.12385, turns, start_angle_rad: 0.0, closing_ring, trim_rad: 0.0, pattern: WashPattern::Spiral };
-            let (s, c) = crate::trig::sin_cos(0.5 * TAU * half_turns);
+            let (s, c) = platewash_kinematics::trig::sin_cos(0.5 * TAU * half_turns);
             let towards = Vector3::new(c, s, 0.0);
             let curve = turned(curve, &towards);
             prop_assert!(curve.start_angle_rad.abs() < TAU, "{}", curve.start_angle_rad);

@@ -3,15 +3,15 @@
 //! A plate for which no way was found to wash it whole: why.
 
 use crate::error::PlanError;
-use crate::infeasible::{PlaceSearch, UnwashablePlate};
 use crate::pattern::{Margin, Pattern, Promise, SampledWash};
 use crate::pipeline::places::nearest_place;
 use crate::pipeline::shared::Pipeline;
 use crate::pipeline::visit::{self, Turn, Visit, turned, turned_as};
+use crate::placed_arm::PlacedArm;
 use crate::redundancy::beyond_reach::{required_share, share_beyond_reach};
 use crate::redundancy::washability::{self, WashablePart};
 use crate::redundancy::{self, RedundancyError, Task, Washing};
-use crate::scene::Scene;
+use crate::unwashable_plate::{PlaceSearch, UnwashablePlate};
 use crate::watch::{Activity, Watch};
 use nalgebra::Vector3;
 use platewash_bodies::job::WashJob;
@@ -35,27 +35,27 @@ pub(crate) struct FailedVisit {
 }
 
 /// Function that finds the washing along a path from a configuration not far from the one given.
-type FindWashing<P> = fn(&P, &Scene<'_>, &WashPath, &JointVector) -> Result<Turn, RedundancyError>;
+type FindWashing<P> = fn(&P, &PlacedArm<'_>, &WashPath, &JointVector) -> Result<Turn, RedundancyError>;
 
 impl Pipeline<'_> {
-    pub fn visits(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<Visit>, PlanError> {
+    pub fn visits(&self, placed: &PlacedArm<'_>, order: &[usize]) -> Result<Vec<Visit>, PlanError> {
         // At once, before others are searched for minutes.
         for k in 0..order.len() {
-            if let Some(failed) = self.blocked(scene, order, k)? {
-                return Err(self.unwashable(scene, failed));
+            if let Some(failed) = self.blocked(placed, order, k)? {
+                return Err(self.unwashable(placed, failed));
             }
         }
         let mut visits: Vec<Visit> = Vec::with_capacity(order.len());
-        for turn in self.turns(scene, order, Self::quickest_washing, |_| true) {
-            let mut turn = turn.map_err(|failed| self.unwashable(scene, *failed))?;
+        for turn in self.turns(placed, order, Self::quickest_washing, |_| true) {
+            let mut turn = turn.map_err(|failed| self.unwashable(placed, *failed))?;
             self.check_promise(&turn)?;
             let wash = match turn.wash.take() {
                 Some(wash) => wash,
-                None => turn.timed(self, scene)?,
+                None => turn.timed(self, placed)?,
             };
             let Turn { path, washing, .. } = turn;
             visits.push(Visit {
-                lines: visit::lines(self, scene, &path, &washing)?,
+                lines: visit::lines(self, placed, &path, &washing)?,
                 path,
                 washing,
                 wash,
@@ -66,11 +66,11 @@ impl Pipeline<'_> {
 
     /// Returns the `k`-th plate of an order if a check of a few points shows that it cannot be washed, and no policy of tilts
     /// washes it either.
-    pub fn blocked(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> Result<Option<FailedVisit>, Cancelled> {
-        scene.check_cancelled()?;
+    pub fn blocked(&self, placed: &PlacedArm<'_>, order: &[usize], k: usize) -> Result<Option<FailedVisit>, Cancelled> {
+        placed.check_cancelled()?;
         let near = self.near_rad;
-        let path = self.path_of(scene, order, k);
-        let task = |path: &WashPath| Task::new(scene, path, self.clearance_m(), &near);
+        let path = self.path_of(placed, order, k);
+        let task = |path: &WashPath| Task::new(placed, path, self.clearance_m(), &near);
         let Ok(widest) = task(&path) else {
             return Ok(None);
         };
@@ -93,7 +93,7 @@ impl Pipeline<'_> {
     /// left out.
     pub fn turns(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         order: &[usize],
         washing: FindWashing<Self>,
         wanted: impl Fn(usize) -> bool,
@@ -102,8 +102,8 @@ impl Pipeline<'_> {
         let turns = (0..order.len()).filter(move |&k| wanted(order[k]));
         turns.map(move |k| {
             self.report_visit(order, k);
-            let path = self.path_of(scene, order, k);
-            match washing(self, scene, &path, &near) {
+            let path = self.path_of(placed, order, k);
+            match washing(self, placed, &path, &near) {
                 Ok(turn) => {
                     near = turn.washing.q.last().copied().unwrap_or(near);
                     Ok(turn)
@@ -119,8 +119,8 @@ impl Pipeline<'_> {
     }
 
     /// The wash path on the `k`-th plate of an order: the one asked for, or one that ends towards the next plate, or home.
-    pub fn path_of(&self, scene: &Scene<'_>, order: &[usize], k: usize) -> WashPath {
-        let home = || self.home_tip(scene, &self.terms.home_rad[1]);
+    pub fn path_of(&self, placed: &PlacedArm<'_>, order: &[usize], k: usize) -> WashPath {
+        let home = || self.home_tip(placed, &self.terms.home_rad[1]);
         let next = order.get(k + 1).map(|&next| self.plates[next].centre());
         let path = self.widest_path(order[k], &next.unwrap_or_else(home));
         let asked = self.asked_paths.iter().find(|asked| asked.plate == path.plate);
@@ -147,7 +147,7 @@ impl Pipeline<'_> {
     /// from the rim where it finds none.
     pub fn washing_by_patterns(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         like: &WashPath,
         near: &JointVector,
     ) -> Result<Turn, RedundancyError> {
@@ -172,7 +172,7 @@ impl Pipeline<'_> {
             }) else {
                 return found;
             };
-            match self.washing_by(scene, like, near, &pattern) {
+            match self.washing_by(placed, like, near, &pattern) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
                 // The last error is reported: that of the widest cone.
                 Err(error) => found = found.or(Err(error)),
@@ -197,16 +197,16 @@ impl Pipeline<'_> {
     /// of this one and of those by the next patterns of the same cone.
     fn quickest_washing(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         like: &WashPath,
         near: &JointVector,
     ) -> Result<Turn, RedundancyError> {
-        let mut best = self.washing_by_patterns(scene, like, near)?;
+        let mut best = self.washing_by_patterns(placed, like, near)?;
         if best.shortfall.is_some() {
             return Ok(best);
         }
         // An error of the timing is reported by the caller that needs it.
-        let Ok(wash) = best.timed(self, scene) else {
+        let Ok(wash) = best.timed(self, placed) else {
             return Ok(best);
         };
         let mut time_s = wash.motion.duration_s();
@@ -216,14 +216,14 @@ impl Pipeline<'_> {
             return Ok(best);
         }
         for pattern in self.patterns[like.plate].after(tried) {
-            match self.washing_by(scene, like, near, &pattern) {
+            match self.washing_by(placed, like, near, &pattern) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
                 Ok((mut turn, sampled))
                     if sampled
                         .as_ref()
                         .is_none_or(|sampled| sampled.shortfall(&Margin::ARM).is_none()) =>
                 {
-                    turn.wash = turn.timed(self, scene).ok();
+                    turn.wash = turn.timed(self, placed).ok();
                     let other_s = turn
                         .wash
                         .as_ref()
@@ -241,7 +241,7 @@ impl Pipeline<'_> {
     /// The washing of a plate by a pattern, with a path that ends where `like` does, and its samples where the job promises contact.
     fn washing_by(
         &self,
-        scene: &Scene<'_>,
+        placed: &PlacedArm<'_>,
         like: &WashPath,
         near: &JointVector,
         pattern: &Pattern,
@@ -249,22 +249,22 @@ impl Pipeline<'_> {
         let path = by_pattern(like, pattern);
         let turn = Turn {
             path,
-            washing: self.washing(scene, &path, near)?,
+            washing: self.washing(placed, &path, near)?,
             pattern: *pattern,
             shortfall: None,
             wash: None,
         };
-        let sampled = self.sampled(scene, &turn);
+        let sampled = self.sampled(placed, &turn);
         Ok((turn, sampled))
     }
 
     /// Samples of a plate's washing at its configurations; `None` without a promise about contact.
-    fn sampled(&self, scene: &Scene<'_>, turn: &Turn) -> Option<SampledWash> {
+    fn sampled(&self, placed: &PlacedArm<'_>, turn: &Turn) -> Option<SampledWash> {
         self.terms.requirements.contact?;
         let plate = &self.plates[turn.path.plate];
-        let promise = Promise::of(self.terms, plate);
+        let promise = Promise::new(self.terms, plate);
         let speed_m_s = turn.pattern.speed_share * self.terms.wash_speed_of(plate);
-        Some(promise.sampled(scene, plate, &turn.washing.q, speed_m_s))
+        Some(promise.sampled(placed, plate, &turn.washing.q, speed_m_s))
     }
 
     /// Refuses a washing with a chosen curve if no plan of it could be proved; the certificate judges stated curves.
@@ -277,8 +277,13 @@ impl Pipeline<'_> {
     }
 
     /// The washing along a path from a configuration not far from `near` \[rad\].
-    pub fn washing(&self, scene: &Scene<'_>, path: &WashPath, near: &JointVector) -> Result<Washing, RedundancyError> {
-        redundancy::washing(&Task::new(scene, path, self.clearance_m(), near)?)
+    pub fn washing(
+        &self,
+        placed: &PlacedArm<'_>,
+        path: &WashPath,
+        near: &JointVector,
+    ) -> Result<Washing, RedundancyError> {
+        redundancy::washing(&Task::new(placed, path, self.clearance_m(), near)?)
     }
 }
 
@@ -301,10 +306,10 @@ fn by_pattern(like: &WashPath, pattern: &Pattern) -> WashPath {
 pub fn unwashable_plates(job: &WashJob, watch: &Watch<'_>) -> Result<Vec<UnwashablePlate>, PlanError> {
     let pipeline = Pipeline::here(job, watch)?;
     pipeline.check_homes()?;
-    let scene = pipeline.scene()?;
-    let (order, _) = pipeline.order(&scene)?;
-    let failed = pipeline.failed(&scene, &order)?;
-    let why = |failed: FailedVisit| pipeline.explain(&scene, failed);
+    let placed = pipeline.placed()?;
+    let (order, _) = pipeline.order(&placed)?;
+    let failed = pipeline.failed(&placed, &order)?;
+    let why = |failed: FailedVisit| pipeline.explain(&placed, failed);
     let plates: Result<Vec<UnwashablePlate>, Cancelled> = failed.into_par_iter().map(why).collect();
     let mut plates = plates?;
     plates.sort_unstable_by_key(|plate| plate.plate);
@@ -344,46 +349,48 @@ pub fn other_unwashable_plates(
 impl Pipeline<'_> {
     /// Returns all plates for which no configurations are found: those that a check of a few points rules out, and those whose
     /// washing fails.
-    fn failed(&self, scene: &Scene<'_>, order: &[usize]) -> Result<Vec<FailedVisit>, Cancelled> {
+    fn failed(&self, placed: &PlacedArm<'_>, order: &[usize]) -> Result<Vec<FailedVisit>, Cancelled> {
         let turns = (0..order.len()).into_par_iter();
-        let blocked: Result<Vec<_>, Cancelled> = turns.map(|k| self.blocked(scene, order, k)).collect();
+        let blocked: Result<Vec<_>, Cancelled> = turns.map(|k| self.blocked(placed, order, k)).collect();
         let mut failed: Vec<FailedVisit> = blocked?.into_iter().flatten().collect();
         let known: Vec<usize> = failed.iter().map(|failed| failed.path.plate).collect();
-        let others = self.turns(scene, order, Self::washing_by_patterns, |plate| !known.contains(&plate));
+        let others = self.turns(placed, order, Self::washing_by_patterns, |plate| {
+            !known.contains(&plate)
+        });
         failed.extend(others.filter_map(Result::err).map(|failed| *failed));
-        scene.check_cancelled()?;
+        placed.check_cancelled()?;
         Ok(failed)
     }
 
     /// Looks into a plate for which no configurations were found.
-    pub fn unwashable(&self, scene: &Scene<'_>, failed: FailedVisit) -> PlanError {
-        match self.with_place(scene, failed) {
+    pub fn unwashable(&self, placed: &PlacedArm<'_>, failed: FailedVisit) -> PlanError {
+        match self.with_place(placed, failed) {
             Ok(plate) => PlanError::Unwashable(Box::new(plate)),
             Err(cancelled) => cancelled.into(),
         }
     }
 
     /// Returns the cause, and the nearest other place for the plate if the job asks for it.
-    fn with_place(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
+    fn with_place(&self, placed: &PlacedArm<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
         let (path, near) = (failed.path, failed.near);
-        let plate = self.explain(scene, failed)?;
+        let plate = self.explain(placed, failed)?;
         let nearest_m = match self.place_search {
-            PlaceSearch::Within(_) => self.nearest(scene, &path, &near)?,
+            PlaceSearch::Within(_) => self.nearest(placed, &path, &near)?,
             PlaceSearch::Off | PlaceSearch::Later => None,
         };
-        scene.check_cancelled()?;
+        placed.check_cancelled()?;
         Ok(UnwashablePlate { nearest_m, ..plate })
     }
 
     /// Returns the cause, without a search for another place.
-    fn explain(&self, scene: &Scene<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
+    fn explain(&self, placed: &PlacedArm<'_>, failed: FailedVisit) -> Result<UnwashablePlate, Cancelled> {
         let FailedVisit { path, near, error } = failed;
         if let RedundancyError::Cancelled(cancelled) = error {
             return Err(cancelled);
         }
         let plate = path.plate;
         (self.watch.tell)(&Activity::Cause { plate });
-        let part = match Task::new(scene, &path, self.clearance_m(), &near) {
+        let part = match Task::new(placed, &path, self.clearance_m(), &near) {
             Ok(task) if self.explains => washability::washable_part(&task)?,
             _ => None,
         };
@@ -392,7 +399,7 @@ impl Pipeline<'_> {
         let lies = &self.plates[plate];
         Ok(UnwashablePlate {
             plate,
-            centre_m: scene.centre_in_world(lies),
+            centre_m: placed.centre_in_world(lies),
             error,
             beyond_reach_share: share_beyond_reach(self.robot, self.terms, lies),
             required_share: required_share(self.terms, lies),

@@ -5,11 +5,13 @@
 //! | moment of the stop, plates washed by then | `stop.rs` |
 //! | way to the nearest place that is clear | `retreat.rs` |
 //! | both plans | here |
+//! | reasons that there is no recovery | `error.rs` |
 //!
 //! The certificate judges both as it judges any plan. Where the sponge is at a plate, it may touch that plate until it is up, slowly and
 //! along the plate's normal. Other pairs that are nearer than the job asks keep what they have at the start: the plan names them. Where
 //! one of them touches, there is no recovery.
 
+mod error;
 mod retreat;
 mod stop;
 
@@ -22,16 +24,15 @@ use crate::transit::{self, LiftLine, Transit};
 use crate::watch::{Activity, Watch};
 use platewash_bodies::clearance::PairClearance;
 use platewash_bodies::job::{JobError, WashJob};
-use platewash_kinematics::words::distinct_decimals;
-use platewash_kinematics::{JointVector, LimitViolation, RobotModel};
+use platewash_kinematics::{JointVector, RobotModel};
 use platewash_motion::plan::{Knots, Plan, PlanParts, Process, Provenance};
 use platewash_motion::trajectory::SegmentKind;
+use platewash_workcell::ReducedClearance;
 use platewash_workcell::job::{NEARER_M, Recovery, RecoveryPart, RetreatLine};
 use platewash_workcell::random;
-use platewash_workcell::words::{plate_name, printable};
-use platewash_workcell::workcell::ReducedClearance;
 use std::sync::Arc;
 
+pub use crate::recovery::error::RecoveryError;
 pub use crate::recovery::stop::Stop;
 
 /// Times about the stop at which the plan may have the arm clear \[s\].
@@ -48,93 +49,6 @@ pub struct Recovered {
     pub home: Plan,
     /// Plan of the plates that are left: the stopped plan itself where none was washed, `None` where all were.
     pub rest: Option<Plan>,
-}
-
-/// Reason that there is no recovery.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RecoveryError {
-    /// The plan is a run of the paper's program.
-    #[error("the plan is a run of the paper's program, which is not proved; recover is for plans of a washing")]
-    PaperRun,
-    /// The plan is the motion home of a recovery.
-    #[error(
-        "the plan is the motion home of a recovery: give the plan that was stopped first, with where the arm stands now"
-    )]
-    MotionHome,
-    /// The plan is a dry run.
-    #[error(
-        "the plan is a dry run, whose plates are in the air where nothing is: move the arm home by hand, then run it again from its start"
-    )]
-    DryRun,
-    /// The plan's hash is missing, or not that of its contents.
-    #[error("the plan was changed after it was written; a recovery names its parent by its hash")]
-    NotSealed,
-    /// A joint position is NaN or infinite.
-    #[error("the joint positions must be finite numbers")]
-    NotFinite,
-    /// The arm stands beyond a limit of a joint.
-    #[error("where the arm stands, {0}; move that joint back by hand first")]
-    Limit(LimitViolation),
-    /// The time is not within the plan.
-    #[error("the time of the stop must be from 0 to {duration_s:.3} s, the plan's end; found {found_s} s")]
-    Time {
-        /// Time given \[s\].
-        found_s: f64,
-        /// Duration of the plan \[s\].
-        duration_s: f64,
-    },
-    /// The joints do not fit the plan at the stated time, and fit it at another one.
-    #[error(
-        "the joints do not fit the plan at the stated {found_s} s (a joint is off by {:.1}°) and fit it at {fits_s:.2} s (off by up to {:.2}°): \
-         state the time in the plan, or leave it out; the log of a program that ran at a share of its speed, or was held, has other times",
-        found_off_rad.to_degrees(), fits_off_rad.to_degrees()
-    )]
-    OtherTime {
-        /// Time given \[s\].
-        found_s: f64,
-        /// Largest distance of a joint from the plan then \[rad\].
-        found_off_rad: f64,
-        /// Moment of the plan that the joints fit \[s\].
-        fits_s: f64,
-        /// Largest distance of a joint from the plan at that moment \[rad\].
-        fits_off_rad: f64,
-    },
-    /// Bodies touch where the arm stands.
-    #[error(
-        "where the arm stands, '{}' and '{}' touch: no motion from there can be proved; move the arm away by hand first",
-        printable(&.pair.a), printable(&.pair.b)
-    )]
-    Touching {
-        /// The bodies.
-        pair: Box<PairClearance>,
-    },
-    /// No way to a clear place was found.
-    #[error("no way was found from where the arm stands to a place that is clear of everything{}", nearest(.plate, .pair.as_deref()))]
-    NoWay {
-        /// Plate that the sponge is at.
-        plate: Option<usize>,
-        /// Nearest bodies.
-        pair: Option<Box<PairClearance>>,
-    },
-    /// The motion home, or the plates that are left, could not be planned.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-}
-
-fn nearest(plate: &Option<usize>, pair: Option<&PairClearance>) -> String {
-    match (plate, pair) {
-        (_, Some(pair)) => {
-            let [found, _] = distinct_decimals(1e3 * pair.distance_m, 0.0, 2);
-            format!(
-                ": '{}' and '{}' are {found} mm apart",
-                printable(&pair.a),
-                printable(&pair.b)
-            )
-        }
-        (Some(plate), None) => format!(": the sponge is at {}", plate_name(*plate)),
-        (None, None) => String::new(),
-    }
 }
 
 /// Plans the way home from where the arm stands, `at` \[rad\], and the washing of the plates that are left.
@@ -156,11 +70,11 @@ pub fn recover(
     let stop = Stop::new(plan, &motion, at, time_s)?;
     let job = WashJob::new(arm.clone(), plan.job.clone()).map_err(PlanError::from)?;
     let pipeline = Pipeline::here(&job, watch)?;
-    let scene = pipeline.scene()?;
+    let placed = pipeline.placed()?;
     (watch.tell)(&Activity::Transit { turn: 1, of: 1 });
     let about = |after_s: &f64| Some(motion.at(stop.time_s? + after_s)?.q);
     let on_plan = ABOUT_S.iter().filter_map(about).collect();
-    let start = Start::new(&pipeline, &scene, at, stop.at_plate, on_plan);
+    let start = Start::new(&pipeline, &placed, at, stop.at_plate, on_plan);
     let near = start.too_near();
     if let Some(pair) = near.iter().find(|pair| pair.distance_m <= NEARER_M) {
         let pair = Box::new(pair.clone());
@@ -220,10 +134,10 @@ fn motion_home(plan: &Plan, start: &Start<'_>, way: Option<Way>, transit: &Trans
         part: RecoveryPart::Home { retreat },
     };
     let near = near_pairs(&start.near, plan.job.requirements.clearance_m);
-    let terms = recovery.terms(&plan.job, start.at, near);
+    let terms = plan.job.recovered(recovery, start.at, near);
     terms.validate().map_err(JobError::from)?;
     let parts = PlanParts {
-        provenance: Provenance::of(&format!("{}-home", plan.provenance.scenario)),
+        provenance: Provenance::new(&format!("{}-home", plan.provenance.scenario)),
         order: Vec::new(),
         wash_paths: Vec::new(),
         segments,
@@ -255,7 +169,7 @@ fn transit_home(start: &Start<'_>, from: &JointVector) -> Result<Transit, PlanEr
     let terms = start.pipeline.terms;
     let mut rng = random::stream(terms.seed, "recovery");
     let [from, to] = [*from, terms.home_rad[0]].map(LiftLine::home);
-    let rules = start.pipeline.transit_rules(start.scene);
+    let rules = start.pipeline.transit_rules(start.placed);
     Ok(transit::plan(&rules, &from, &to, &mut rng)?)
 }
 
@@ -291,7 +205,7 @@ fn rest(plan: &Plan, arm: &Arc<RobotModel>, stop: &Stop, watch: &Watch<'_>) -> R
         left_out,
         part: RecoveryPart::Rest,
     };
-    let terms = recovery.terms(&plan.job, plan.job.home_rad[0], Vec::new());
+    let terms = plan.job.recovered(recovery, plan.job.home_rad[0], Vec::new());
     let job = WashJob::new(arm.clone(), terms)?.named(&format!("{}-rest", plan.provenance.scenario));
     let paths: Vec<_> = plan
         .wash_paths

@@ -7,14 +7,14 @@
 use crate::error::PlanError;
 use crate::joint_path::{Ends, JointPath};
 use crate::pipeline::shared::Pipeline;
-use crate::scene::{Scene, Stretch};
+use crate::placed_arm::{PlacedArm, Stretch};
 use crate::timing::{self, SlowStretch, TimedPath};
 use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::{JointVector, Pose};
-use platewash_workcell::job::{LINE_TOLERANCE_M, NEARER_M, retreat_speed_m_s};
+use platewash_workcell::is_pair;
+use platewash_workcell::job::{LINE_TOLERANCE_M, NEARER_M};
 use platewash_workcell::words::plate_name;
-use platewash_workcell::workcell::is_pair;
 
 /// Longest way along a line \[m\].
 const LONGEST_M: f64 = 0.15;
@@ -40,7 +40,7 @@ const FURTHER_M: [f64; 4] = [0.0, 0.02, 0.05, 0.1];
 /// The arm where it stands.
 pub(crate) struct Start<'a> {
     pub pipeline: &'a Pipeline<'a>,
-    pub scene: &'a Scene<'a>,
+    pub placed: &'a PlacedArm<'a>,
     pub at: JointVector,
     /// Plate that the sponge is at.
     pub plate: Option<usize>,
@@ -74,14 +74,14 @@ impl Way {
 
     /// The way in time, slowly, from rest to rest.
     pub fn timed(&self, start: &Start<'_>) -> Result<TimedPath, PlanError> {
-        let (pipeline, scene) = (start.pipeline, start.scene);
+        let (pipeline, placed) = (start.pipeline, start.placed);
         let path = JointPath::through(self.length_m.clone(), self.q.clone(), Ends::NotAKnot)?;
         let slow = SlowStretch {
             u: [0.0, self.whole_m()],
-            most: PACE * retreat_speed_m_s(start.pipeline.terms),
+            most: PACE * start.pipeline.terms.retreat_speed_m_s(),
         };
-        let (tip, limits) = (&scene.tip, &pipeline.transit);
-        Ok(timing::time_optimal_slowed(&path, scene.robot, tip, limits, &[slow])?)
+        let (tip, limits) = (&placed.tip, &pipeline.transit);
+        Ok(timing::time_optimal_slowed(&path, placed.robot, tip, limits, &[slow])?)
     }
 }
 
@@ -89,7 +89,7 @@ impl<'a> Start<'a> {
     /// The arm at a configuration \[rad\]. Of two plates that the sponge touches it is at the one under way.
     pub fn new(
         pipeline: &'a Pipeline<'a>,
-        scene: &'a Scene<'a>,
+        placed: &'a PlacedArm<'a>,
         at: &JointVector,
         under_way: Option<usize>,
         on_plan: Vec<JointVector>,
@@ -106,7 +106,7 @@ impl<'a> Start<'a> {
             a.1.total_cmp(&b.1).then(other(a.0).cmp(&other(b.0)))
         };
         // Elsewhere, as behind a plate, no way along its normal leads away from it.
-        let tip = scene.robot.fk(at).rigid(&scene.tip);
+        let tip = placed.robot.fk(at).rigid(&placed.tip);
         let tool = &pipeline.terms.workcell.tool;
         let is_over = |(plate, _): &(usize, f64)| {
             let plate = &pipeline.plates[*plate];
@@ -118,7 +118,7 @@ impl<'a> Start<'a> {
         near.retain(|pair| !plate.is_some_and(|plate| under_sponge(pair, plate)));
         Self {
             pipeline,
-            scene,
+            placed,
             at: *at,
             plate,
             near,
@@ -155,7 +155,7 @@ impl<'a> Start<'a> {
         let was = |pair: &PairClearance| self.near.iter().find(|near| near.a == pair.a && near.b == pair.b);
         let no_nearer =
             |pair: PairClearance| was(&pair).is_some_and(|near| pair.distance_m >= near.distance_m - 0.5 * NEARER_M);
-        let within = self.scene.robot.limits().contain(q);
+        let within = self.placed.robot.limits().contain(q);
         within
             && self
                 .model()
@@ -175,7 +175,7 @@ impl<'a> Start<'a> {
     /// Directions of the lines to try, in the frame of the base.
     fn directions(&self) -> Vec<Vector3<f64>> {
         let plates = &self.pipeline.plates;
-        let tip = self.scene.robot.fk(&self.at).rigid(&self.scene.tip).translation;
+        let tip = self.placed.robot.fk(&self.at).rigid(&self.placed.tip).translation;
         if let Some(plate) = self.plate.and_then(|plate| plates.get(plate)) {
             return vec![plate.normal_at(&tip)];
         }
@@ -197,7 +197,7 @@ impl<'a> Start<'a> {
 
     /// Ways along a straight line of the tip: up to the first clear place, and some further ones.
     fn along(&self, along: &Vector3<f64>) -> Vec<Way> {
-        let from = self.scene.robot.fk(&self.at).rigid(&self.scene.tip);
+        let from = self.placed.robot.fk(&self.at).rigid(&self.placed.tip);
         let start = Pose::from(&from);
         let raised = |h: f64| {
             let mut pose = start;
@@ -209,7 +209,7 @@ impl<'a> Start<'a> {
         let mut first_m = None;
         while heights[heights.len() - 1] < LONGEST_M {
             let (h, before) = (heights[heights.len() - 1] + STEP_M, q[q.len() - 1]);
-            let Ok(found) = self.scene.solver.solve(&raised(h), &before) else {
+            let Ok(found) = self.placed.solver.solve(&raised(h), &before) else {
                 break;
             };
             if (found.q - before).amax() > JOINT_STEP_RAD || !self.may_pass(&found.q) {
@@ -235,7 +235,7 @@ impl<'a> Start<'a> {
 
     /// The way straight in the joints to where the plan has the arm, at and about the moment of the stop.
     fn back_to_plan(&self) -> Vec<Way> {
-        let tip = |q: &JointVector| self.scene.robot.fk(q).rigid(&self.scene.tip).translation;
+        let tip = |q: &JointVector| self.placed.robot.fk(q).rigid(&self.placed.tip).translation;
         let way = |to: &JointVector| {
             let share = |k: u32| f64::from(k) / f64::from(STEPS_BACK);
             let q: Vec<_> = (0..=STEPS_BACK).map(|k| self.at + (to - self.at) * share(k)).collect();

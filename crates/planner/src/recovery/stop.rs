@@ -1,6 +1,6 @@
 //! Moment of a plan at which the arm was stopped, and the plates that were washed by then.
 
-use crate::recovery::RecoveryError;
+use crate::recovery::error::RecoveryError;
 use platewash_kinematics::JointVector;
 use platewash_motion::plan::Plan;
 use platewash_motion::trajectory::{PlanSegment, SegmentKind, Trajectory};

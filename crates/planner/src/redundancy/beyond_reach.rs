@@ -42,7 +42,7 @@ struct PointBound {
 
 impl PointBound {
     /// Bounds on the centre of the wrist and on the tip of a tool.
-    fn of(robot: &RobotModel, tool: &Tool) -> [Self; 2] {
+    fn both(robot: &RobotModel, tool: &Tool) -> [Self; 2] {
         let tip = tool.tip_frame(robot);
         [robot.wrist_frame(), tip].map(|point| {
             let (centre, bound_m) = robot.sharp_reach_bound(&point);
@@ -89,11 +89,11 @@ struct FaceBound<'a> {
 }
 
 impl<'a> FaceBound<'a> {
-    fn of(robot: &RobotModel, terms: &JobTerms, plate: &'a Plate) -> Self {
+    fn new(robot: &RobotModel, terms: &JobTerms, plate: &'a Plate) -> Self {
         let (tool, is_flat) = (&terms.workcell.tool, plate.surface.is_flat());
         let lean_rad = terms.tilt_max_rad() + MORE_LEAN_RAD;
         Self {
-            points: PointBound::of(robot, tool),
+            points: PointBound::both(robot, tool),
             plate,
             axis: plate.axis(),
             lean_rad,
@@ -116,7 +116,7 @@ impl<'a> FaceBound<'a> {
 /// configurations of the arm. The plate is in the base frame.
 #[must_use]
 pub fn share_beyond_reach(robot: &RobotModel, terms: &JobTerms, plate: &Plate) -> f64 {
-    let (bound, surface) = (FaceBound::of(robot, terms, plate), &plate.surface);
+    let (bound, surface) = (FaceBound::new(robot, terms, plate), &plate.surface);
     let apart_m = APART * surface.rim_m();
     let beyond = surface
         .points(apart_m)

@@ -1,7 +1,7 @@
 //! Errors of a search for configurations along a wash path.
 
-use crate::error::OutOfRange;
-use crate::scene::Hindrance;
+use crate::out_of_range::OutOfRange;
+use crate::placed_arm::Hindrance;
 use nalgebra::Vector3;
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::words::plate_name;

@@ -1,7 +1,7 @@
 //! The lines over the ends of a wash path: on them the wrist is held as on the path, and bodies keep off each other.
 
+use crate::placed_arm::{Contact, Hindrance, Start, Stretch};
 use crate::redundancy::task::{Stop, Task};
-use crate::scene::{Contact, Hindrance, Start, Stretch};
 use platewash_kinematics::JointVector;
 use std::sync::atomic::Ordering;
 
@@ -37,8 +37,8 @@ impl Task<'_> {
         self.check_apart(&from.q, self.stretch())?;
         for k in 1..=PLACES {
             let height_m = self.path.lift_m * f64::from(k) / f64::from(PLACES);
-            let target = self.scene.tip_rigid(&contact.raised(height_m), tilt);
-            let Ok(q) = self.scene.inverse.continuing(&target, &from) else {
+            let target = self.placed.tip_rigid(&contact.raised(height_m), tilt);
+            let Ok(q) = self.placed.inverse.continuing(&target, &from) else {
                 break;
             };
             self.check_wrist(&q)?;

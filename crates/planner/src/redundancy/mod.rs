@@ -9,12 +9,12 @@
 //! # Freedom
 //!
 //! The sponge is round, so yaw is free: it is chosen such that joints 4 and 6 rest, which takes the least joint travel
-//! ([`Scene::tip_pose`](crate::scene::Scene::tip_pose)). Of the two directions in which the tool can tilt, the one in the arm's
+//! ([`PlacedArm::tip_pose`](crate::placed_arm::PlacedArm::tip_pose)). Of the two directions in which the tool can tilt, the one in the arm's
 //! own plane is the useful one, except for obstacles beside the arm.
 //!
 //! # Method
 //!
-//! 1. `TiltPolicy` (`scene/tilt_policy.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
+//! 1. `TiltPolicy` (`placed_arm/tilt_policy.rs`): a tilt by the distance from axis 1 alone. It mostly suffices, and costs one pass over the
 //!    points.
 //! 2. `search`: the cheapest path through a graph of tilts along the wash path, near the policy where that is possible, smoothed
 //!    by a B-spline (`samples`) as far as it stays possible.
@@ -31,9 +31,10 @@
 
 pub mod beyond_reach;
 pub mod error;
+mod lean_aside;
 mod lines;
 pub mod places;
-mod samples;
+pub mod samples;
 mod search;
 pub mod stuck;
 pub mod task;

@@ -4,15 +4,15 @@
 //!
 //! Outlook for a plate, in milliseconds: an estimate to show while a user edits.
 
+use crate::placed_arm::{PlacedArm, Width};
 use crate::redundancy::error::RedundancyError;
 use crate::redundancy::stuck::is_blocked;
 use crate::redundancy::task::Task;
 use crate::redundancy::washing::by_policy;
-use crate::scene::{Scene, Width};
-use crate::trig::sin_cos;
 use nalgebra::Vector2;
 use platewash_bodies::clearance::{ClearanceModel, gap_of_plates};
 use platewash_kinematics::JointVector;
+use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::layout::base_footprint;
 use platewash_workcell::plate::Plate;
@@ -24,9 +24,9 @@ use ts_rs::TS;
 /// Plate for which another place is checked.
 #[derive(Debug, Clone, Copy)]
 pub struct MovedPlate<'a> {
-    /// The scene, with the plates as they lie.
-    pub scene: &'a Scene<'a>,
-    /// Bodies of the scene; the plate is moved among them.
+    /// The placed arm, with the plates as they lie.
+    pub placed: &'a PlacedArm<'a>,
+    /// Bodies around the arm; the plate is moved among them.
     pub clearance: &'a ClearanceModel,
     /// The wash path on the plate to move.
     pub path: &'a WashPath,
@@ -50,7 +50,7 @@ impl<'a> Trial<'a> {
     pub fn new(moved: &MovedPlate<'a>) -> Self {
         Self {
             moved: *moved,
-            plates: moved.scene.plates.to_vec(),
+            plates: moved.placed.plates.to_vec(),
             clearance: moved.clearance.clone(),
         }
     }
@@ -66,27 +66,27 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// [`RedundancyError`] for numbers out of range, or where the search was given up.
     pub fn is_suitable(&mut self, centre: &Vector2<f64>) -> Result<bool, RedundancyError> {
-        let (asked, scene, path) = (self.moved, self.moved.scene, self.moved.path);
-        scene.check_cancelled()?;
+        let (asked, placed, path) = (self.moved, self.moved.placed, self.moved.path);
+        placed.check_cancelled()?;
         let (plate, count) = (path.plate, self.plates.len());
         let lies = self
             .plates
             .get_mut(plate)
             .ok_or(RedundancyError::Plate { plate, count })?;
-        let moved = scene.moved(lies, (*centre).into());
+        let moved = placed.moved(lies, (*centre).into());
         *lies = moved;
         let mut others = self.plates.iter().enumerate().filter(|(i, _)| *i != path.plate);
         let meets = |gap_m: f64| gap_m < 0.0;
-        let over_base = base_footprint(scene.robot).gap_m(&moved).is_some_and(meets);
-        if over_base || others.any(|(_, other)| meets(gap_of_plates(scene.robot, &moved, other))) {
+        let over_base = base_footprint(placed.robot).gap_m(&moved).is_some_and(meets);
+        if over_base || others.any(|(_, other)| meets(gap_of_plates(placed.robot, &moved, other))) {
             return Ok(false);
         }
         self.clearance.lay(&self.plates);
         if self.clearance.plate_in_base(path.plate).is_some() {
             return Ok(false);
         }
-        let scene = scene.among(&self.clearance, &self.plates);
-        let task = Task::new(&scene, path, asked.clearance_m, asked.near)?;
+        let placed = placed.among(&self.clearance, &self.plates);
+        let task = Task::new(&placed, path, asked.clearance_m, asked.near)?;
         Ok(by_policy(&task, Width::Near)?.is_some())
     }
 }
@@ -128,10 +128,10 @@ pub fn nearest_washable(
     holds: &mut dyn FnMut(&Vector2<f64>) -> bool,
     tell: &dyn Fn(u32),
 ) -> Result<Option<Vector2<f64>>, RedundancyError> {
-    let (plate, plates) = (moved.path.plate, moved.scene.plates);
+    let (plate, plates) = (moved.path.plate, moved.placed.plates);
     let count = plates.len();
     let here = plates.get(plate).ok_or(RedundancyError::Plate { plate, count })?;
-    let here = Vector2::from(moved.scene.centre_in_world(here));
+    let here = Vector2::from(moved.placed.centre_in_world(here));
     let mut trial = Trial::new(moved);
     let at_rest = on_grid(&here);
     if trial.is_suitable(&at_rest)? && holds(&at_rest) {
@@ -214,7 +214,7 @@ pub enum Chance {
 /// # Errors
 /// [`Cancelled`].
 pub fn chance(task: &Task<'_>) -> Result<Chance, Cancelled> {
-    let (centre, bound_m) = task.scene.robot.reach_bound(&task.scene.tip);
+    let (centre, bound_m) = task.placed.robot.reach_bound(&task.placed.tip);
     let mut contacts = task.samples.contact.iter();
     if contacts.any(|contact| (contact.point - centre.coords).norm() > bound_m + BOUND_SLACK_M) {
         return Ok(Chance::Unwashable);

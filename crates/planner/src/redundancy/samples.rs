@@ -9,8 +9,7 @@
 //! (de Boor, *A Practical Guide to Splines*, ch. IX). It is C², and everywhere a mean of four neighbouring control values
 //! with weights ≥ 0: it never overshoots them. Beyond the ends the outermost values repeat.
 
-use crate::redundancy::task::CHORD_ERROR_M;
-use crate::scene::{AxisRule, Contact};
+use crate::placed_arm::{AxisRule, Contact};
 use nalgebra::{Vector2, Vector3};
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashPath;
@@ -139,6 +138,9 @@ pub(crate) fn smoothed(values: &[f64], ranges: &[[f64; 2]], passes: usize) -> Ve
     }
     now
 }
+
+/// Largest deviation of the chord between neighbouring contact points from the wash path \[m\].
+pub const CHORD_ERROR_M: f64 = 2e-5;
 
 #[cfg(test)]
 mod tests {

@@ -13,9 +13,9 @@
 //!
 //! The graph has no cycles, so one pass forward finds the least cost of every vertex (Bellman 1957).
 
+use crate::placed_arm::tilt_policy::GENTLE_TILT_RAD;
+use crate::placed_arm::{Contact, Start, TiltPolicy};
 use crate::redundancy::task::{Task, check_step};
-use crate::scene::tilt_policy::GENTLE_TILT_RAD;
-use crate::scene::{Contact, Start, TiltPolicy};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::cancel::Cancelled;
 
@@ -79,7 +79,7 @@ type Trail = Vec<Option<u16>>;
 impl Graph {
     pub fn new(task: &Task<'_>) -> Self {
         let tilt_max_rad = task.tilt_max_rad();
-        let centre_m = task.scene.distance(&task.centre().point);
+        let centre_m = task.placed.distance(&task.centre().point);
         let gentle = tilt_max_rad.min(GENTLE_TILT_RAD);
         let pieces = (task.samples.whole_m() / SPACING_M).ceil().max(1.0);
         let steps = (tilt_max_rad / TILT_STEP_RAD).ceil();
@@ -107,7 +107,7 @@ impl Graph {
         let mut trails: Vec<Trail> = Vec::with_capacity(self.theta.len());
         let (mut first, mut last): (Layer, Option<Layer>) = (Layer::new(), None);
         for k in 0..self.theta.len() {
-            task.scene.check_cancelled()?;
+            task.placed.check_cancelled()?;
             let mut layer = self.layer(task, k, last.as_ref(), start);
             if k == 0 || k + 1 == self.theta.len() {
                 self.remove_vertices_without_line(task, k, &mut layer, start);
@@ -129,7 +129,7 @@ impl Graph {
     /// The vertices of a layer, each continued from its neighbours in the layer before or from the tilt below.
     pub fn layer(&self, task: &Task<'_>, k: usize, before: Option<&Layer>, start: &Start) -> Layer {
         let contact = task.samples.at(self.theta[k]);
-        let preferred = self.preferred.tilt(task.scene.distance(&contact.point));
+        let preferred = self.preferred.tilt(task.placed.distance(&contact.point));
         let mut layer: Layer = Vec::with_capacity(self.tilts.len());
         for (j, &tilt) in self.tilts.iter().enumerate() {
             let of = |layer: &Layer, j: usize| layer.get(j).copied().flatten();
@@ -140,10 +140,10 @@ impl Graph {
                 q: known.map_or(start.q, |vertex| vertex.q),
                 sides: start.sides,
             };
-            let target = task.scene.tip_rigid(&contact, tilt);
+            let target = task.placed.tip_rigid(&contact, tilt);
             let stands = task.check_cone(&contact, &target).is_ok();
             let q = stands
-                .then(|| task.scene.inverse.continuing(&target, &near).ok())
+                .then(|| task.placed.inverse.continuing(&target, &near).ok())
                 .flatten();
             let off = (tilt - preferred) / TILT_STEP_RAD;
             layer.push(q.and_then(|q| self.vertex(task, q, off)));
@@ -163,7 +163,7 @@ impl Graph {
 
     /// Returns the tilts, those closest to the preferred tilt of a contact point first \[rad\].
     pub fn tilts_by_preference(&self, task: &Task<'_>, contact: &Contact) -> Vec<f64> {
-        let preferred = self.preferred.tilt(task.scene.distance(&contact.point));
+        let preferred = self.preferred.tilt(task.placed.distance(&contact.point));
         let mut tilts = self.tilts.clone();
         tilts.sort_by(|a, b| (a - preferred).abs().total_cmp(&(b - preferred).abs()));
         tilts
@@ -172,9 +172,9 @@ impl Graph {
     /// The feasible configuration of the least tilt of a layer, continued from `start`.
     pub fn least_tilt(&self, task: &Task<'_>, k: usize, start: &Start) -> Option<JointVector> {
         let contact = task.samples.at(self.theta[k]);
-        let inverse = &task.scene.inverse;
+        let inverse = &task.placed.inverse;
         let at = |&tilt: &f64| {
-            let target = task.scene.tip_rigid(&contact, tilt);
+            let target = task.placed.tip_rigid(&contact, tilt);
             task.check_cone(&contact, &target).ok()?;
             let q = inverse.continuing(&target, start).ok()?;
             task.is_allowed(&q).then_some(q)
@@ -187,7 +187,7 @@ impl Graph {
         task.check_wrist(&q).ok()?;
         let room = task.check_room(&q).ok()?;
         let [for_tilt, for_limit, for_clearance, _] = WEIGHTS;
-        let margin = task.scene.robot.limits().margins(&q).min();
+        let margin = task.placed.robot.limits().margins(&q).min();
         let lack = (1.0 - margin / AMPLE_MARGIN_RAD).max(0.0);
         let cost = for_tilt * off * off + for_limit * lack * lack + if room { 0.0 } else { for_clearance };
         let own = cost * self.spacing_m / SPACING_M;

@@ -6,12 +6,12 @@
 //!
 //! Dead ends: the obstructions where a search finds nothing.
 
+use crate::placed_arm::{Filter, Hindrance, Start, Width};
 use crate::redundancy::error::{DeadEnd, MOST_DEAD_ENDS, Reason, RedundancyError};
+use crate::redundancy::lean_aside::{leans, obstacle_blocks_at};
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::{Stop, Task, check_step};
-use crate::redundancy::washing;
-use crate::scene::{Filter, Hindrance, Start, Width};
-use crate::trig::atan2;
+use platewash_kinematics::trig::atan2;
 use platewash_workcell::cancel::Cancelled;
 use std::f64::consts::TAU;
 
@@ -28,12 +28,12 @@ pub fn is_blocked(task: &Task<'_>) -> Result<bool, Cancelled> {
     let Some(layer) = first_dead(task, &graph)? else {
         return Ok(false);
     };
-    if !washing::obstacle_blocks_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
+    if !obstacle_blocks_at(task, &dead_end(task, &graph, layer, &task.anywhere_near())) {
         return Ok(true);
     }
-    for aside_rad in washing::leans(task) {
-        let scene = task.scene.clone().leaning_aside(aside_rad);
-        let leaning = task.in_scene(&scene);
+    for aside_rad in leans(task) {
+        let placed = task.placed.clone().leaning_aside(aside_rad);
+        let leaning = task.with_arm(&placed);
         if first_dead(&leaning, &Graph::new(&leaning))?.is_none() {
             return Ok(false);
         }
@@ -72,11 +72,11 @@ pub(crate) fn blocked(task: &Task<'_>, graph: &Graph) -> Result<Option<Redundanc
 
 /// Returns the layers to check; none where not every branch of the arm is known.
 fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
-    if !task.scene.inverse.knows_all_branches() {
+    if !task.placed.inverse.knows_all_branches() {
         return Vec::new();
     }
     let curve = &task.path.curve;
-    let out = task.scene.outward_direction(&task.centre());
+    let out = task.placed.outward_direction(&task.centre());
     let out = task.plate.pose.rotation.inverse_transform_vector(&out);
     // θ of the farthest point from axis 1 is this much before the end.
     let before = (curve.start_angle_rad + curve.end() - atan2(out.y, out.x)).rem_euclid(TAU);
@@ -100,12 +100,12 @@ fn last_turn(task: &Task<'_>, graph: &Graph) -> Vec<usize> {
 fn at(task: &Task<'_>, graph: &Graph, layer: usize) -> Result<bool, Cancelled> {
     let contact = task.samples.at(graph.theta[layer]);
     for tilt in graph.tilts_by_preference(task, &contact) {
-        task.scene.check_cancelled()?;
-        let target = task.scene.tip_rigid(&contact, tilt);
+        task.placed.check_cancelled()?;
+        let target = task.placed.tip_rigid(&contact, tilt);
         if task.check_cone(&contact, &target).is_err() {
             continue;
         }
-        let starts = task.scene.inverse.starts(&target, &task.near, Width::Near);
+        let starts = task.placed.inverse.starts(&target, &task.near, Width::Near);
         if starts.unwrap_or_default().iter().any(|start| task.is_allowed(&start.q)) {
             return Ok(false);
         }
@@ -143,7 +143,7 @@ pub(crate) fn no_tilt(task: &Task<'_>, graph: &Graph, layer: usize, start: &Star
     let (plate, mut here) = (task.path.plate, *start);
     let (mut dead, mut at_layer) = (Vec::new(), here);
     for k in graph.surveyed() {
-        if let Err(cancelled) = task.scene.check_cancelled() {
+        if let Err(cancelled) = task.placed.check_cancelled() {
             return cancelled.into();
         }
         match graph.least_tilt(task, k, &here) {
@@ -173,7 +173,7 @@ pub(crate) fn between(task: &Task<'_>, stop: Stop) -> RedundancyError {
     let plate = task.path.plate;
     let end = DeadEnd {
         theta: task.samples.theta[stop.sample],
-        position_m: task.scene.in_world(&task.samples.contact[stop.sample].point),
+        position_m: task.placed.in_world(&task.samples.contact[stop.sample].point),
         reasons: reasons([stop.hindrance]),
     };
     RedundancyError::Between { plate, end }
@@ -184,7 +184,7 @@ pub(crate) fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Star
     let theta = graph.theta[layer];
     let contact = task.samples.at(theta);
     let hindrance = |&tilt: &f64| {
-        let target = task.scene.tip_rigid(&contact, tilt);
+        let target = task.placed.tip_rigid(&contact, tilt);
         match task.configuration(&target, near) {
             Ok(q) => check_step(&near.q, &q, graph.spacing_m).err(),
             Err(hindrance) => Some(hindrance),
@@ -192,7 +192,7 @@ pub(crate) fn dead_end(task: &Task<'_>, graph: &Graph, layer: usize, near: &Star
     };
     DeadEnd {
         theta,
-        position_m: task.scene.in_world(&contact.point),
+        position_m: task.placed.in_world(&contact.point),
         reasons: reasons(graph.tilts.iter().filter_map(hindrance)),
     }
 }

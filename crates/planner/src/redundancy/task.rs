@@ -1,9 +1,9 @@
 //! Task of washing one plate: checks a contact point at a tilt, and a whole wash path at a profile of tilts.
 
-use crate::error::OutOfRange;
+use crate::out_of_range::OutOfRange;
+use crate::placed_arm::{Contact, Hindrance, PlacedArm, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use crate::redundancy::error::RedundancyError;
 use crate::redundancy::samples::{Samples, TiltSpline};
-use crate::scene::{Contact, Hindrance, Scene, Start, Stretch, TiltPolicy, WRIST_RESERVE_RAD, angle_between};
 use nalgebra::Vector6;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{Axes, JointVector};
@@ -44,7 +44,7 @@ pub(crate) enum Profile {
 /// One plate to wash.
 #[derive(Debug, Clone)]
 pub struct Task<'a> {
-    pub(crate) scene: &'a Scene<'a>,
+    pub(crate) placed: &'a PlacedArm<'a>,
     pub(crate) path: WashPath,
     pub(crate) plate: &'a Plate,
     pub(crate) samples: Samples,
@@ -72,20 +72,20 @@ impl<'a> Task<'a> {
     /// # Errors
     /// [`RedundancyError::Input`] and [`RedundancyError::Plate`].
     pub fn new(
-        scene: &'a Scene<'a>,
+        placed: &'a PlacedArm<'a>,
         path: &WashPath,
         clearance_m: f64,
         near: &JointVector,
     ) -> Result<Self, RedundancyError> {
-        let (index, count) = (path.plate, scene.plates.len());
+        let (index, count) = (path.plate, placed.plates.len());
         let missing = RedundancyError::Plate { plate: index, count };
-        let plate = scene.plates.get(index).ok_or(missing)?;
+        let plate = placed.plates.get(index).ok_or(missing)?;
         check_input(path, plate, clearance_m, near)?;
         Ok(Self {
-            scene,
+            placed,
             path: *path,
             plate,
-            samples: Samples::new(path, plate, scene.stance.axis_share),
+            samples: Samples::new(path, plate, placed.stance.axis_share),
             clearance_m,
             blocked_line: Some(Arc::default()),
             near: *near,
@@ -110,13 +110,13 @@ impl<'a> Task<'a> {
         Stretch::AtPlate(self.path.plate)
     }
 
-    /// The task with the arm in another scene, its lines not checked yet.
-    pub(crate) fn in_scene<'b>(&self, scene: &'b Scene<'b>) -> Task<'b>
+    /// The task with another placed arm, its lines not checked yet.
+    pub(crate) fn with_arm<'b>(&self, placed: &'b PlacedArm<'b>) -> Task<'b>
     where
         'a: 'b,
     {
         Task {
-            scene,
+            placed,
             blocked_line: Some(Arc::default()),
             ..self.clone()
         }
@@ -124,19 +124,19 @@ impl<'a> Task<'a> {
 
     /// The largest tilt allowed in the arm's plane \[rad\].
     pub(crate) fn tilt_max_rad(&self) -> f64 {
-        self.scene.stance.tilt_rad(self.path.cone_rad)
+        self.placed.stance.tilt_rad(self.path.cone_rad)
     }
 
     /// The largest tilt in the arm's plane at the points that are solved \[rad\].
     pub(crate) fn planned_tilt_rad(&self) -> f64 {
-        self.scene.stance.tilt_rad(self.planned_lean_rad())
+        self.placed.stance.tilt_rad(self.planned_lean_rad())
     }
 
     /// Largest total lean of the tool at the points that are solved \[rad\]: the allowed lean less the reserve, or half the
     /// allowed lean where that is more.
     pub(crate) fn planned_lean_rad(&self) -> f64 {
         let most = self.path.cone_rad;
-        (most - self.scene.stance.tilt_reserve_rad).max(0.5 * most)
+        (most - self.placed.stance.tilt_reserve_rad).max(0.5 * most)
     }
 
     /// The plate's centre, the pole of its face.
@@ -156,7 +156,7 @@ impl<'a> Task<'a> {
     /// # Errors
     /// The first filter that rejects it.
     pub(crate) fn configuration(&self, target: &RigidTransform, start: &Start) -> Result<JointVector, Hindrance> {
-        let q = self.scene.inverse.continuing(target, start)?;
+        let q = self.placed.inverse.continuing(target, start)?;
         self.check_wrist(&q)?;
         self.check_clear(&q)?;
         Ok(q)
@@ -169,7 +169,7 @@ impl<'a> Task<'a> {
 
     /// Checks that joint 5 is far enough from 0 and from whole turns.
     pub(crate) fn check_wrist(&self, q: &JointVector) -> Result<(), Hindrance> {
-        let Some(least_rad) = self.scene.stance.wrist_rad else {
+        let Some(least_rad) = self.placed.stance.wrist_rad else {
             return Ok(());
         };
         let whole = TAU * (q[WRIST] / TAU).round();
@@ -196,7 +196,7 @@ impl<'a> Task<'a> {
 
     /// Checks that all pairs of bodies keep their clearance at `q` \[rad\].
     pub(crate) fn is_clear(&self, q: &JointVector) -> bool {
-        let surroundings = self.scene.surroundings;
+        let surroundings = self.placed.surroundings;
         surroundings.is_clear(q, self.stretch(), self.required_m())
     }
 
@@ -207,7 +207,7 @@ impl<'a> Task<'a> {
 
     /// Checks that a configuration \[rad\] keeps the clearance of a stretch; the error names the pair that is too near.
     pub(crate) fn check_clear_in(&self, q: &JointVector, stretch: Stretch) -> Result<(), Hindrance> {
-        let (surroundings, required_m) = (self.scene.surroundings, self.clearance_m + stretch.reserve_m());
+        let (surroundings, required_m) = (self.placed.surroundings, self.clearance_m + stretch.reserve_m());
         if surroundings.is_clear(q, stretch, required_m) {
             return Ok(());
         }
@@ -225,7 +225,7 @@ impl<'a> Task<'a> {
     /// the pair that is too near.
     pub(crate) fn check_room(&self, q: &JointVector) -> Result<bool, Hindrance> {
         let levels_m = [self.required_m(), self.required_m() + ROOM_M];
-        let kept = self.scene.surroundings.levels_kept(q, self.stretch(), &levels_m);
+        let kept = self.placed.surroundings.levels_kept(q, self.stretch(), &levels_m);
         if kept == 0 {
             self.check_clear(q)?;
         }
@@ -235,7 +235,7 @@ impl<'a> Task<'a> {
     /// Tilt \[rad\] at a contact point at the length `s` \[m\] along the wash path.
     pub(crate) fn tilt(&self, profile: &Profile, contact: &Contact, s: f64) -> f64 {
         match profile {
-            Profile::Policy(policy) => policy.tilt(self.scene.distance(&contact.point)),
+            Profile::Policy(policy) => policy.tilt(self.placed.distance(&contact.point)),
             Profile::Spline(spline) => spline.tilt(s),
         }
     }
@@ -261,7 +261,7 @@ impl<'a> Task<'a> {
         let mut free_until = f64::NEG_INFINITY;
         let mut last = *start;
         for (sample, (contact, &tilt)) in contact.iter().zip(tilts).enumerate() {
-            self.scene.check_cancelled()?;
+            self.placed.check_cancelled()?;
             let is_last = sample + 1 == length_m.len();
             let looked_at = length_m[sample] >= free_until || is_last;
             let along_m = sample.checked_sub(1).map(|before| length_m[sample] - length_m[before]);
@@ -288,9 +288,9 @@ impl<'a> Task<'a> {
         along_m: Option<f64>,
         looked_at: bool,
     ) -> Result<(JointVector, bool), Hindrance> {
-        let target = self.scene.tip_rigid(contact, tilt);
+        let target = self.placed.tip_rigid(contact, tilt);
         self.check_cone(contact, &target)?;
-        let q = self.scene.inverse.continuing(&target, last)?;
+        let q = self.placed.inverse.continuing(&target, last)?;
         self.check_wrist(&q)?;
         if let Some(along_m) = along_m {
             check_step(&last.q, &q, along_m)?;
@@ -308,13 +308,13 @@ impl<'a> Task<'a> {
         let rotation = |step: f64| {
             let contact = self.samples.at(theta + step);
             let tilt = self.tilt(profile, &contact, length + step * first.norm());
-            self.scene.tip_rigid(&contact, tilt).rotation
+            self.placed.tip_rigid(&contact, tilt).rotation
         };
         let h = DIFFERENCE_RAD;
         let change = ((rotation(h) - rotation(-h)) * 8.0 - (rotation(2.0 * h) - rotation(-2.0 * h))) / (12.0 * h);
         let spin = change * rotation(0.0).transpose();
         let twist = Vector6::new(first.x, first.y, first.z, spin.m32, spin.m13, spin.m21);
-        let jacobian = self.scene.robot.fk(q).jacobian(&self.scene.tip, Axes::Base);
+        let jacobian = self.placed.robot.fk(q).jacobian(&self.placed.tip, Axes::Base);
         let slope = jacobian.lu().solve(&twist)?;
         let bounded = slope.amax() <= JOINT_RATE * first.norm().max(1e-3);
         bounded.then_some(slope)
@@ -325,7 +325,7 @@ impl Task<'_> {
     /// Refuses a step over which the wrist flips.
     pub(crate) fn check_side(&self, from: &JointVector, to: &JointVector) -> Result<(), Hindrance> {
         let turn = |q: &JointVector| (q[WRIST] / TAU).floor();
-        match self.scene.stance.wrist_rad {
+        match self.placed.stance.wrist_rad {
             Some(least_rad) if turn(from) != turn(to) => Err(Hindrance::Wrist {
                 found_rad: 0.0,
                 least_rad,
@@ -347,9 +347,6 @@ pub(crate) fn check_step(from: &JointVector, to: &JointVector, length: f64) -> R
         by_rad: step[joint],
     })
 }
-
-/// Largest deviation of the chord between neighbouring contact points from the wash path \[m\].
-pub const CHORD_ERROR_M: f64 = 2e-5;
 
 /// The largest tilt that can be asked for \[rad\]: short of lying flat.
 pub const LARGEST_TILT_RAD: f64 = 0.9 * FRAC_PI_2;

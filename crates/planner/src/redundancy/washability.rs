@@ -1,11 +1,11 @@
 //! Extent to which configurations are found along a wash path, and the causes where none is. It says nothing of other paths.
 
+use crate::placed_arm::{Filter, Hindrance, Start};
 use crate::redundancy::error::Reason;
 use crate::redundancy::search::Graph;
 use crate::redundancy::stuck::reasons;
 use crate::redundancy::task::Task;
 use crate::redundancy::washing::search_starts;
-use crate::scene::{Filter, Hindrance, Start};
 use platewash_workcell::cancel::Cancelled;
 use std::fmt;
 
@@ -83,11 +83,11 @@ pub fn washable_part(task: &Task<'_>) -> Result<Option<WashablePart>, Cancelled>
     let tried = graph.surveyed().len() as f64;
     let mut unwashed = Vec::with_capacity(best.len());
     for (k, here) in &best {
-        task.scene.check_cancelled()?;
+        task.placed.check_cancelled()?;
         let contact = task.samples.at(graph.theta[*k]);
-        let hindrance = |&tilt: &f64| task.configuration(&task.scene.tip_rigid(&contact, tilt), here).err();
+        let hindrance = |&tilt: &f64| task.configuration(&task.placed.tip_rigid(&contact, tilt), here).err();
         let reasons = reasons(graph.tilts.iter().filter_map(hindrance));
-        unwashed.push((task.scene.distance(&contact.point), reasons));
+        unwashed.push((task.placed.distance(&contact.point), reasons));
     }
     Ok(Some(WashablePart {
         share: 1.0 - best.len() as f64 / tried,
@@ -99,7 +99,7 @@ pub fn washable_part(task: &Task<'_>) -> Result<Option<WashablePart>, Cancelled>
 /// The contact points of a survey, by whether their layer is among the `unwashed`.
 fn points(task: &Task<'_>, graph: &Graph, unwashed: &[EmptyLayer]) -> Points {
     let dead = |k: &usize| unwashed.binary_search_by_key(k, |(layer, _)| *layer).is_ok();
-    let place = |k: usize| task.scene.in_world(&task.samples.at(graph.theta[k]).point).into();
+    let place = |k: usize| task.placed.in_world(&task.samples.at(graph.theta[k]).point).into();
     let (dead, free): (Vec<usize>, Vec<usize>) = graph.surveyed().partition(dead);
     Points {
         free_m: free.into_iter().map(place).collect(),
@@ -120,7 +120,7 @@ fn survey(
     let mut here = *start;
     let mut unwashed = Vec::new();
     for k in graph.surveyed() {
-        task.scene.check_cancelled()?;
+        task.placed.check_cancelled()?;
         match graph.least_tilt(task, k, &here) {
             Some(q) => here.q = q,
             None => unwashed.push((k, here)),

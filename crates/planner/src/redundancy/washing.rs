@@ -4,13 +4,15 @@
 //! in the way of every such tilt, the tool leans across the plane besides, by as much all along the wash path; both together stay
 //! within the path's cone.
 
-use crate::redundancy::error::{DeadEnd, RedundancyError};
+use crate::placed_arm::tilt_policy::GENTLE_TILT_RAD;
+use crate::placed_arm::{Contact, Hindrance, Start, TiltPolicy, Width, merge_starts};
+use crate::redundancy::error::RedundancyError;
+use crate::redundancy::lean_aside::leans;
+use crate::redundancy::lean_aside::obstacle_blocks;
 use crate::redundancy::samples::{TiltSpline, smoothed};
 use crate::redundancy::search::{Graph, GraphPath};
 use crate::redundancy::stuck::{self, blocked};
 use crate::redundancy::task::{Profile, Stop, Task};
-use crate::scene::tilt_policy::GENTLE_TILT_RAD;
-use crate::scene::{Contact, Hindrance, Start, TiltPolicy, Width, merge_starts};
 use platewash_kinematics::JointVector;
 use platewash_workcell::cancel::Cancelled;
 use serde::Serialize;
@@ -29,11 +31,11 @@ const PROFILE_STEPS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 pub struct Washing {
     /// Parameters of the wash path, from 0 to its end, as
     /// [`WashCurve::parameters`](platewash_workcell::wash_path::WashCurve::parameters) gives them for
-    /// [`crate::redundancy::task::CHORD_ERROR_M`] \[rad\].
+    /// [`crate::redundancy::samples::CHORD_ERROR_M`] \[rad\].
     pub theta: Vec<f64>,
     /// Tilt of the tool in the arm's plane at each: its angle from the plate's normal there, positive where the flange leans away from axis 1 \[rad\].
     pub tilt_rad: Vec<f64>,
-    /// Lean of the tool across the arm's plane, the same all along: [`Stance::aside_rad`](crate::scene::Stance::aside_rad)
+    /// Lean of the tool across the arm's plane, the same all along: [`Stance::aside_rad`](crate::placed_arm::Stance::aside_rad)
     /// \[rad\].
     pub aside_rad: f64,
     /// Configuration of the arm at each \[rad\].
@@ -88,8 +90,8 @@ pub fn washing(task: &Task<'_>) -> Result<Washing, RedundancyError> {
     };
     if obstacle_blocks(task, error) {
         for aside_rad in leans(task) {
-            let scene = task.scene.clone().leaning_aside(aside_rad);
-            match washing_by_any(&task.in_scene(&scene)) {
+            let placed = task.placed.clone().leaning_aside(aside_rad);
+            match washing_by_any(&task.with_arm(&placed)) {
                 Err(RedundancyError::Cancelled(cancelled)) => return Err(cancelled.into()),
                 Err(_) => {}
                 washing => return washing,
@@ -125,10 +127,10 @@ pub(crate) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
     };
     let mut amplitudes: Vec<f64> = steps.iter().map(|share| share * gentle).collect();
     amplitudes.extend((most > gentle).then_some(most));
-    let centre_m = task.scene.distance(&task.centre().point);
+    let centre_m = task.placed.distance(&task.centre().point);
     let both = |&tilt: &f64| {
         let sloping = TiltPolicy::sloping(tilt, centre_m, task.path.curve.radius_m);
-        [sloping, TiltPolicy::upright(tilt, &task.scene.reach)].map(|policy| within(policy, task))
+        [sloping, TiltPolicy::upright(tilt, &task.placed.reach)].map(|policy| within(policy, task))
     };
     amplitudes.iter().flat_map(both).collect()
 }
@@ -137,7 +139,7 @@ pub(crate) fn policies(task: &Task<'_>) -> Vec<TiltPolicy> {
 /// allow.
 fn within(policy: TiltPolicy, task: &Task<'_>) -> TiltPolicy {
     let most = task.planned_tilt_rad();
-    let tilt = |contact: &Contact| policy.tilt(task.scene.distance(&contact.point)).abs();
+    let tilt = |contact: &Contact| policy.tilt(task.placed.distance(&contact.point)).abs();
     let keeps = task.samples.contact.iter().all(|contact| tilt(contact) <= most);
     TiltPolicy {
         tilt_rad: if keeps {
@@ -154,7 +156,7 @@ fn within(policy: TiltPolicy, task: &Task<'_>) -> TiltPolicy {
 pub(crate) fn by_policy(task: &Task<'_>, widest: Width) -> Result<Option<Washing>, Cancelled> {
     let all = policies(task);
     let near = first_of(task, &all, Width::Near)?;
-    let more = widest == Width::Everywhere && !task.scene.inverse.knows_all_branches();
+    let more = widest == Width::Everywhere && !task.placed.inverse.knows_all_branches();
     if near.is_some() || !more {
         return Ok(near);
     }
@@ -178,8 +180,8 @@ fn with_policy(task: &Task<'_>, policy: &TiltPolicy, width: Width) -> Result<Opt
     if !extremes_are_reachable(task, &tilts) {
         return Ok(None);
     }
-    let first = task.scene.tip_rigid(&task.samples.contact[0], tilts[0]);
-    let starts = task.scene.inverse.starts(&first, &task.near, width);
+    let first = task.placed.tip_rigid(&task.samples.contact[0], tilts[0]);
+    let starts = task.placed.inverse.starts(&first, &task.near, width);
     for start in starts.unwrap_or_default() {
         if let Ok(q) = task.follow(&tilts, &start)? {
             let choice = TiltChoice::Policy(*policy);
@@ -217,18 +219,18 @@ pub(crate) fn by_search(task: &Task<'_>) -> Result<Washing, RedundancyError> {
 /// Checks that some branch reaches the contact points nearest to axis 1 and farthest from it, on arms with every branch known: a
 /// quick test before the whole path is tried.
 fn extremes_are_reachable(task: &Task<'_>, tilts: &[f64]) -> bool {
-    let inverse = &task.scene.inverse;
+    let inverse = &task.placed.inverse;
     if !inverse.knows_all_branches() {
         return true;
     }
     let contact = &task.samples.contact;
-    let distance = |contact: &Contact| task.scene.distance(&contact.point);
+    let distance = |contact: &Contact| task.placed.distance(&contact.point);
     let distances: Vec<f64> = contact.iter().map(distance).collect();
     let farther = |a: &usize, b: &usize| distances[*a].total_cmp(&distances[*b]);
     let nearest = (0..contact.len()).min_by(farther);
     let farthest = (0..contact.len()).rev().max_by(farther);
     let reached = |k: usize| {
-        let target = task.scene.tip_rigid(&contact[k], tilts[k]);
+        let target = task.placed.tip_rigid(&contact[k], tilts[k]);
         inverse.starts(&target, &task.near, Width::Near).is_ok()
     };
     nearest.into_iter().chain(farthest).all(reached)
@@ -241,7 +243,7 @@ fn extremes_are_reachable(task: &Task<'_>, tilts: &[f64]) -> bool {
 pub(crate) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>, Cancelled> {
     let mut tilts = graph.tilts.clone();
     tilts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let inverse = &task.scene.inverse;
+    let inverse = &task.placed.inverse;
     if !inverse.knows_all_branches() {
         // A search for branches costs too much to be made at each.
         tilts = [tilts.first(), graph.tilts.first(), graph.tilts.last()]
@@ -252,8 +254,8 @@ pub(crate) fn search_starts(task: &Task<'_>, graph: &Graph) -> Result<Vec<Start>
     }
     let mut starts = Vec::new();
     for tilt in tilts {
-        task.scene.check_cancelled()?;
-        let target = task.scene.tip_rigid(&task.samples.contact[0], tilt);
+        task.placed.check_cancelled()?;
+        let target = task.placed.tip_rigid(&task.samples.contact[0], tilt);
         let found = inverse.starts(&target, &task.near, Width::Everywhere);
         merge_starts(&mut starts, found.unwrap_or_default());
     }
@@ -302,40 +304,8 @@ fn finish(task: &Task<'_>, profile: &Profile, tilt_rad: Vec<f64>, q: Vec<JointVe
         end_slopes: [slope(0, [0, 1]), slope(last, [last - 1, last])],
         theta,
         tilt_rad,
-        aside_rad: task.scene.stance.aside_rad,
+        aside_rad: task.placed.stance.aside_rad,
         q,
         choice,
     }
-}
-
-/// Leans aside that are tried, as shares of the planned cone: the least first, as the rest is left for tilts in the arm's plane.
-const SHARES: [f64; 3] = [0.35, 0.65, 1.0];
-
-/// The leans to try \[rad\], to either side.
-pub(crate) fn leans(task: &Task<'_>) -> impl Iterator<Item = f64> + use<> {
-    let most_rad = task.planned_lean_rad();
-    SHARES
-        .into_iter()
-        .flat_map(move |share| [share * most_rad, -share * most_rad])
-}
-
-/// Checks that an obstacle stands in the way at the contact points where a search ended.
-pub(crate) fn obstacle_blocks(task: &Task<'_>, error: &RedundancyError) -> bool {
-    let ends = match error {
-        RedundancyError::NoTilt { ends, .. } => &ends[..],
-        RedundancyError::Disconnected { end, .. } | RedundancyError::Between { end, .. } => std::slice::from_ref(end),
-        _ => &[],
-    };
-    ends.iter().any(|end| obstacle_blocks_at(task, end))
-}
-
-/// Checks that an obstacle stands in the way of some tilt at a contact point.
-pub(crate) fn obstacle_blocks_at(task: &Task<'_>, end: &DeadEnd) -> bool {
-    let surroundings = task.scene.surroundings;
-    end.reasons.iter().any(|reason| match &reason.least {
-        Hindrance::Clearance { pair, .. } => [&pair.a, &pair.b]
-            .into_iter()
-            .any(|name| surroundings.is_obstacle(name)),
-        _ => false,
-    })
 }

@@ -1,11 +1,12 @@
 //! A home with clearance: the tool points down over the plates, far from everything, from limits and singularities.
 
 use crate::error::PlanError;
-use crate::scene::{Contact, Scene, Stretch, Width};
-use crate::trig::{atan2, sin_cos};
+use crate::placed_arm::{Contact, PlacedArm, Stretch, Width};
+use crate::suggest::near_pair::NearPair;
 use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::model::manipulability;
+use platewash_kinematics::trig::{atan2, sin_cos};
 use platewash_kinematics::{AXES, Axes, JointVector, RobotModel, halton};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;
@@ -59,29 +60,6 @@ impl SuggestedHome {
     }
 }
 
-/// Two bodies that are too near in some of the configurations that were tried for a home.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NearPair {
-    /// Names of the bodies.
-    pub pair: [String; 2],
-    /// Number of configurations in which they are too near.
-    pub count: usize,
-    /// Number of configurations that were tried.
-    pub tried: usize,
-    /// Greatest distance in all of them \[m\].
-    pub most_m: f64,
-    /// True if both are of the arm or its tool.
-    pub is_of_arm: bool,
-}
-
-impl NearPair {
-    /// True if the bodies are of the arm or its tool, and too near in all of the configurations without touching in all of them.
-    #[must_use]
-    pub fn is_by_design(&self) -> bool {
-        self.is_of_arm && self.count == self.tried && self.most_m > 0.0
-    }
-}
-
 /// A candidate.
 struct Candidate {
     q_deg: [f64; AXES],
@@ -123,16 +101,16 @@ fn search<T>(
     let terms = &*terms.seen_from_base();
     let clearance = ClearanceModel::new(robot, &terms.workcell, &terms.plates)?;
     let reach = terms.planner_settings().ok_or(PlanError::PaperJob)?.reach;
-    let scene = Scene::new(robot, &terms.workcell.tool, &clearance, &terms.plates, reach)?.with_cancel(cancel);
+    let placed = PlacedArm::new(robot, &terms.workcell.tool, &clearance, &terms.plates, reach)?.with_cancel(cancel);
     carry_out(&Search {
-        scene: &scene,
+        placed: &placed,
         terms,
         clearance: &clearance,
     })
 }
 
 fn best_home(search: &Search<'_>) -> Result<SuggestedHome, PlanError> {
-    let (scene, clearance) = (search.scene, search.clearance);
+    let (placed, clearance) = (search.placed, search.clearance);
     let mut found = search.over_plates()?;
     if found.is_empty() {
         found = search.anywhere()?;
@@ -159,7 +137,7 @@ fn best_home(search: &Search<'_>) -> Result<SuggestedHome, PlanError> {
         return Err(PlanError::NoHome { tried, in_the_way });
     };
     let q = JointVector::from(best.q_deg).map(f64::to_radians);
-    let tool = scene.robot.fk(&q).rigid(&scene.tip).rotation.column(2).into_owned();
+    let tool = placed.robot.fk(&q).rigid(&placed.tip).rotation.column(2).into_owned();
     let down = -search.outward_direction();
     Ok(SuggestedHome {
         q_deg: best.q_deg,
@@ -182,7 +160,7 @@ fn spanning(out: &Vector3<f64>) -> [Vector3<f64>; 2] {
 }
 
 struct Search<'a> {
-    scene: &'a Scene<'a>,
+    placed: &'a PlacedArm<'a>,
     terms: &'a JobTerms,
     clearance: &'a ClearanceModel,
 }
@@ -190,21 +168,21 @@ struct Search<'a> {
 impl Search<'_> {
     /// The clear configurations whose tool points down at places around the middle of the plates.
     fn over_plates(&self) -> Result<Vec<Candidate>, PlanError> {
-        let scene = self.scene;
-        let places = if scene.inverse.knows_all_branches() {
+        let placed = self.placed;
+        let places = if placed.inverse.knows_all_branches() {
             PLACES
         } else {
             SEARCHED_PLACES
         };
-        let limits = scene.robot.limits();
+        let limits = placed.robot.limits();
         let near = JointVector::from_fn(|joint, _| {
             let whole_turns = limits.turned_inside(joint, 0.0);
             whole_turns.unwrap_or(0.0_f64.clamp(limits.lower[joint], limits.upper[joint]))
         });
         let at = |k: u32| {
-            scene.check_cancelled()?;
-            let target = scene.tip_rigid(&Contact::on_normal(self.place(k), self.outward_direction()), 0.0);
-            let starts = scene.inverse.starts(&target, &near, Width::Near).unwrap_or_default();
+            placed.check_cancelled()?;
+            let target = placed.tip_rigid(&Contact::on_normal(self.place(k), self.outward_direction()), 0.0);
+            let starts = placed.inverse.starts(&target, &near, Width::Near).unwrap_or_default();
             Ok(starts.iter().filter_map(|start| self.candidate(&start.q)).collect())
         };
         let mut clear = Vec::new();
@@ -222,7 +200,7 @@ impl Search<'_> {
     /// The clear configurations of an even spread within the limits.
     fn anywhere(&self) -> Result<Vec<Candidate>, PlanError> {
         let at = |k: u32| {
-            self.scene.check_cancelled()?;
+            self.placed.check_cancelled()?;
             Ok(self.candidate(&self.spread(k)))
         };
         let found: Result<Vec<Option<Candidate>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(at).collect();
@@ -231,7 +209,7 @@ impl Search<'_> {
 
     /// Configuration `k` of an even spread within the limits \[rad\].
     fn spread(&self, k: u32) -> JointVector {
-        let (limits, share) = (self.scene.robot.limits(), halton::point(k));
+        let (limits, share) = (self.placed.robot.limits(), halton::point(k));
         JointVector::from_fn(|joint, _| {
             let [lower, upper] = limits.sampling_range(joint);
             lower + share[joint] * (upper - lower)
@@ -241,7 +219,7 @@ impl Search<'_> {
     /// The pairs that are too near in some of these configurations, those first that are so in most of them.
     fn in_the_way(&self) -> Result<Vec<NearPair>, PlanError> {
         let distances = |k: u32| {
-            self.scene.check_cancelled()?;
+            self.placed.check_cancelled()?;
             Ok(self.clearance.all(&self.spread(k)))
         };
         let all: Result<Vec<Vec<PairClearance>>, PlanError> = (1..=ANYWHERE).into_par_iter().map(distances).collect();
@@ -268,15 +246,15 @@ impl Search<'_> {
 
     /// The way out of the plates, taken together; up where there are none, or where they face all ways.
     fn outward_direction(&self) -> Vector3<f64> {
-        let sum: Vector3<f64> = self.scene.plates.iter().map(Plate::axis).sum();
+        let sum: Vector3<f64> = self.placed.plates.iter().map(Plate::axis).sum();
         sum.try_normalize(1e-3).unwrap_or_else(Vector3::z)
     }
 
     /// Place `k` of the tip \[m\]: over the plates' middle, beside it by up to a part of the reach. Where plates lie level with the base, in
     /// the direction of their middle, or of x where they lie around the base, give or take 30°.
     fn place(&self, k: u32) -> Vector3<f64> {
-        let (from, reach_m) = self.scene.robot.reach_bound(&self.scene.tip);
-        let (plates, out) = (self.scene.plates, self.outward_direction());
+        let (from, reach_m) = self.placed.robot.reach_bound(&self.placed.tip);
+        let (plates, out) = (self.placed.plates, self.outward_direction());
         let count = plates.len().max(1) as f64;
         let sum: Vector3<f64> = plates.iter().map(|plate| plate.centre() - from.coords).sum();
         let top_m = plates.iter().map(|plate| plate.centre().dot(&out)).reduce(f64::max);
@@ -305,11 +283,11 @@ impl Search<'_> {
     fn candidate(&self, q: &JointVector) -> Option<Candidate> {
         let q_deg = q.map(|rad| rad.to_degrees().round() + 0.0);
         let q = q_deg.map(f64::to_radians);
-        let limits = self.scene.robot.limits();
+        let limits = self.placed.robot.limits();
         if !limits.contain(&q) || !self.clearance.keeps_clearance(&q, self.required_m()) {
             return None;
         }
-        let jacobian = self.scene.robot.fk(&q).jacobian(&self.scene.tip, Axes::Base);
+        let jacobian = self.placed.robot.fk(&q).jacobian(&self.placed.tip, Axes::Base);
         Some(Candidate {
             q_deg: q_deg.into(),
             distances_m: self.clearance.all(&q).iter().map(|pair| pair.distance_m).collect(),

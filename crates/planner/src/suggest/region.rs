@@ -2,11 +2,11 @@
 
 use crate::error::PlanError;
 use crate::pipeline::fill;
-use crate::trig::sin_cos;
 use crate::washable_map::{Levels, MapArea, Square};
 use crate::watch::Watch;
 use nalgebra::Vector3;
 use platewash_bodies::job::WashJob;
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{Pose, RobotModel};
 use platewash_workcell::tool::Tool;
 

@@ -4,10 +4,10 @@ use crate::error::PlanError;
 use crate::pipeline::with_moved_plate;
 use crate::redundancy::places::MovedPlate;
 use crate::suggest::region::Sector;
-use crate::trig::{atan2, sin_cos};
 use crate::washable_map::MapArea;
 use crate::watch::Watch;
 use platewash_bodies::job::WashJob;
+use platewash_kinematics::trig::{atan2, sin_cos};
 use std::ops::Range;
 
 /// Steps along a ray, across the reach.

@@ -6,8 +6,8 @@
 
 use crate::timing::grid::Grid;
 use crate::timing::hermite::Piece;
+use crate::timing::limits::{MotionLimits, TipLimits};
 use crate::timing::tip_model::{Magnitudes, TipModel, TipRates};
-use crate::timing::{MotionLimits, TipLimits};
 use platewash_kinematics::JointVector;
 
 /// Share of a limit that the bound between looks may take at most; then looks are not made denser.
@@ -122,7 +122,7 @@ mod tests {
             let tip = robot.tool_frame(ToolFrame::Flange).unwrap();
             let model = TipModel::new(&robot, &tip);
             let path = JointPath::through(vec![0.0, 1.0], vec![q, q + step], Ends::NotAKnot).unwrap();
-            let grid = Grid::of(&path, Some(model)).unwrap();
+            let grid = Grid::new(&path, Some(model)).unwrap();
             let limits = MotionLimits {
                 velocity: JointVector::repeat(2.0),
                 acceleration: JointVector::repeat(30.0),

@@ -3,7 +3,7 @@
 //! Here the parameter is s, the path's u over its whole span, so that s runs over a length of 1 for any u.
 
 use crate::joint_path::JointPath;
-use crate::timing::TimingError;
+use crate::timing::error::TimingError;
 use crate::timing::tip_model::TipModel;
 use crate::timing::tip_model::TipRates;
 use platewash_kinematics::JointVector;
@@ -34,7 +34,7 @@ pub(crate) struct Grid<'a> {
 
 impl<'a> Grid<'a> {
     /// The samples of the path.
-    pub fn of(path: &'a JointPath, tip: Option<TipModel<'a>>) -> Result<Self, TimingError> {
+    pub fn new(path: &'a JointPath, tip: Option<TipModel<'a>>) -> Result<Self, TimingError> {
         let u = path.parameters();
         let mut grid = Self {
             path,

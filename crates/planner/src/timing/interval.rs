@@ -19,8 +19,8 @@
 //! interval. The tip's limit, an ellipse, enters as its tangents where the optimum breaks it (Kelley 1960), and the last
 //! thousandth of a per cent by scaling the answer.
 
-use crate::timing::MotionLimits;
 use crate::timing::grid::PathKnot;
+use crate::timing::limits::MotionLimits;
 use nalgebra::Vector3;
 use platewash_kinematics::AXES;
 

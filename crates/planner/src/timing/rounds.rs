@@ -10,10 +10,11 @@
 //! Where further knots are needed: where a piece takes long, or leaves the path.
 
 use crate::timing::check::{self, Demand};
+use crate::timing::error::TimingError;
 use crate::timing::grid::{Grid, PathKnot};
 use crate::timing::hermite::Piece;
 use crate::timing::interval::{Interval, LinearProgram};
-use crate::timing::{MotionLimits, SlowStretch, TimedPath, TimingError};
+use crate::timing::limits::{MotionLimits, SlowStretch};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_motion::trajectory::Trajectory;
 
@@ -402,4 +403,16 @@ pub(crate) fn close(courses: &[Course], u: impl Fn(usize) -> f64) -> Result<f64,
         allowed_rad: PATH_ERROR_RAD,
         knots: courses.len() + 1,
     })
+}
+
+/// A path in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimedPath {
+    /// The motion, from time 0, at rest at both ends. Its knots are the path's samples and more between them.
+    pub motion: Trajectory,
+    /// The path's parameter at every knot; those of the samples are among them to the bit.
+    pub parameters: Vec<f64>,
+    /// Largest distance of a joint from the path \[rad\]: measured in the middle of every piece, where the leading term
+    /// of the error of Hermite interpolation, `t² (h − t)²`, is largest.
+    pub path_error_rad: f64,
 }

@@ -3,7 +3,7 @@
 //! A quintic from one state of the joints to another: C² where it joins the pieces before and after.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
-use crate::scene::{Contact, Scene};
+use crate::placed_arm::{Contact, PlacedArm};
 use crate::timing::SlowStretch;
 use crate::transit::rules::{BaseArc, FreePath};
 use platewash_kinematics::{JointVector, Pose};
@@ -137,14 +137,14 @@ impl LiftLine {
 }
 
 /// The path over the arc; `None` where a point of it is out of reach, or reached by a jump only.
-pub(crate) fn path(scene: &Scene<'_>, over: &BaseArc, from: &LiftLine, to: &LiftLine) -> Option<FreePath> {
-    let tip = |q| scene.robot.fk(q).rigid(&scene.tip).translation;
+pub(crate) fn path(placed: &PlacedArm<'_>, over: &BaseArc, from: &LiftLine, to: &LiftLine) -> Option<FreePath> {
+    let tip = |q| placed.robot.fk(q).rigid(&placed.tip).translation;
     let (start, end) = (tip(from.top()), tip(to.top()));
     let points = arc::waypoints(start, end, &over.arc);
     let inner = &points[1..points.len() - 1];
-    let pose = |point: &_| scene.pose(&Contact::level(*point), &over.policy);
+    let pose = |point: &_| placed.pose(&Contact::level(*point), &over.policy);
     let poses: Vec<Pose> = inner.iter().map(pose).collect();
-    let q = scene.solver.solve_path(&poses, from.top()).ok()?.q;
+    let q = placed.solver.solve_path(&poses, from.top()).ok()?.q;
     let mut length = 0.0;
     let u = points[..points.len() - 1].windows(2).map(|ends| {
         length += (ends[1] - ends[0]).norm().max(1e-4);

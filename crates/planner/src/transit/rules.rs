@@ -1,6 +1,6 @@
 //! Rules of a transit: its requirements, the kinds that it may be of, and its free part between two tops.
 
-use crate::scene::{Scene, Stretch, TiltPolicy};
+use crate::placed_arm::{PlacedArm, Stretch, TiltPolicy};
 use crate::timing::MotionLimits;
 use crate::transit::shortfall::ClearanceShortfall;
 use platewash_kinematics::JointVector;
@@ -10,8 +10,8 @@ use serde::Serialize;
 /// Requirements of a transit, and the candidates that it may try.
 #[derive(Debug, Clone, Copy)]
 pub struct TransitRules<'a> {
-    /// Scene in which the arm moves.
-    pub scene: &'a Scene<'a>,
+    /// The arm that moves, with the bodies around it.
+    pub placed: &'a PlacedArm<'a>,
     /// Limits of the motion.
     pub limits: &'a MotionLimits,
     /// The clearance asked for \[m\]; [`Stretch::reserve_m`] is kept on top of it.
@@ -33,12 +33,12 @@ impl TransitRules<'_> {
     /// Checks that a configuration \[rad\] keeps its clearance.
     pub(crate) fn is_clear(&self, q: &JointVector, stretch: Stretch) -> bool {
         let required_m = self.clearance_m + stretch.reserve_m();
-        self.scene.surroundings.is_clear(q, stretch, required_m)
+        self.placed.surroundings.is_clear(q, stretch, required_m)
     }
 
     /// The bodies that are too near where it does not.
     pub(crate) fn too_near(&self, q: &JointVector, stretch: Stretch) -> Option<ClearanceShortfall> {
-        ClearanceShortfall::at(self.scene.surroundings, q, stretch, self.clearance_m)
+        ClearanceShortfall::at(self.placed.surroundings, q, stretch, self.clearance_m)
     }
 }
 

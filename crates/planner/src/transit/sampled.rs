@@ -1,7 +1,7 @@
 //! Bidirectional random trees for transits without a simple solution (RRT-Connect: Kuffner & LaValle 2000), shortened and
 //! smoothed.
 
-use crate::scene::Stretch;
+use crate::placed_arm::Stretch;
 use crate::transit::rules::{FreePath, STEP_RAD, TransitRules};
 use platewash_kinematics::{AXES, JointVector};
 use platewash_workcell::cancel::Cancelled;
@@ -46,12 +46,12 @@ pub(crate) fn lines(
 ) -> Result<Result<FreeLines, usize>, Cancelled> {
     let root = |q: &JointVector| vec![Node { q: *q, parent: 0 }];
     let mut trees = [root(from), root(to)];
-    let limits = rules.scene.robot.limits();
+    let limits = rules.placed.robot.limits();
     let ranges = std::array::from_fn(|joint| limits.sampling_range_around(joint, [from[joint], to[joint]]));
     // Which of the trees grows towards the sample; the other one then tries to meet it.
     let mut growing = 0;
     while trees[0].len() + trees[1].len() < MOST_NODES {
-        rules.scene.check_cancelled()?;
+        rules.placed.check_cancelled()?;
         let aim = random(&ranges, rng);
         let near = nearest(&trees[growing], &aim);
         if let Some(q) = grown(rules, &trees[growing][near].q, &aim) {
@@ -143,7 +143,7 @@ fn shorten(rules: &TransitRules<'_>, corners: &mut Vec<JointVector>, rng: &mut P
         if corners.len() < 3 {
             break;
         }
-        rules.scene.check_cancelled()?;
+        rules.placed.check_cancelled()?;
         let mut ends = [0; 2].map(|_| rng.random_range(0..corners.len()));
         ends.sort_unstable();
         let [a, b] = ends;

@@ -1,7 +1,7 @@
 //! Candidates of a transit, and the choice among them.
 
 use crate::joint_path::{Ends, JointPath, JointPathError, PathState};
-use crate::scene::Stretch;
+use crate::placed_arm::Stretch;
 use crate::timing::{self, SlowStretch, TimedPath};
 use crate::transit::error::{TransitError, TransitObstruction};
 use crate::transit::lift_line::{self, LiftLine, quintic};
@@ -56,12 +56,14 @@ pub fn plan(
         search.time_and_keep_fastest(TransitKind::Direct, &path)?;
     }
     if search.best.is_none() {
-        for path in raised(rules.scene.robot, from, to) {
+        for path in raised(rules.placed.robot, from, to) {
             search.time_and_keep_fastest(TransitKind::Raised, &path)?;
         }
     }
     if search.best.is_none()
-        && let Some(path) = rules.arc.and_then(|over| lift_line::path(rules.scene, &over, from, to))
+        && let Some(path) = rules
+            .arc
+            .and_then(|over| lift_line::path(rules.placed, &over, from, to))
     {
         search.time_and_keep_fastest(TransitKind::Arc, &path)?;
     }
@@ -79,7 +81,7 @@ pub fn plan(
 fn obstruction_at(rules: &TransitRules<'_>, q: &JointVector) -> Option<TransitObstruction> {
     let too_near = || rules.too_near(q, Stretch::Free).map(TransitObstruction::TooNear);
     rules
-        .scene
+        .placed
         .robot
         .limits()
         .violation(q)
@@ -101,8 +103,8 @@ impl Search<'_> {
     /// Times the path if it is free, and keeps it if it is the fastest so far.
     fn time_and_keep_fastest(&mut self, kind: TransitKind, between: &FreePath) -> Result<(), TransitError> {
         let (rules, [from, to]) = (self.rules, self.ends);
-        let scene = rules.scene;
-        scene.check_cancelled()?;
+        let placed = rules.placed;
+        placed.check_cancelled()?;
         let path = join_with_lines(from, to, between)?;
         let free = [from.height_m(), from.height_m() + between.length];
         if let Some(q) = blocked(rules, &path, free) {
@@ -111,9 +113,9 @@ impl Search<'_> {
         }
         let end = free[1] + to.height_m();
         let slow: Vec<_> = from.slow_from(0.0).into_iter().chain(to.slow_until(end)).collect();
-        let mut timed = timing::time_optimal(&path, scene.robot, &scene.tip, rules.limits)?;
+        let mut timed = timing::time_optimal(&path, placed.robot, &placed.tip, rules.limits)?;
         if slow.iter().any(|slow| is_too_fast(rules, &timed, slow)) {
-            timed = timing::time_optimal_slowed(&path, scene.robot, &scene.tip, rules.limits, &slow)?;
+            timed = timing::time_optimal_slowed(&path, placed.robot, &placed.tip, rules.limits, &slow)?;
         }
         let faster = |best: &Transit| timed.motion.duration_s() < best.timed.motion.duration_s();
         if self.best.as_ref().is_none_or(faster) {
@@ -152,10 +154,10 @@ fn is_too_fast(rules: &TransitRules<'_>, timed: &TimedPath, slow_stretches: &Slo
     let (positions, speeds) = (timed.motion.positions(), timed.motion.speeds());
     let tip_speed = |k: usize| {
         let jacobian = rules
-            .scene
+            .placed
             .robot
             .fk(&positions[k])
-            .jacobian(&rules.scene.tip, Axes::Base);
+            .jacobian(&rules.placed.tip, Axes::Base);
         (jacobian.fixed_rows::<3>(0) * speeds[k]).norm()
     };
     let within = |k: &usize| (slow_stretches.u[0]..=slow_stretches.u[1]).contains(&timed.parameters[*k]);
@@ -203,7 +205,7 @@ fn join_with_lines(from: &LiftLine, to: &LiftLine, between: &FreePath) -> Result
 
 /// The first configuration \[rad\] on the free part of a path at which the arm does not keep its limits or clearances.
 fn blocked(rules: &TransitRules<'_>, path: &JointPath, [from, to]: [f64; 2]) -> Option<JointVector> {
-    let limits = rules.scene.robot.limits();
+    let limits = rules.placed.robot.limits();
     let steps = |a: f64, b: f64| ((path.at(b).q - path.at(a).q).amax() / STEP_RAD).ceil().max(1.0);
     let knots = path.parameters();
     let within = |ends: &&[f64]| (from..to).contains(&((ends[0] + ends[1]) * 0.5));

@@ -1,6 +1,6 @@
 //! Two bodies nearer than a transit may bring them.
 
-use crate::scene::{Stretch, Surroundings};
+use crate::placed_arm::{Stretch, Surroundings};
 use platewash_bodies::clearance::PairClearance;
 use platewash_kinematics::JointVector;
 use platewash_kinematics::words::distinct_decimals;

@@ -14,8 +14,8 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
     let refused = |path: &WashPath, y_m: f64, clearance_m: f64, near: &JointVector| {
         let plates = [plate_at(0.36, 0.0).moved_to([0.3, y_m])];
         within(&kitchen_tool(), &[plate_at(0.36, 0.0)], |world| {
-            let scene = world.scene.among(world.clearance, &plates);
-            match Task::new(&scene, path, clearance_m, near) {
+            let placed = world.placed.among(world.clearance, &plates);
+            match Task::new(&placed, path, clearance_m, near) {
                 Err(RedundancyError::Input(OutOfRange { name, .. })) => name,
                 other => panic!("{other:?}"),
             }
@@ -65,7 +65,7 @@ fn numbers_that_make_no_sense_are_refused_by_name() {
     within(&kitchen_tool(), &[plate_at(0.36, 0.0)], |world| {
         let other = WashPath { plate: 7, ..good };
         let missing = RedundancyError::Plate { plate: 7, count: 1 };
-        assert_eq!(Task::new(&world.scene, &other, 0.01, &HOME).err(), Some(missing));
+        assert_eq!(Task::new(&world.placed, &other, 0.01, &HOME).err(), Some(missing));
     });
 }
 

@@ -6,8 +6,8 @@ use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_kinematics::{JointVector, RobotModel};
+use platewash_planner::placed_arm::TILT_RESERVE_RAD;
 use platewash_planner::redundancy::washing;
-use platewash_planner::scene::TILT_RESERVE_RAD;
 use platewash_workcell::plate::Plate;
 use platewash_workcell::wash_path::WashCurve;
 

@@ -1,10 +1,10 @@
 //! An arm among plates, and what a washing promises, for tests within the library and outside: the module above says where
-//! `redundancy` and `scene` are.
+//! `redundancy` and `placed_arm` are.
 
+use super::placed_arm::PlacedArm;
 use super::redundancy::places::MovedPlate;
-use super::redundancy::task::CHORD_ERROR_M;
+use super::redundancy::samples::CHORD_ERROR_M;
 use super::redundancy::{RedundancyError, Task, Washing, washing};
-use super::scene::Scene;
 use platewash_bodies::clearance::ClearanceModel;
 use platewash_fixtures::workcell;
 use platewash_kinematics::trig::sin_cos;
@@ -55,7 +55,7 @@ pub fn plate_at(rho: f64, azimuth_deg: f64) -> Plate {
 
 /// An arm among some plates.
 pub struct World<'a> {
-    pub scene: Scene<'a>,
+    pub placed: PlacedArm<'a>,
     pub clearance: &'a ClearanceModel,
 }
 
@@ -65,7 +65,7 @@ impl World<'_> {
     }
 
     pub fn task_near(&self, path: &WashPath, near: &JointVector) -> Task<'_> {
-        Task::new(&self.scene, path, CLEARANCE_M, near).unwrap()
+        Task::new(&self.placed, path, CLEARANCE_M, near).unwrap()
     }
 
     pub fn washing(&self, path: &WashPath) -> Result<Washing, RedundancyError> {
@@ -77,7 +77,7 @@ impl World<'_> {
 pub fn with_arm<T>(robot: &RobotModel, tool: &Tool, plates: &[Plate], act: impl FnOnce(&World<'_>) -> T) -> T {
     let clearance = ClearanceModel::new(robot, &workcell(robot, tool.clone()), plates).unwrap();
     act(&World {
-        scene: Scene::new(robot, tool, &clearance, plates, ReachBorders::IRB_120).unwrap(),
+        placed: PlacedArm::new(robot, tool, &clearance, plates, ReachBorders::IRB_120).unwrap(),
         clearance: &clearance,
     })
 }
@@ -112,13 +112,13 @@ pub fn spline_curvatures(x: &[f64], y: &[f64], ends: [f64; 2]) -> Vec<f64> {
 
 /// Checks everything that a washing promises, from outside.
 pub fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
-    let scene = &world.scene;
-    let (plate, limits) = (&scene.plates[path.plate], scene.robot.limits());
+    let placed = &world.placed;
+    let (plate, limits) = (&placed.plates[path.plate], placed.robot.limits());
     assert_eq!(washing.theta, path.curve.parameters(&plate.surface, CHORD_ERROR_M));
     assert_eq!([washing.q.len(), washing.tilt_rad.len()], [washing.theta.len(); 2]);
-    let stance = scene.clone().leaning_aside(washing.aside_rad).stance;
+    let stance = placed.clone().leaning_aside(washing.aside_rad).stance;
     for (k, (&theta, q)) in washing.theta.iter().zip(&washing.q).enumerate() {
-        let tip = scene.robot.fk(q).rigid(&scene.tip);
+        let tip = placed.robot.fk(q).rigid(&placed.tip);
         let contact = plate.pose.rotation * path.curve.at(theta).position.push(0.0) + plate.centre();
         assert!((tip.translation - contact).norm() < 1e-9, "point {k}");
         let tool = tip.rotation.column(2);
@@ -137,11 +137,11 @@ pub fn check(world: &World<'_>, path: &WashPath, washing: &Washing) {
             assert!(sponge_on_plate || kept, "point {k}: {pair:?}");
         }
     }
-    check_between(scene, &path.curve, plate, washing);
+    check_between(placed, &path.curve, plate, washing);
 }
 
 /// The clamped spline through the answer stays near the wash path and keeps the answer's slopes.
-pub fn check_between(scene: &Scene<'_>, curve: &WashCurve, plate: &Plate, washing: &Washing) {
+pub fn check_between(placed: &PlacedArm<'_>, curve: &WashCurve, plate: &Plate, washing: &Washing) {
     let x = &washing.theta;
     let curvatures: Vec<Vec<f64>> = (0..6)
         .map(|joint| {
@@ -160,7 +160,7 @@ pub fn check_between(scene: &Scene<'_>, curve: &WashCurve, plate: &Plate, washin
                     + b * washing.q[k + 1][joint]
                     + ((a * a * a - a) * m[k] + (b * b * b - b) * m[k + 1]) * h * h / 6.0
             });
-            let tip = scene.robot.pose(&q, &scene.tip).translation.vector;
+            let tip = placed.robot.pose(&q, &placed.tip).translation.vector;
             // Distance from the curve: to the point at this θ, less what is along the curve.
             let point = curve.at(x[k] + share * h);
             let off = plate.local(&tip) - point.position.push(0.0);
@@ -174,7 +174,7 @@ pub fn check_between(scene: &Scene<'_>, curve: &WashCurve, plate: &Plate, washin
 /// Where else the first plate could lie.
 pub fn elsewhere<'a>(world: &'a World<'a>, path: &'a WashPath) -> MovedPlate<'a> {
     MovedPlate {
-        scene: &world.scene,
+        placed: &world.placed,
         clearance: world.clearance,
         path,
         clearance_m: CLEARANCE_M,

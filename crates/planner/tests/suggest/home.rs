@@ -9,7 +9,7 @@ use platewash_planner::suggest::{SuggestedHome, suggest_home};
 use platewash_planner::{PlanError, plan};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::JobTerms;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 fn home(terms: &JobTerms) -> Result<SuggestedHome, PlanError> {

@@ -1,6 +1,6 @@
 //! Files that the system does not give or take; studies that are none, and folders that keep something else.
 
-use crate::errors::{any, internal, named, raise};
+use crate::exception::{any, internal, named, raise};
 use platewash::kinematics::urdf::file::FileError;
 use platewash::study::StudyError;
 use pyo3::exceptions::PyKeyboardInterrupt;

@@ -1,7 +1,7 @@
 //! Calls of the inverse kinematics without an answer.
 
 use crate::arrays;
-use crate::errors::{any, input, raise};
+use crate::exception::{any, input, raise};
 use platewash::kinematics::ik::{IkCause, IkPathError, PathBreak};
 use platewash::{IkError, IkFailure};
 use pyo3::prelude::*;

@@ -1,7 +1,11 @@
 //! Scenarios that are refused, and jobs that cannot be carried out.
 
 use crate::arrays;
-use crate::errors::{Field, FileKind, SystemWord, any, input, keyed, named, raise, simulation, system_file};
+use crate::errors::file::FileKind;
+use crate::errors::file::SystemWord;
+use crate::errors::file::system_file;
+use crate::errors::simulation::simulation;
+use crate::exception::{Field, any, input, keyed, named, raise};
 use platewash::bodies::job::JobError;
 use platewash::motion::dry_run::DryRunError;
 use platewash::paper::PaperError;
@@ -9,10 +13,10 @@ use platewash::paper::tracking::TrackingError;
 use platewash::planner::transit::TransitError;
 use platewash::planner::{RecoveryError, UnwashablePlate};
 use platewash::scenario::Problem;
+use platewash::workcell::ArmId;
 use platewash::workcell::job::TermsError;
 use platewash::workcell::layout::LayoutError;
 use platewash::workcell::words::plate_name;
-use platewash::workcell::workcell::ArmId;
 use platewash::{Failure, PlanError, ScenarioError};
 use pyo3::prelude::*;
 

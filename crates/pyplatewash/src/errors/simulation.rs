@@ -1,7 +1,7 @@
 //! Arms without dynamics, and plans that cannot be simulated.
 
 use crate::arrays;
-use crate::errors::{Field, any, input, raise};
+use crate::exception::{Field, any, input, raise};
 use platewash::simulator::ControlError;
 use platewash::{DynamicsError, SimulationError};
 use pyo3::prelude::*;

@@ -1,7 +1,8 @@
 //! Forward kinematics, Jacobians and inverse kinematics, one at a time or in batches, straight into NumPy's arrays.
 
 use crate::arrays::{self, JOINTS, MANY_POSES, Numbers, ONE_POSE};
-use crate::errors::{self, Input};
+use crate::errors;
+use crate::exception::{self, Input};
 use crate::pose;
 use crate::robot::settings::origin;
 use crate::work::{STRETCH, alone, patiently, released};
@@ -53,7 +54,7 @@ pub fn solve<'py>(
         Some(other) => {
             let found = other.stacked.unwrap_or(0);
             let wanted = ["(6,)".to_owned(), format!("({n}, 6)")];
-            return Err(errors::shape(py, "seeds", &[found, 6], &wanted));
+            return Err(exception::shape(py, "seeds", &[found, 6], &wanted));
         }
     };
     let columns = Columns {
@@ -119,7 +120,7 @@ fn fill<'py>(py: Python<'py>, columns: &Columns<'py>, problems: &Problems<'_>) -
             chunks.map_init(|| Desk::new(problems), solve).collect()
         })?;
         for causes in done {
-            for (row, cause) in causes.map_err(|e| errors::internal(py, &e.to_string()))? {
+            for (row, cause) in causes.map_err(|e| exception::internal(py, &e.to_string()))? {
                 all.set_item(row, cause)?;
             }
         }
@@ -138,7 +139,7 @@ fn finite(py: Python<'_>, seed: JointVector) -> PyResult<JointVector> {
         None => Ok(seed),
         Some(joint) => {
             let problem = format!("joint {}: a finite number is needed; found {}", joint + 1, seed[joint]);
-            Err(errors::input(py, "seeds", &problem))
+            Err(exception::input(py, "seeds", &problem))
         }
     }
 }
@@ -290,7 +291,7 @@ fn filled<'py, M: Pod + Send>(
     let matrices: &mut [M] = bytemuck::cast_slice_mut(writable.as_slice_mut()?);
     for (q, matrices) in q.chunks(STRETCH).zip(matrices.chunks_mut(STRETCH)) {
         let done = released(py, || fill(q, matrices))?;
-        done.map_err(|e| errors::internal(py, &e.to_string()))?;
+        done.map_err(|e| exception::internal(py, &e.to_string()))?;
         py.check_signals()?;
     }
     drop(writable);
@@ -357,7 +358,7 @@ static BRANCHES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 /// One pose, shape (4, 4).
 fn target(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
     let numbers = Numbers::read("target", value, ONE_POSE)?;
-    pose::pose(numbers.values()?).map_err(|e| errors::input(value.py(), "target", &e.0))
+    pose::pose(numbers.values()?).map_err(|e| exception::input(value.py(), "target", &e.0))
 }
 
 fn seed(value: Option<&Bound<'_, PyAny>>, name: &'static str) -> PyResult<JointVector> {
@@ -372,7 +373,7 @@ fn poses(matrices: &[[f64; 16]]) -> Result<Vec<Pose>, (usize, Input)> {
 
 /// Error for a target that is no pose.
 fn no_pose(py: Python<'_>, (k, e): (usize, Input)) -> PyErr {
-    errors::input(py, "targets", &format!("in pose {k}: {e}"))
+    exception::input(py, "targets", &format!("in pose {k}: {e}"))
 }
 
 /// See `Robot.ik`.
@@ -418,7 +419,7 @@ fn no_branches(py: Python<'_>, error: &AllBranchesError) -> PyErr {
         AllBranchesError::Input(AnalyticError::Start { .. }) => "previous",
         _ => "target",
     };
-    errors::input(py, argument, &error.to_string())
+    exception::input(py, argument, &error.to_string())
 }
 
 /// See `Robot.ik_path`.

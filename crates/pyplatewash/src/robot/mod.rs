@@ -11,7 +11,7 @@ use crate::robot::settings::Solvers;
 use crate::robot::source::{Description, Source};
 use crate::tool::ToolFields;
 use crate::warnings::warn;
-use crate::{arrays, errors};
+use crate::{arrays, exception};
 use numpy::PyArrayDyn;
 use platewash::kinematics::urdf::{Files, FixedJoints};
 use platewash::scenario::{MeshPlaces, Note, RobotSection};
@@ -64,7 +64,7 @@ impl Robot {
     /// # Errors
     /// None in practice.
     pub fn built_in(py: Python<'_>) -> PyResult<Py<Self>> {
-        let model = RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()))?;
+        let model = RobotModel::irb120().map_err(|e| exception::internal(py, &e.to_string()))?;
         Py::new(py, Self::new(Arc::new(model), Source::BuiltIn))
     }
 
@@ -106,13 +106,13 @@ impl Robot {
         match (name, tool) {
             (None, None) => {
                 let frame = self.model.tool_frame(ToolFrame::Tool0);
-                frame.map_err(|e| errors::input(py, "frame", &e.to_string()))
+                frame.map_err(|e| exception::input(py, "frame", &e.to_string()))
             }
             (None, Some(tool)) => {
-                let tool = ToolFields::of(tool)?.on(py, &self.model)?;
+                let tool = ToolFields::read(tool)?.on(py, &self.model)?;
                 Ok(tool.tip_frame(&self.model))
             }
-            (Some(_), Some(_)) => Err(errors::input(
+            (Some(_), Some(_)) => Err(exception::input(
                 py,
                 "frame",
                 "give either a frame or a tool, whose tip is meant",
@@ -121,7 +121,7 @@ impl Robot {
                 let name = argument::text("frame", name, "a frame's name")?;
                 let known = ToolFrame::ALL.into_iter().find(|f| f.name() == name);
                 let frame = known.map_or_else(|| self.model.frame(&name), |known| self.model.tool_frame(known));
-                frame.map_err(|e| errors::input(py, "frame", &e.to_string()))
+                frame.map_err(|e| exception::input(py, "frame", &e.to_string()))
             }
         }
     }

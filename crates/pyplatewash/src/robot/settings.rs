@@ -1,6 +1,6 @@
 //! Settings of the inverse kinematics, and solvers that are kept between calls.
 
-use crate::{argument, errors};
+use crate::{argument, exception};
 use platewash::kinematics::ik::{AnalyticStarts, Method, RandomRestarts, Start};
 use platewash::{Frame, IkSettings, IkSolution, IkSolver, RobotModel};
 use pyo3::prelude::*;
@@ -31,7 +31,7 @@ struct Fields {
 }
 
 impl Fields {
-    fn of(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn read(value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let at = |field| (("settings", "an IkSettings"), value, ("settings", field));
         let number = |field| {
             let (whole, value, place) = at(field);
@@ -65,10 +65,10 @@ impl Fields {
 /// # Errors
 /// `InputTypeError` for what is no `IkSettings`, or a field of a wrong type; `InputError` for one out of its range.
 pub fn settings(value: &Bound<'_, PyAny>) -> PyResult<IkSettings> {
-    let settings = IkSettings::from(Fields::of(value)?);
+    let settings = IkSettings::from(Fields::read(value)?);
     settings.validate().map_err(|e| {
         let problem = format!("must be {}; found {}", e.expected, e.found);
-        errors::input(value.py(), &format!("settings.{}", e.name), &problem)
+        exception::input(value.py(), &format!("settings.{}", e.name), &problem)
     })?;
     Ok(settings)
 }
@@ -114,7 +114,8 @@ impl Solvers {
         if let Some(found) = kept.iter().rev().find(|s| same(s)) {
             return Ok(found.clone());
         }
-        let new = IkSolver::new(robot, frame, settings).map_err(|e| errors::input(py, "settings", &e.to_string()))?;
+        let new =
+            IkSolver::new(robot, frame, settings).map_err(|e| exception::input(py, "settings", &e.to_string()))?;
         let new = Arc::new(new.into_owned());
         if kept.len() >= KEPT {
             kept.remove(0);

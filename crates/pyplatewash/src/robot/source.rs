@@ -1,6 +1,7 @@
 //! Source of an arm's description: enough to make the arm again in another process.
 
 use crate::errors::{self, FileKind};
+use crate::exception;
 use platewash::RobotModel;
 use platewash::kinematics::DisabledPairs;
 use platewash::kinematics::irb120::{IRB120_SRDF, IRB120_URDF};
@@ -98,9 +99,9 @@ impl Source {
     /// `UrdfError`, naming the joint or link at fault.
     pub fn load(&self, py: Python<'_>) -> PyResult<RobotModel> {
         let Self::Described(description) = self else {
-            return RobotModel::irb120().map_err(|e| errors::internal(py, &e.to_string()));
+            return RobotModel::irb120().map_err(|e| exception::internal(py, &e.to_string()));
         };
-        let wrong = |e: &dyn std::error::Error| errors::named(py, "UrdfError", &e.to_string());
+        let wrong = |e: &dyn std::error::Error| exception::named(py, "UrdfError", &e.to_string());
         let files = platewash::cli::installed_files();
         let meshes = MeshSource::new(&description.package_path, description.folder.as_deref())
             .reading(&files)

@@ -2,11 +2,11 @@
 
 use crate::plan::PlanObject;
 use crate::robot::Robot;
-use crate::simulation::Question;
+use crate::simulation::question::Question;
 use crate::simulation::settings::SettingsObject;
 use crate::value::to_record;
 use crate::work::patiently;
-use crate::{argument, arrays, errors};
+use crate::{argument, arrays, errors, exception};
 use numpy::{PyArray1, PyArrayDyn};
 use platewash::simulator::plant::FoamLoad;
 use platewash::simulator::simulate::{Sample, table as csv_table};
@@ -173,7 +173,7 @@ impl ExecutionObject {
         let table = csv_table(execution, plan, arm, dt_s);
         table
             .map(|table| table.to_string())
-            .map_err(|e| errors::input(py, "dt_s", &e.to_string()))
+            .map_err(|e| exception::input(py, "dt_s", &e.to_string()))
     }
 
     fn __len__(&self) -> usize {

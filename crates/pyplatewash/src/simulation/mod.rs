@@ -1,62 +1,24 @@
-//! A plan under a control law: settings, execution, report, and many settings.
-//!
-//! The question of a simulation: a plan, its arm and the settings.
-//!
-//! Many frequencies and dampings of a law.
+//! A plan under a control law: settings, execution, report; `tune` tries many frequencies and dampings.
 
 mod execution;
+mod question;
 mod settings;
 
 pub use crate::simulation::execution::{ExecutionObject, FinishedSimulation, simulate};
+pub use crate::simulation::question::Question;
 pub use crate::simulation::settings::SettingsObject;
 
 use crate::arrays::{Count, ExpectedShape, Numbers};
 use crate::errors;
+use crate::exception;
 use crate::plan::PlanObject;
-use crate::robot::Robot;
 use crate::value::records;
 use crate::work::patiently;
+use platewash::Failure;
 use platewash::simulator::simulate::{TuneOutcome, TuneRow};
-use platewash::workcell::simulation::SimulationSettings;
-use platewash::{Failure, Plan, RobotModel};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use serde::Serialize;
-use std::sync::Arc;
-
-/// A plan, its arm and the settings.
-pub struct Question {
-    /// The plan.
-    pub plan: Plan,
-    /// The arm.
-    pub arm: Arc<RobotModel>,
-    /// The settings.
-    pub settings: SimulationSettings,
-}
-
-impl Question {
-    /// A plan for an arm, by default its own, and settings, by default those that it states.
-    ///
-    /// # Errors
-    /// `InputTypeError`; `ProveError` for a plan whose arm must be given.
-    pub fn new(
-        plan: &Bound<'_, PlanObject>,
-        robot: Option<&Bound<'_, PyAny>>,
-        settings: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
-        let (robot, settings) = (Robot::given(robot)?, SettingsObject::given(settings)?);
-        let arm = plan.get().arm(plan.py(), robot)?;
-        let plan = plan.get().inner().clone();
-        Ok(Self {
-            settings: settings.map_or_else(
-                || plan.job.simulation.clone(),
-                |settings| settings.get().inner().clone(),
-            ),
-            arm,
-            plan,
-        })
-    }
-}
 
 /// Largest number of settings of one call.
 const MOST_SETTINGS: usize = 10_000;
@@ -122,12 +84,12 @@ pub fn tune<'py>(
         let law = question.settings.law.name();
         let problem =
             format!("law \"{law}\" has no frequency to tune: use \"pd\", \"pd_gravity\" or \"computed_torque\"");
-        return Err(errors::input(py, "settings", &problem));
+        return Err(exception::input(py, "settings", &problem));
     }
     let rows = frequencies.len().saturating_mul(dampings.len());
     if rows > MOST_SETTINGS {
         let problem = format!("{rows} settings; at most {MOST_SETTINGS} at a time");
-        return Err(errors::input(py, "frequencies_rad_s", &problem));
+        return Err(exception::input(py, "frequencies_rad_s", &problem));
     }
     let rows = patiently(py, move |cancel| {
         let Question { plan, arm, settings } = &question;

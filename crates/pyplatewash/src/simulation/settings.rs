@@ -2,7 +2,7 @@
 
 use crate::plan::PlanObject;
 use crate::value::{from_mapping, to_python, to_record};
-use crate::{argument, errors};
+use crate::{argument, errors, exception};
 use platewash::Scenario;
 use platewash::scenario::plant_keys;
 use platewash::workcell::simulation::{ControlLawName, SimulationSettings};
@@ -56,7 +56,7 @@ impl SettingsObject {
         payload_kg: Option<f64>,
     ) -> PyResult<Self> {
         if control.contains_key("law") {
-            return Err(errors::input(py, "control.law", "is given as law, beside control"));
+            return Err(exception::input(py, "control.law", "is given as law, beside control"));
         }
         let given = |section: Map<String, Value>| -> Map<String, Value> {
             section.into_iter().filter(|(_, value)| !value.is_null()).collect()
@@ -66,7 +66,7 @@ impl SettingsObject {
         let robot = payload_kg.map_or_else(|| json!({}), |payload_kg| json!({ "payload_kg": payload_kg }));
         let (control, plant) = (given(control), given(plant));
         let table = json!({ "name": "settings", "robot": robot, "layout": layout, "control": control, "plant": plant });
-        let text = toml::to_string(&table).map_err(|e| errors::input(py, "settings", &e.to_string()))?;
+        let text = toml::to_string(&table).map_err(|e| exception::input(py, "settings", &e.to_string()))?;
         let scenario = Scenario::parse(&text, "settings").map_err(|mut e| {
             // The line is one of a text that nobody has seen.
             e.line = None;
@@ -87,8 +87,8 @@ impl SettingsObject {
 fn table(py: Python<'_>, section: &impl Serialize) -> PyResult<Map<String, Value>> {
     match serde_json::to_value(section) {
         Ok(Value::Object(map)) => Ok(map),
-        Ok(_) => Err(errors::internal(py, "a section is a table")),
-        Err(e) => Err(errors::internal(py, &e.to_string())),
+        Ok(_) => Err(exception::internal(py, "a section is a table")),
+        Err(e) => Err(exception::internal(py, &e.to_string())),
     }
 }
 

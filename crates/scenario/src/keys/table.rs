@@ -11,7 +11,7 @@ use crate::sections::room::{FloorSection, TableSection};
 use crate::sections::simulation::{ControlSection, PlantSection};
 use crate::sections::tool::{TOOL_BODY_KEYS, ToolSection};
 use crate::sections::wash::WashSection;
-use platewash_workcell::workcell::MOST_BODIES;
+use platewash_workcell::MOST_BODIES;
 use std::sync::LazyLock;
 
 /// Every key, in the order of the reference; those of sections that may be stated several times are in [`LISTS`].

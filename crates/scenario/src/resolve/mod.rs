@@ -45,7 +45,7 @@ use platewash_workcell::job::{JobTerms, Limits, OrderRule, Planner, PlannerSetti
 use platewash_workcell::layout::{Finding, Layout};
 use platewash_workcell::simulation::{ControlLawName, SimulationSettings};
 use platewash_workcell::tool::{Sponge, Tool};
-use platewash_workcell::workcell::{ReducedClearance, Workcell};
+use platewash_workcell::{ReducedClearance, Workcell};
 use std::borrow::Cow;
 use std::sync::Arc;
 

@@ -15,7 +15,7 @@ use platewash_kinematics::geometry::Shape;
 use platewash_workcell::layout::Layout;
 use platewash_workcell::tool::Tool;
 use platewash_workcell::words::{count_with_noun, printable};
-use platewash_workcell::workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
+use platewash_workcell::{MOST_BODIES, Obstacle, ObstacleShape, Workcell};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

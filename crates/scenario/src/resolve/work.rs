@@ -4,7 +4,7 @@ use crate::error::{Problem, ScenarioError, conflict};
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use platewash_paper::WorkError;
-use platewash_planner::redundancy::task::CHORD_ERROR_M;
+use platewash_planner::redundancy::samples::CHORD_ERROR_M;
 use platewash_workcell::layout::PlateGeometry;
 use platewash_workcell::words::count_with_noun;
 

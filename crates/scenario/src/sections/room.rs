@@ -6,7 +6,7 @@ use crate::sections::body_shape::pose;
 use platewash_keys::Section;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 use serde::{Deserialize, Serialize};
 
 /// `[floor]`.

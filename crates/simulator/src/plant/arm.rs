@@ -1,4 +1,4 @@
-//! An arm that torques move: state of its joints, friction, torque limits, and the steps of two integrators, semi-implicit Euler and the
+//! An arm that torques move: friction, torque limits, and the steps of two integrators, semi-implicit Euler and the
 //! classical Runge–Kutta scheme (Kutta 1901).
 //!
 //! With d = d(q̇) taken at the start of the step and friction at its end, (M + h diag(d)) q̈ = τ − C q̇ − g − d q̇; then
@@ -10,6 +10,7 @@
 use crate::dynamics::DynamicsModel;
 use crate::plant::foam::FoamLoad;
 use crate::plant::sponge::SpongeOnPlates;
+use crate::plant::state::PlantState;
 use platewash_kinematics::{AXES, JointLimits, JointVector};
 use platewash_workcell::simulation::{Integrator, PlantSettings};
 
@@ -202,25 +203,5 @@ impl TorqueLimits {
     #[must_use]
     pub fn shares(&self, torque: &JointVector) -> [Option<f64>; AXES] {
         std::array::from_fn(|joint| self.0[joint].map(|most| torque[joint].abs() / most))
-    }
-}
-
-/// Positions and speeds of the joints.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlantState {
-    /// Positions \[rad\].
-    pub q: JointVector,
-    /// Speeds \[rad/s\].
-    pub qd: JointVector,
-}
-
-impl PlantState {
-    /// At rest at `q` \[rad\].
-    #[must_use]
-    pub fn at_rest(q: JointVector) -> Self {
-        Self {
-            q,
-            qd: JointVector::zeros(),
-        }
     }
 }

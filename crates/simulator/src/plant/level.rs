@@ -125,7 +125,7 @@ impl LevelColumns {
             if share == 0.0 {
                 continue;
             }
-            let (energy, mut pressure) = foam.of(w);
+            let (energy, mut pressure) = foam.energy_and_pressure(w);
             if let Some([speed, turning]) = twist {
                 let rising = speed.z + turning.x * away[1] - turning.y * away[0];
                 pressure = foam.damped(w, pressure, -rising * face.over_cosine);

@@ -5,15 +5,21 @@
 //!
 //! | concept | file |
 //! | --- | --- |
-//! | the plant; state; viscous and Coulomb friction; torque limits; one step of semi-implicit Euler; of Runge and Kutta | `arm.rs` |
-//! | foam: pressure and energy of a column; the longest step that is stable on it | `foam.rs` |
+//! | the plant; viscous and Coulomb friction; torque limits; one step of semi-implicit Euler; of Runge and Kutta | `arm.rs` |
+//! | positions and speeds of the joints | `state.rs` |
+//! | foam: pressure and energy of a column | `foam.rs` |
 //! | a sponge of it among plates; on a flat face | `sponge.rs`, `level.rs` |
+//! | the longest step that is stable on foam | `longest_step.rs` |
 
 mod arm;
 pub mod foam;
 mod level;
+mod longest_step;
 pub mod sponge;
+mod state;
 
-pub use crate::plant::arm::{Friction, Plant, PlantState, TorqueLimits};
-pub use crate::plant::foam::{Foam, FoamLoad, longest_step_s};
+pub use crate::plant::arm::{Friction, Plant, TorqueLimits};
+pub use crate::plant::foam::{Foam, FoamLoad};
+pub use crate::plant::longest_step::longest_step_s;
 pub use crate::plant::sponge::{ContactSlope, Push, SpongeOnPlates};
+pub use crate::plant::state::PlantState;

@@ -13,9 +13,9 @@
 //! force then fade, to nothing at about 65°, with the moment about the tip that goes with it. No plan comes there.
 
 use crate::dynamics::{DynamicsModel, FrameMotion, MassMatrix};
-use crate::plant::arm::PlantState;
 use crate::plant::foam::{DENSE_FACTOR, Foam, FoamLoad, Wrench, falling, share_within};
 use crate::plant::level::LevelColumns;
+use crate::plant::state::PlantState;
 use nalgebra::{Matrix3, Vector3};
 use platewash_bodies::contact::{Columns, Foundation, SpongePose};
 use platewash_kinematics::{Frame, JointVector, RobotModel};
@@ -254,7 +254,7 @@ impl SpongeOnPlates {
             if share == 0.0 {
                 continue;
             }
-            let (energy, mut pressure) = self.foam.of(w);
+            let (energy, mut pressure) = self.foam.energy_and_pressure(w);
             let away = column.point - pose.tip;
             if let Some([speed, turning]) = twist {
                 let closing = -normal.dot(&(speed + turning.cross(&away))) / cosine;

@@ -34,11 +34,11 @@ pub struct Effort {
 impl Effort {
     /// Effort in an execution; `None` under a kinematic law, which has no torques.
     #[must_use]
-    pub(crate) fn of(execution: &Execution) -> Option<Self> {
+    pub(crate) fn measure(execution: &Execution) -> Option<Self> {
         let limits = execution.limits?;
         let joints = std::array::from_fn(|joint| {
             let torques: Vec<_> = execution.samples.iter().map(|s| s.torque[joint].abs()).collect();
-            let torque_n_m = Spread::of(torques);
+            let torque_n_m = Spread::from_values(torques);
             let [work_j, braking_j] = work(execution, joint);
             let powers = execution
                 .samples
@@ -83,7 +83,7 @@ pub struct Spread {
 impl Spread {
     /// Spread of magnitudes, in any order; zeros for none.
     #[must_use]
-    pub fn of(mut values: Vec<f64>) -> Self {
+    pub fn from_values(mut values: Vec<f64>) -> Self {
         if values.is_empty() {
             return Self::default();
         }
@@ -132,10 +132,10 @@ pub(crate) fn tip_errors(execution: &Execution, robot: &RobotModel, tip: &Frame)
 /// Errors over all samples that `of` takes, with the tip's errors at all samples.
 pub(crate) fn tracking(samples: &[Sample], tip_errors: &[f64]) -> Tracking {
     Tracking {
-        tip_m: Spread::of(tip_errors.to_vec()),
+        tip_m: Spread::from_values(tip_errors.to_vec()),
         joints_rad: std::array::from_fn(|joint| {
             let error = |sample: &Sample| (sample.state.q[joint] - sample.commanded[joint]).abs();
-            Spread::of(samples.iter().map(error).collect())
+            Spread::from_values(samples.iter().map(error).collect())
         }),
     }
 }
@@ -166,12 +166,12 @@ mod tests {
 
     #[test]
     fn ranks_are_counted_from_one() {
-        let spread = Spread::of((1..=20).rev().map(f64::from).collect());
+        let spread = Spread::from_values((1..=20).rev().map(f64::from).collect());
         assert_eq!((spread.p95, spread.max), (19.0, 20.0));
         assert!((spread.rms - (2870.0f64 / 20.0).sqrt()).abs() < 1e-15);
-        let one = Spread::of(vec![3.0]);
+        let one = Spread::from_values(vec![3.0]);
         assert_eq!((one.rms, one.p95, one.max), (3.0, 3.0, 3.0));
-        assert_eq!(Spread::of(Vec::new()), Spread::default());
-        assert_eq!(Spread::of((1..=100).map(f64::from).collect()).p95, 95.0);
+        assert_eq!(Spread::from_values(Vec::new()), Spread::default());
+        assert_eq!(Spread::from_values((1..=100).map(f64::from).collect()).p95, 95.0);
     }
 }

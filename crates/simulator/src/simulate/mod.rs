@@ -15,7 +15,7 @@
 //! | swept share and verdict of a plate | `washing.rs` |
 //! | force while washing, contact lost, shares of the face in contact | `pressing.rs` |
 //! | all of it | `report.rs` |
-//! | it as text | `text.rs` |
+//! | it as text; its numbers, rounded | `text.rs`, `rounding.rs` |
 //! | many frequencies and dampings | `tune.rs` |
 
 mod amount;
@@ -26,6 +26,7 @@ pub(crate) mod measures;
 pub(crate) mod payload;
 mod pressing;
 mod report;
+mod rounding;
 mod run;
 mod schedule;
 mod table;

@@ -1,6 +1,6 @@
 //! The tool's mass against the arm's rated payload.
 
-use crate::simulate::text::rounded_for_display;
+use crate::simulate::rounding::rounded_for_display;
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::words::distinct_decimals;

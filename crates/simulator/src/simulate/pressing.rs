@@ -106,7 +106,7 @@ pub(crate) struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     /// `None` where no foam was simulated.
-    pub fn of(
+    pub fn new(
         plan: &'a Plan,
         robot: &RobotModel,
         settings: &SimulationSettings,
@@ -132,7 +132,7 @@ impl<'a> Judge<'a> {
         let load = load.filter(|load| !load.is_empty())?;
         let deepest_m = load.iter().map(|load| load.deepest_m).fold(0.0, f64::max);
         Some(Pressing {
-            force: ForceRange::of(&load),
+            force: ForceRange::from_loads(&load),
             deepest_m,
             strain: deepest_m / self.foundation.free_height_m,
             lost: self.lost(samples, &load),
@@ -159,7 +159,7 @@ impl<'a> Judge<'a> {
             .collect();
         ForceAtHeight {
             higher_m,
-            force: ForceRange::of(&load),
+            force: ForceRange::from_loads(&load),
         }
     }
 
@@ -208,7 +208,7 @@ impl<'a> Judge<'a> {
 
 impl ForceRange {
     /// Range over samples of equal duration; zeros without samples.
-    fn of(load: &[FoamLoad]) -> Self {
+    fn from_loads(load: &[FoamLoad]) -> Self {
         if load.is_empty() {
             return Self::default();
         }

@@ -5,7 +5,7 @@ use crate::simulate::error::SimulationError;
 use crate::simulate::execution::Execution;
 use crate::simulate::measures::{self, Effort, SegmentTracking, Tracking};
 use crate::simulate::payload::{PayloadCheck, PayloadVerdict};
-use crate::simulate::text::rounded_for_display;
+use crate::simulate::rounding::rounded_for_display;
 use crate::simulate::washing::{self, PlateOutcome};
 use platewash_kinematics::{JointFriction, RobotModel};
 use platewash_motion::plan::Plan;
@@ -81,7 +81,7 @@ pub(crate) enum Seal {
 }
 
 impl Seal {
-    pub(crate) fn of(plan: &Plan) -> Self {
+    pub(crate) fn from_plan(plan: &Plan) -> Self {
         if plan.is_sealed() { Self::Whole } else { Self::Broken }
     }
 }
@@ -135,7 +135,7 @@ impl SimulationReport {
         settings: &SimulationSettings,
         execution: &Execution,
     ) -> Result<Self, SimulationError> {
-        Self::judge(plan, robot, settings, execution, Seal::of(plan))
+        Self::judge(plan, robot, settings, execution, Seal::from_plan(plan))
     }
 
     /// Report of a plan with the given state of its hash.
@@ -190,7 +190,7 @@ impl SimulationReport {
             plates,
             tracking,
             segments: measures::by_segment(execution, &plan.segments, &tip_errors),
-            effort: Effort::of(execution),
+            effort: Effort::measure(execution),
             payload,
             assumptions: assumptions(plan, settings, robot.friction()),
         })

@@ -4,7 +4,8 @@ use crate::simulate::measures::{Effort, Tracking};
 use crate::simulate::payload::PayloadVerdict;
 use crate::simulate::pressing::{AS_STATED, ForceRange, HEIGHT_ERRORS_M, Pressing};
 use crate::simulate::report::{SimulationReport, SimulationVerdict};
-use platewash_kinematics::words::{distinct_decimals, percent, rounded};
+use crate::simulate::rounding::rounded_for_display;
+use platewash_kinematics::words::{distinct_decimals, percent};
 use platewash_workcell::words::{plate_name, plate_number};
 use std::fmt::{self, Display, Formatter};
 
@@ -218,12 +219,4 @@ fn payload(report: &SimulationReport, f: &mut Formatter<'_>) -> fmt::Result {
         ),
     };
     writeln!(f, "payload: {line}")
-}
-
-/// Significant digits of stated values.
-const SHOWN_DIGITS: usize = 6;
-
-/// Rounds a stated value to the digits that are shown to people.
-pub(crate) fn rounded_for_display(value: f64) -> f64 {
-    rounded(value, SHOWN_DIGITS)
 }

@@ -55,7 +55,7 @@ pub fn tune(
         .iter()
         .flat_map(|&frequency| damping_ratios.iter().map(move |&damping| (frequency, damping)))
         .collect();
-    let seal = Seal::of(plan);
+    let seal = Seal::from_plan(plan);
     let row = |&(frequency_rad_s, damping_ratio): &(f64, f64)| {
         let mut settings = settings.clone();
         let control = &mut settings.control;

@@ -106,7 +106,7 @@ pub(crate) fn plates(
     execution: &Execution,
 ) -> Result<Vec<PlateOutcome>, SimulationError> {
     let tip = plan.job.workcell.tool.tip_frame(robot);
-    let judge = Judge::of(plan, robot, settings, execution.period_s)?;
+    let judge = Judge::new(plan, robot, settings, execution.period_s)?;
     let samples = &execution.samples;
     let segments = plan.segments.par_iter().enumerate();
     let washes = segments.filter(|(_, segment)| segment.kind == SegmentKind::Wash);

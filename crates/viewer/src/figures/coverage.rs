@@ -4,8 +4,8 @@
 use super::axes::{round_above, tick_labels};
 use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
+use super::figure_data::{FigureData, Track, first_of, per_cent, short};
 use super::page;
-use super::subject::{Subject, Track, first_of, per_cent, short};
 use super::svg::{BAD, Drawing, EXECUTED, GOOD, GREY, LINE, MIDDLE, Rect, SMALL, WORDS, fill, fitted, stroke, width};
 use crate::view::PressedRule;
 use crate::view::coverage::proved_share;
@@ -45,22 +45,22 @@ struct Map {
 ///
 /// # Errors
 /// [`FigureError::NothingWashed`].
-pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
-    let washes: Vec<(usize, &PlanSegment)> = subject.washes().collect();
+pub(super) fn draw(data: &FigureData<'_>) -> Result<Drawing, FigureError> {
+    let washes: Vec<(usize, &PlanSegment)> = data.washes().collect();
     if washes.is_empty() {
         return Err(FigureError::NothingWashed { figure: "coverage" });
     }
-    let tracks: Vec<&Track> = [&subject.planned].into_iter().chain(&subject.followed).collect();
+    let tracks: Vec<&Track> = [&data.planned].into_iter().chain(&data.followed).collect();
     let plates = washes.len().min(MOST[tracks.len() - 1]);
     let maps: Vec<Map> = tracks
         .iter()
         .enumerate()
         .flat_map(|(of, track)| {
             let shown = washes[..plates].iter().enumerate();
-            shown.map(move |(place, (segment, wash))| Map::new(subject, place, (&track[*segment], wash.plate), of == 1))
+            shown.map(move |(place, (segment, wash))| Map::new(data, place, (&track[*segment], wash.plate), of == 1))
         })
         .collect();
-    let (mut drawing, room) = page::begin(&subject.texts("Time under the sponge", caption(subject, plates)));
+    let (mut drawing, room) = page::begin(&data.texts("Time under the sponge", caption(data, plates)));
     let step_s = step_s(&maps);
     let is_contact = maps.iter().all(|map| map.counted.is_some());
     key(&mut drawing, room, step_s, is_contact);
@@ -74,17 +74,17 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
         } else {
             tracks.len() * map.place + executed
         };
-        map.draw(&mut drawing, fields.cell(place), subject, step_s);
+        map.draw(&mut drawing, fields.cell(place), data, step_s);
     }
     Ok(drawing)
 }
 
 /// Caption: the meaning of the colours, and the requirements.
-fn caption(subject: &Subject<'_>, plates: usize) -> String {
-    let job = &subject.plan.job;
+fn caption(data: &FigureData<'_>, plates: usize) -> String {
+    let job = &data.plan.job;
     let sponge = format!("sponge, radius {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
     let least = short(100.0 * job.requirements.coverage);
-    let counted = subject.counted();
+    let counted = data.counted();
     let promised = counted.iter().flatten().find(|counted| counted.is_promised);
     let meaning = match (promised, &job.requirements.contact) {
         (Some(counted), Some(contact)) => format!(
@@ -100,7 +100,7 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
             "is under the {sponge}; of a profile, is touched by it. At least {least} % of a plate must be swept."
         ),
     };
-    let what = match subject.followed {
+    let what = match data.followed {
         Some(_) => "Of each plate there is what is planned, and what is executed.",
         None => "Nothing was simulated.",
     };
@@ -119,22 +119,22 @@ fn step_s(maps: &[Map]) -> f64 {
 
 impl Map {
     fn new(
-        subject: &Subject<'_>,
+        data: &FigureData<'_>,
         place: usize,
         (way, plate): (&[crate::view::tips::Tip], usize),
         is_executed: bool,
     ) -> Self {
-        let of = &subject.plan.job.plates[plate];
+        let of = &data.plan.job.plates[plate];
         Self {
             place,
             plate,
             is_executed,
-            counted: PressedRule::on(of, &subject.plan.job),
-            dwell_s: subject.dwell_s(of, way, CELLS),
+            counted: PressedRule::on(of, &data.plan.job),
+            dwell_s: data.dwell_s(of, way, CELLS),
         }
     }
 
-    fn draw(&self, drawing: &mut Drawing, cell: Rect, subject: &Subject<'_>, step_s: f64) {
+    fn draw(&self, drawing: &mut Drawing, cell: Rect, data: &FigureData<'_>, step_s: f64) {
         colour_cells(drawing, cell, &self.dwell_s, CELLS, |dwell_s| {
             dwell_s.map(|s| colour(s, step_s))
         });
@@ -144,7 +144,7 @@ impl Map {
         let title = format!("{}: {}, {what}", self.place + 1, plate_name(self.plate));
         let size = |words: &str| fitted(words, 18.0, cell.size[0] + 20.0);
         drawing.text([x, y + 24.0], &title, &[&size(&title), &fill(GREY), MIDDLE]);
-        if let Some((words, share, required)) = self.share(subject) {
+        if let Some((words, share, required)) = self.share(data) {
             let look = fill(if reaches(share, required) { GOOD } else { BAD });
             let words = format!("{words}{}", per_cent(share));
             drawing.text(
@@ -156,12 +156,12 @@ impl Map {
     }
 
     /// Returns the known share that counts: in words, the share, and the share required.
-    fn share(&self, subject: &Subject<'_>) -> Option<(&'static str, f64, f64)> {
-        let asked = &subject.plan.job.requirements;
+    fn share(&self, data: &FigureData<'_>) -> Option<(&'static str, f64, f64)> {
+        let asked = &data.plan.job.requirements;
         let is_promised = self.counted.is_some_and(|counted| counted.is_promised);
         let contact = asked.contact.as_ref().filter(|_| is_promised);
         let required = contact.map_or(asked.coverage, |contact| contact.share);
-        if let (false, Some(certificate)) = (self.is_executed, subject.certificate)
+        if let (false, Some(certificate)) = (self.is_executed, data.certificate)
             && let Some(proved) = proved_share(certificate, self.plate, self.counted)
         {
             let words = if is_promised {
@@ -177,7 +177,7 @@ impl Map {
             let reached = inside.clone().filter(|seconds| **seconds > 0.0).count();
             return Some(("on the map: ", reached as f64 / inside.count().max(1) as f64, required));
         }
-        let mut outcomes = subject.report?.plates.iter();
+        let mut outcomes = data.report?.plates.iter();
         let outcome = outcomes.find(|outcome| outcome.plate == self.plate)?;
         let measured = if self.is_executed {
             &outcome.executed

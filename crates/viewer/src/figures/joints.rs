@@ -1,8 +1,8 @@
 //! Joints and tip over time: positions, speeds and accelerations as shares of the limits.
 
 use super::axes::{Axes, ROOM};
+use super::figure_data::{FigureData, short};
 use super::page::{self, Entry, Sign, legend};
-use super::subject::{Subject, short};
 use super::svg::{
     BAD, DOTTED, Drawing, END, HOME, JOINTS, LIFT, MIDDLE, PAPER, Rect, TRANSIT, WASH, fill, stroke, width,
 };
@@ -22,27 +22,27 @@ const STRIP: f64 = 26.0;
 const USUAL: f64 = 0.985;
 
 /// Draws it.
-pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
+pub(super) fn draw(data: &FigureData<'_>) -> Drawing {
     let caption = format!(
         "In per cent of the joints' limits; position: −100 % at the lower limit, 100 % at the upper. Limits of acceleration are the job's \
          assumption. Drawn at {MOMENTS} moments, not a proof."
     );
-    let (mut drawing, room) = page::begin(&subject.texts("Joints and tip", caption));
-    let duration = subject.motion.duration_s();
+    let (mut drawing, room) = page::begin(&data.texts("Joints and tip", caption));
+    let duration = data.motion.duration_s();
     let times: Vec<f64> = (0..=MOMENTS).map(|k| duration * k as f64 / MOMENTS as f64).collect();
     let (left, wide) = (room.at[0] + ROOM[0], room.size[0] - ROOM[0]);
-    let end = legend(&mut drawing, [left, room.at[1] - 4.0], wide, &entries(subject));
-    let panels = panels(subject, &times);
+    let end = legend(&mut drawing, [left, room.at[1] - 4.0], wide, &entries(data));
+    let panels = panels(data, &times);
     let (top, gap) = (end + STRIP + 14.0, 18.0);
     let height = (room.end()[1] - ROOM[1] - top + gap) / panels.len() as f64 - gap;
     for (k, panel) in panels.iter().enumerate() {
         let frame = Rect::new(left, top + k as f64 * (height + gap), wide, height);
         let axes = Axes::new(frame, [0.0, duration], panel.range);
         if k == 0 {
-            segments(&mut drawing, subject, &axes);
+            segments(&mut drawing, data, &axes);
         }
         let below = (k + 1 == panels.len()).then_some("time [s]");
-        panel.draw(&mut drawing, &axes, subject, &times, below);
+        panel.draw(&mut drawing, &axes, data, &times, below);
     }
     drawing
 }
@@ -65,10 +65,10 @@ fn look(joint: usize) -> String {
     stroke(JOINTS[joint], 1.8) + dashes
 }
 
-fn panels(subject: &Subject<'_>, times: &[f64]) -> Vec<Panel> {
-    let limits = subject.arm.limits();
-    let accelerations = &subject.plan.job.limits.joint_acceleration_rad_s2;
-    let states: Vec<JointState> = times.iter().filter_map(|&t| subject.motion.at(t)).collect();
+fn panels(data: &FigureData<'_>, times: &[f64]) -> Vec<Panel> {
+    let limits = data.arm.limits();
+    let accelerations = &data.plan.job.limits.joint_acceleration_rad_s2;
+    let states: Vec<JointState> = times.iter().filter_map(|&t| data.motion.at(t)).collect();
     let of = |value: &dyn Fn(usize, &JointState) -> f64| -> Vec<(Vec<f64>, String)> {
         let line = |joint: usize| states.iter().map(|state| 100.0 * value(joint, state)).collect();
         (0..AXES).map(|joint| (line(joint), look(joint))).collect()
@@ -81,30 +81,30 @@ fn panels(subject: &Subject<'_>, times: &[f64]) -> Vec<Panel> {
     });
     let speed = of(&|joint, state| state.qd[joint] / limits.velocity[joint]);
     let acceleration = of(&|joint, state| state.qdd[joint] / accelerations[joint]);
-    let tip = states.iter().map(|state| subject.tip_speed(&state.q, &state.qd));
+    let tip = states.iter().map(|state| data.tip_speed(&state.q, &state.qd));
     let mut all = vec![
         Panel::new("position [%]", position, [-100.0, 100.0]),
         Panel::new("speed [%]", speed, [-100.0, 100.0]),
         Panel::new("accel. [%]", acceleration, [-100.0, 100.0]),
-        tip_panel(subject, tip.collect()),
+        tip_panel(data, tip.collect()),
     ];
-    all.extend(clearance_panel(subject, times));
+    all.extend(clearance_panel(data, times));
     all
 }
 
 /// The smallest distance of all pairs that count, by the rule of the certificate; none where there is no such pair, or no such rule.
-fn clearance_panel(subject: &Subject<'_>, times: &[f64]) -> Option<Panel> {
-    let rule = ClearanceRule::new(subject.plan, subject.arm).ok()?;
-    let segments = &subject.plan.segments;
+fn clearance_panel(data: &FigureData<'_>, times: &[f64]) -> Option<Panel> {
+    let rule = ClearanceRule::new(data.plan, data.arm).ok()?;
+    let segments = &data.plan.segments;
     let distance = |t: &f64| {
         let segment = segments.partition_point(|segment| segment.t_end_s < *t);
-        let nearest = rule.nearest(&subject.motion.at(*t)?.q, Some(segment))?;
+        let nearest = rule.nearest(&data.motion.at(*t)?.q, Some(segment))?;
         Some(1e3 * nearest.distance_m)
     };
     // Where nothing counts, nothing is near.
     let seen: Vec<Option<f64>> = times.par_iter().map(distance).collect();
     let least = seen.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-    let margin = 1e3 * subject.plan.job.requirements.clearance_m;
+    let margin = 1e3 * data.plan.job.requirements.clearance_m;
     let far = 100.0_f64.max(3.0 * margin);
     let line = seen.iter().map(|distance| distance.unwrap_or(far).min(far)).collect();
     least.is_finite().then(|| Panel {
@@ -116,8 +116,8 @@ fn clearance_panel(subject: &Subject<'_>, times: &[f64]) -> Option<Panel> {
     })
 }
 
-fn tip_panel(subject: &Subject<'_>, speeds: Vec<f64>) -> Panel {
-    let terms = &subject.plan.job;
+fn tip_panel(data: &FigureData<'_>, speeds: Vec<f64>) -> Panel {
+    let terms = &data.plan.job;
     let (anywhere, washing) = (terms.limits.tip_speed_m_s, terms.wash_speed_m_s());
     let panel = Panel::new("tip [m/s]", vec![(speeds, stroke(TRANSIT, 1.8))], [0.0, anywhere]);
     let limits = format!("limits: {anywhere} m/s anywhere, {washing} m/s while it washes");
@@ -169,10 +169,10 @@ impl Panel {
         }
     }
 
-    fn draw(&self, drawing: &mut Drawing, axes: &Axes, subject: &Subject<'_>, times: &[f64], below: Option<&str>) {
+    fn draw(&self, drawing: &mut Drawing, axes: &Axes, data: &FigureData<'_>, times: &[f64], below: Option<&str>) {
         let ([_, top], [_, height]) = (axes.frame.at, axes.frame.size);
         axes.draw(drawing, [12, 4], [below, Some(self.name)], |drawing| {
-            for (_, wash) in subject.washes() {
+            for (_, wash) in data.washes() {
                 let [from, to] = [wash.t_start_s, wash.t_end_s].map(|t| axes.across.at(t));
                 drawing.rect(
                     Rect::new(from, top, to - from, height),
@@ -213,9 +213,9 @@ fn colour(kind: SegmentKind) -> &'static str {
 }
 
 /// Draws the segments of the motion over time, as a strip above the diagrams.
-fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
+fn segments(drawing: &mut Drawing, data: &FigureData<'_>, axes: &Axes) {
     let top = axes.frame.at[1] - STRIP - 5.0;
-    for segment in &subject.plan.segments {
+    for segment in &data.plan.segments {
         let [from, to] = [segment.t_start_s, segment.t_end_s].map(|t| axes.across.at(t));
         let field = Rect::new(from, top, to - from, STRIP);
         drawing.rect(field, &fill(colour(segment.kind)));
@@ -230,17 +230,17 @@ fn segments(drawing: &mut Drawing, subject: &Subject<'_>, axes: &Axes) {
     }
 }
 
-fn entries(subject: &Subject<'_>) -> Vec<Entry> {
+fn entries(data: &FigureData<'_>) -> Vec<Entry> {
     let joint = |k: usize| Entry::new(Sign::Line, look(k), format!("joint {}", k + 1));
     let field = |kind, words| Entry::new(Sign::Field, fill(colour(kind)), words);
     let mut all: Vec<Entry> = (0..AXES).map(joint).collect();
     all.push(Entry::new(Sign::Line, stroke(BAD, 1.8) + DOTTED, "limit"));
-    if subject.has(SegmentKind::Wash) {
+    if data.has(SegmentKind::Wash) {
         all.push(field(SegmentKind::Wash, "washes"));
         all.push(field(SegmentKind::Transit, "transits"));
     }
     all.push(field(SegmentKind::Depart, "from and to home"));
-    if subject.has(SegmentKind::Approach) || subject.has(SegmentKind::Retreat) {
+    if data.has(SegmentKind::Approach) || data.has(SegmentKind::Retreat) {
         all.push(field(SegmentKind::Approach, "down and up"));
     }
     all

@@ -1,10 +1,10 @@
 //! The workcell from above: plates in their order, washed areas, the paths between (the paper's Fig. 2).
 
 use super::axes::fixed;
+use super::figure_data::{FigureData, Track, per_cent};
 use super::map::{Map, arm_look};
 use super::outline::{self, Outline, arm_outlines, solid};
 use super::page::{self, Entry, Sign, legend};
-use super::subject::{Subject, Track, per_cent};
 use super::svg::{
     BOLD, DASHED, DOTTED, Drawing, END, EXECUTED, GREY, GROUND, INK, LIFT, LINE, MIDDLE, PAPER, Rect, SMALL, Spot,
     TRANSIT, WASH, WORDS, outlined, stroke,
@@ -41,33 +41,33 @@ const ARROW: &str = "<defs><marker id=\"platewash-arrow\" markerWidth=\"9\" mark
                      <path d=\"M0 0L8 4L0 8Z\" fill=\"#0072b2\"/></marker></defs>\n";
 
 /// Draws it.
-pub(super) fn draw(subject: &Subject<'_>) -> Drawing {
-    let (mut drawing, room) = page::begin(&subject.texts("Layout", caption(subject)));
-    let [low, high] = extent(subject);
+pub(super) fn draw(data: &FigureData<'_>) -> Drawing {
+    let (mut drawing, room) = page::begin(&data.texts("Layout", caption(data)));
+    let [low, high] = extent(data);
     let (map, beside) = Map::new(room, low, high);
     drawing.raw(ARROW);
     map.draw(&mut drawing, |drawing| {
-        ground(drawing, &map, subject);
-        draw_paths(drawing, &map, subject);
-        numbers(drawing, &map, subject);
+        ground(drawing, &map, data);
+        draw_paths(drawing, &map, data);
+        numbers(drawing, &map, data);
     });
-    let end = legend(&mut drawing, beside.at, beside.size[0], &entries(subject)) + 22.0;
+    let end = legend(&mut drawing, beside.at, beside.size[0], &entries(data)) + 22.0;
     table(
         &mut drawing,
-        subject,
+        data,
         Rect::new(beside.at[0], end, beside.size[0], room.end()[1] - end),
     );
     drawing
 }
 
 /// Caption on the view: from above, and from behind the arm if the arm is not turned.
-fn caption(subject: &Subject<'_>) -> String {
-    let from = if subject.mount().rotation == UnitQuaternion::identity() {
+fn caption(data: &FigureData<'_>) -> String {
+    let from = if data.mount().rotation == UnitQuaternion::identity() {
         "Seen from above, from behind the arm: x leads away from it, y to its left."
     } else {
         "Seen from above: the room's x leads up the page, its y to the left."
     };
-    let table = match subject.plan.order.is_empty() {
+    let table = match data.plan.order.is_empty() {
         true => ".",
         false => "; the table has them in the order of washing, along the arrows.",
     };
@@ -75,21 +75,17 @@ fn caption(subject: &Subject<'_>) -> String {
 }
 
 /// Least and greatest x and y of everything that is drawn \[m\].
-fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
+fn extent(data: &FigureData<'_>) -> [[f64; 2]; 2] {
     let mut all: Vec<([f64; 2], f64)> = Vec::new();
-    let plates = &subject.plan.job.plates;
+    let plates = &data.plan.job.plates;
     all.extend(plates.iter().map(|plate| (plate.centre_xy(), plate.rim_m())));
-    let tracks = subject
-        .planned
-        .iter()
-        .chain(subject.followed.iter().flatten())
-        .flatten();
+    let tracks = data.planned.iter().chain(data.followed.iter().flatten()).flatten();
     all.extend(tracks.map(|tip| ([tip.at.x, tip.at.y], 0.0)));
-    if let Some(radius_m) = subject.region.base_circle_m {
-        all.push((subject.mount().translation.vector.xy().into(), radius_m));
+    if let Some(radius_m) = data.region.base_circle_m {
+        all.push((data.mount().translation.vector.xy().into(), radius_m));
     }
-    all.extend(arm(subject).into_iter().flatten().map(|corner| (corner, 0.0)));
-    all.extend(subject.region.polygon_m.iter().flatten().map(|corner| (*corner, 0.0)));
+    all.extend(arm(data).into_iter().flatten().map(|corner| (corner, 0.0)));
+    all.extend(data.region.polygon_m.iter().flatten().map(|corner| (*corner, 0.0)));
     let bounds = |all: &[([f64; 2], f64)]| {
         let least = |k: usize| all.iter().map(|(at, r)| at[k] - r).fold(f64::INFINITY, f64::min);
         let most = |k: usize| all.iter().map(|(at, r)| at[k] + r).fold(f64::NEG_INFINITY, f64::max);
@@ -98,18 +94,18 @@ fn extent(subject: &Subject<'_>) -> [[f64; 2]; 2] {
     // Bodies around widen the view by a border at most.
     let [low, high] = bounds(&all);
     let near = |corner: [f64; 2]| [0, 1].map(|k| corner[k].clamp(low[k] - AROUND_M, high[k] + AROUND_M));
-    let obstacles = outline::obstacles(&subject.plan.job.workcell);
+    let obstacles = outline::obstacles(&data.plan.job.workcell);
     all.extend(obstacles.into_iter().flatten().map(|corner| (near(corner), 0.0)));
     bounds(&all)
 }
 
 /// Draws the region of the plates, the circle about the base, the bodies around, the plates and the arm at its start.
-fn ground(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
-    let (job, region) = (&subject.plan.job, &subject.region);
+fn ground(drawing: &mut Drawing, map: &Map, data: &FigureData<'_>) {
+    let (job, region) = (&data.plan.job, &data.region);
     if let Some(polygon) = &region.polygon_m {
         drawing.polygon(&map.spots(polygon), &(outlined(GROUND, LINE, 1.4) + DASHED));
     }
-    let base = subject.mount().translation.vector;
+    let base = data.mount().translation.vector;
     if let Some(radius_m) = region.base_circle_m {
         let circle = stroke(GREY, 1.6) + DOTTED;
         drawing.circle(map.spot([base.x, base.y]), map.pixels(radius_m), &circle);
@@ -131,13 +127,13 @@ fn ground(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
             inside.for_each(|knot| drawing.circle(at, map.pixels(knot.radius_m), &stroke("#dde2e8", 1.0)));
         }
     }
-    map.arm(drawing, &arm(subject));
+    map.arm(drawing, &arm(data));
 }
 
 /// The arm at the start of the motion: at home, or at the stop of a recovery.
-fn arm(subject: &Subject<'_>) -> Vec<Outline> {
-    let job = &subject.plan.job;
-    arm_outlines(subject.arm, &job.workcell.tool, subject.mount(), &job.home_rad[0])
+fn arm(data: &FigureData<'_>) -> Vec<Outline> {
+    let job = &data.plan.job;
+    arm_outlines(data.arm, &job.workcell.tool, data.mount(), &job.home_rad[0])
 }
 
 fn is_level(plate: &Plate) -> bool {
@@ -156,10 +152,10 @@ fn tilted_plate(plate: &Plate) -> Outline {
     )
 }
 
-fn draw_paths(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
+fn draw_paths(drawing: &mut Drawing, map: &Map, data: &FigureData<'_>) {
     let spot = |tip: &Tip| map.spot([tip.at.x, tip.at.y]);
     let parts = |of: &[SegmentKind]| -> Vec<Vec<Spot>> {
-        let all = subject.plan.segments.iter().zip(&subject.planned);
+        let all = data.plan.segments.iter().zip(&data.planned);
         let wanted = all.filter(|(segment, _)| of.contains(&segment.kind));
         wanted.map(|(_, way)| way.iter().map(spot).collect()).collect()
     };
@@ -184,18 +180,18 @@ fn draw_paths(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
         &parts(&[SegmentKind::Approach, SegmentKind::Retreat]),
         &stroke(LIFT, 3.4),
     );
-    if let Some((followed, _)) = seen_apart(subject) {
+    if let Some((followed, _)) = seen_apart(data) {
         let executed = followed.iter().flatten().map(spot).collect();
         drawing.lines(&[executed], &stroke(EXECUTED, 1.3));
     }
-    if let Some(home) = subject.planned.iter().flatten().next() {
+    if let Some(home) = data.planned.iter().flatten().next() {
         drawing.circle(spot(home), 7.0, &outlined(PAPER, INK, 2.6));
     }
 }
 
 /// The number of each plate.
-fn numbers(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
-    for (index, plate) in subject.plan.job.plates.iter().enumerate() {
+fn numbers(drawing: &mut Drawing, map: &Map, data: &FigureData<'_>) {
+    for (index, plate) in data.plan.job.plates.iter().enumerate() {
         let size = (0.4 * map.pixels(plate.rim_m())).clamp(9.0, 24.0);
         let [x, y] = map.spot(plate.centre_xy());
         let letters = format!("font-size=\"{size:.1}\" font-weight=\"bold\" fill=\"{INK}\"");
@@ -205,20 +201,20 @@ fn numbers(drawing: &mut Drawing, map: &Map, subject: &Subject<'_>) {
 }
 
 /// Returns the executed path, where it differs visibly from the planned one.
-fn seen_apart<'s>(subject: &'s Subject<'_>) -> Option<(&'s Track, &'s SimulationReport)> {
-    let both = subject.followed.as_ref().zip(subject.report);
+fn seen_apart<'s>(data: &'s FigureData<'_>) -> Option<(&'s Track, &'s SimulationReport)> {
+    let both = data.followed.as_ref().zip(data.report);
     both.filter(|(_, report)| report.tracking.tip_m.max > APART_M)
 }
 
 /// The plates in their order, as many as there is room for.
-fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
-    let order = &subject.plan.order;
+fn table(drawing: &mut Drawing, data: &FigureData<'_>, room: Rect) {
+    let order = &data.plan.order;
     if order.is_empty() {
         return;
     }
     let height = (room.size[1] / (order.len() + 1) as f64).clamp(26.0, ROW);
     let shown = (room.size[1] / height) as usize;
-    let share = match (subject.certificate, subject.plan.job.treatment()) {
+    let share = match (data.certificate, data.plan.job.treatment()) {
         (Some(_), Treatment::Washed) => "pressed ≥",
         (Some(_), Treatment::Swept) => "proved ≥",
         (Some(_), Treatment::SweptInAir) => "in the air ≥",
@@ -234,38 +230,38 @@ fn table(drawing: &mut Drawing, subject: &Subject<'_>, room: Rect) {
     let head = ["order", "plate", "x [m]", "y [m]", share].map(str::to_owned);
     row(0, head, [SMALL; 2]);
     for (place, &index) in order.iter().enumerate().take(shown.saturating_sub(1)) {
-        let Some(plate) = subject.plan.job.plates.get(index) else {
+        let Some(plate) = data.plan.job.plates.get(index) else {
             continue;
         };
         let [x, y] = plate.centre_xy().map(|metres| fixed(metres, 3));
-        let share = share_of(subject, plate, index).map_or_else(|| "–".to_owned(), per_cent);
+        let share = share_of(data, plate, index).map_or_else(|| "–".to_owned(), per_cent);
         let cells = [format!("{}.", place + 1), format!("{}", index + 1), x, y, share];
         row(place + 1, cells, [BOLD, WORDS]);
     }
 }
 
 /// The share of a plate that is proved; without a certificate, the one that an arm swept.
-fn share_of(subject: &Subject<'_>, plate: &Plate, index: usize) -> Option<f64> {
-    let counted = PressedRule::on(plate, &subject.plan.job);
-    if let Some(certificate) = subject.certificate {
+fn share_of(data: &FigureData<'_>, plate: &Plate, index: usize) -> Option<f64> {
+    let counted = PressedRule::on(plate, &data.plan.job);
+    if let Some(certificate) = data.certificate {
         return proved_share(certificate, index, counted);
     }
-    let outcome = subject.report?.plates.iter().find(|outcome| outcome.plate == index)?;
+    let outcome = data.report?.plates.iter().find(|outcome| outcome.plate == index)?;
     Some(outcome.executed.lower)
 }
 
-fn entries(subject: &Subject<'_>) -> Vec<Entry> {
-    let (job, region) = (&subject.plan.job, &subject.region);
+fn entries(data: &FigureData<'_>) -> Vec<Entry> {
+    let (job, region) = (&data.plan.job, &data.region);
     let transits = stroke(TRANSIT, 2.4) + DASHED;
     let wash = Entry::new(Sign::Line, stroke(WASH, 2.4), "the tip while it washes");
-    let mut all: Vec<_> = subject.has(SegmentKind::Wash).then_some(wash).into_iter().collect();
+    let mut all: Vec<_> = data.has(SegmentKind::Wash).then_some(wash).into_iter().collect();
     all.push(Entry::new(Sign::Line, transits, "transits, and from and to home"));
-    if subject.has(SegmentKind::Approach) || subject.has(SegmentKind::Retreat) {
+    if data.has(SegmentKind::Approach) || data.has(SegmentKind::Retreat) {
         all.push(Entry::new(Sign::Line, stroke(LIFT, 3.4), "down to a plate and up"));
     }
-    if let Some(report) = subject.report {
+    if let Some(report) = data.report {
         let (law, off_mm) = (report.law.name(), 1e3 * report.tracking.tip_m.max + 0.005);
-        all.push(match seen_apart(subject) {
+        all.push(match seen_apart(data) {
             Some(_) => Entry::new(
                 Sign::Line,
                 stroke(EXECUTED, 1.3),

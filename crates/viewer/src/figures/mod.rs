@@ -5,7 +5,7 @@
 //! | concept | file |
 //! | --- | --- |
 //! | the figures by name | `names.rs` |
-//! | their data | `subject.rs` |
+//! | their data | `figure_data.rs` |
 //! | from above, with paths and ways (the paper's Fig. 2) | `layout.rs` |
 //! | joints and tip over time | `joints.rs` |
 //! | ideal and executed path | `spiral.rs` |
@@ -18,6 +18,7 @@ mod axes;
 mod coverage;
 mod error;
 mod fields;
+mod figure_data;
 mod joints;
 mod layout;
 mod map;
@@ -26,14 +27,13 @@ mod outline;
 mod page;
 mod region;
 mod spiral;
-mod subject;
 mod svg;
 
 pub use error::FigureError;
+pub use figure_data::{FigureData, IdealPath};
 pub use names::{Figure, UnknownFigure};
 pub use outline::{Outline, arm_outlines};
 pub use region::{RegionMap, draw_region};
-pub use subject::{IdealPath, Subject};
 
 use platewash_workcell::words::quoted;
 
@@ -41,14 +41,14 @@ use platewash_workcell::words::quoted;
 ///
 /// # Errors
 /// [`FigureError`]: the plan has nothing to show in this figure.
-pub fn draw(subject: &Subject<'_>, figure: Figure) -> Result<String, FigureError> {
+pub fn draw(data: &FigureData<'_>, figure: Figure) -> Result<String, FigureError> {
     let drawing = match figure {
-        Figure::Layout => layout::draw(subject),
-        Figure::Joints => joints::draw(subject),
-        Figure::Coverage => coverage::draw(subject)?,
-        Figure::Spiral => spiral::draw(subject)?,
+        Figure::Layout => layout::draw(data),
+        Figure::Joints => joints::draw(data),
+        Figure::Coverage => coverage::draw(data)?,
+        Figure::Spiral => spiral::draw(data)?,
     };
-    let scenario = quoted(&subject.plan.provenance.scenario);
+    let scenario = quoted(&data.plan.provenance.scenario);
     Ok(drawing.finish(page::SIZE, &format!("{}: {scenario}", figure.name())))
 }
 

@@ -5,7 +5,7 @@ use platewash_kinematics::geometry::{Shape, VisualShape};
 use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{AXES, Frame, JointVector, Link, Pose, RobotModel};
 use platewash_workcell::tool::Tool;
-use platewash_workcell::workcell::{ObstacleShape, Workcell};
+use platewash_workcell::{ObstacleShape, Workcell};
 use std::f64::consts::TAU;
 
 /// A convex outline, world frame \[m\].

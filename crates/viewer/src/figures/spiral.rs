@@ -3,8 +3,8 @@
 use super::axes::{Axes, ROOM};
 use super::error::FigureError;
 use super::fields::{Fields, colour_cells};
+use super::figure_data::{FigureData, first_of, per_cent, short};
 use super::page::{self, Entry, Sign, legend};
-use super::subject::{Subject, first_of, per_cent, short};
 use super::svg::{DASHED, Drawing, END, EXECUTED, GREY, GROUND, INK, LINE, Rect, Spot, fill, fitted, stroke};
 use crate::view::tips::Tip;
 use platewash_workcell::plate::Plate;
@@ -31,19 +31,19 @@ const IDEAL: &str = "#e27fbb";
 ///
 /// # Errors
 /// [`FigureError::NothingWashed`].
-pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
-    let panels: Vec<Panel<'_>> = subject
+pub(super) fn draw(data: &FigureData<'_>) -> Result<Drawing, FigureError> {
+    let panels: Vec<Panel<'_>> = data
         .washes()
-        .map(|(segment, wash)| Panel::new(subject, segment, wash.plate))
+        .map(|(segment, wash)| Panel::new(data, segment, wash.plate))
         .collect();
     if panels.is_empty() {
         return Err(FigureError::NothingWashed { figure: "spiral" });
     }
     let shown = &panels[..panels.len().min(MOST)];
-    let (mut drawing, room) = page::begin(&subject.texts("Ideal and executed path", caption(subject, panels.len())));
-    let top = legend(&mut drawing, room.at, room.size[0], &entries(subject)) + 12.0;
+    let (mut drawing, room) = page::begin(&data.texts("Ideal and executed path", caption(data, panels.len())));
+    let top = legend(&mut drawing, room.at, room.size[0], &entries(data)) + 12.0;
     let field = Rect::new(room.at[0], top, room.size[0], room.end()[1] - top);
-    let has_errors = subject.report.is_some() && shown.len() <= FEW;
+    let has_errors = data.report.is_some() && shown.len() <= FEW;
     let fields = match has_errors {
         true => Fields::new(field, shown.len(), Some(shown.len()), UNDER + ERRORS),
         false => Fields::new(field, shown.len(), None, UNDER),
@@ -61,8 +61,8 @@ pub(super) fn draw(subject: &Subject<'_>) -> Result<Drawing, FigureError> {
     Ok(drawing)
 }
 
-fn caption(subject: &Subject<'_>, plates: usize) -> String {
-    let what = match subject.report {
+fn caption(data: &FigureData<'_>, plates: usize) -> String {
+    let what = match data.report {
         Some(report) => format!("under the law “{}”", report.law.name()),
         None => "as planned; nothing was simulated".to_owned(),
     };
@@ -73,25 +73,21 @@ fn caption(subject: &Subject<'_>, plates: usize) -> String {
     )
 }
 
-fn entries(subject: &Subject<'_>) -> Vec<Entry> {
-    let followed = if subject.report.is_some() {
-        "followed"
-    } else {
-        "planned"
-    };
+fn entries(data: &FigureData<'_>) -> Vec<Entry> {
+    let followed = if data.report.is_some() { "followed" } else { "planned" };
     vec![
         Entry::new(Sign::Line, stroke(IDEAL, 5.0), "to be followed"),
         Entry::new(Sign::Line, stroke(EXECUTED, 1.6), followed),
-        Entry::new(Sign::Field, fill(BAND), coloured_part_text(subject)),
+        Entry::new(Sign::Field, fill(BAND), coloured_part_text(data)),
         Entry::new(Sign::Line, stroke(LINE, 2.0), "the plate's rim"),
     ]
 }
 
 /// Describes the coloured part of a plate.
-fn coloured_part_text(subject: &Subject<'_>) -> String {
-    let job = &subject.plan.job;
+fn coloured_part_text(data: &FigureData<'_>) -> String {
+    let job = &data.plan.job;
     let sponge = format!("a sponge of {:.0} mm", 1e3 * job.workcell.tool.sponge.radius_m);
-    let counted = subject.counted();
+    let counted = data.counted();
     match counted.iter().flatten().find(|counted| counted.is_promised) {
         Some(counted) => format!(
             "pressed by {} mm or more by {sponge}, the plate within ±{} mm",
@@ -105,7 +101,7 @@ fn coloured_part_text(subject: &Subject<'_>) -> String {
 
 /// A plate with the segment that washes it.
 struct Panel<'a> {
-    subject: &'a Subject<'a>,
+    data: &'a FigureData<'a>,
     plate: &'a Plate,
     index: usize,
     segment: usize,
@@ -114,11 +110,11 @@ struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    fn new(subject: &'a Subject<'a>, segment: usize, index: usize) -> Self {
-        let track = subject.followed.as_ref().unwrap_or(&subject.planned);
+    fn new(data: &'a FigureData<'a>, segment: usize, index: usize) -> Self {
+        let track = data.followed.as_ref().unwrap_or(&data.planned);
         Self {
-            subject,
-            plate: &subject.plan.job.plates[index],
+            data,
+            plate: &data.plan.job.plates[index],
             index,
             segment,
             way: &track[segment],
@@ -126,7 +122,7 @@ impl<'a> Panel<'a> {
     }
 
     fn draw(&self, drawing: &mut Drawing, cell: Rect) {
-        let job = &self.subject.plan.job;
+        let job = &self.data.plan.job;
         let (rim, sponge) = (self.plate.rim_m(), job.workcell.tool.sponge.radius_m);
         // A sponge on the rim is in the frame; a path that goes farther is cut, and its distance stated.
         let half = 1.03 * (rim + sponge);
@@ -138,7 +134,7 @@ impl<'a> Panel<'a> {
             axes.at(local.x, local.y)
         };
         let line: Vec<Spot> = self.way.iter().map(|tip| spot(&tip.at)).collect();
-        let dwell_s = self.subject.dwell_s(self.plate, self.way, CELLS);
+        let dwell_s = self.data.dwell_s(self.plate, self.way, CELLS);
         drawing.within(cell, |drawing| {
             drawing.circle(middle, radius, &fill(GROUND));
             let face = Rect::new(middle[0] - radius, middle[1] - radius, 2.0 * radius, 2.0 * radius);
@@ -147,7 +143,7 @@ impl<'a> Panel<'a> {
                 is_reached(seconds).then_some(BAND)
             });
             drawing.circle(middle, radius, &stroke(LINE, 2.0));
-            for ideal in self.subject.ideal.iter().filter(|ideal| ideal.plate == self.index) {
+            for ideal in self.data.ideal.iter().filter(|ideal| ideal.plate == self.index) {
                 drawing.lines(&[ideal.points.iter().map(spot).collect()], &stroke(IDEAL, 5.0));
             }
             drawing.lines(std::slice::from_ref(&line), &stroke(EXECUTED, 1.6));
@@ -161,15 +157,15 @@ impl<'a> Panel<'a> {
 
     /// Distance of the tip from where the plan has it, over the time of the wash.
     fn errors(&self, drawing: &mut Drawing, frame: Rect) {
-        let subject = self.subject;
-        let (Some(report), [from, .., to]) = (subject.report, self.way) else {
+        let data = self.data;
+        let (Some(report), [from, .., to]) = (data.report, self.way) else {
             return;
         };
-        let tips = crate::view::tips::Tips::new(subject.plan, subject.arm, &subject.motion);
+        let tips = crate::view::tips::Tips::new(data.plan, data.arm, &data.motion);
         let off = |tip: &Tip| Some((tip.t_s - from.t_s, 1e3 * (tip.at - tips.at(tip.t_s)?.at).norm()));
         let errors: Vec<(f64, f64)> = self.way.iter().filter_map(off).collect();
         // One scale for all plates.
-        let washes = subject.washes().filter_map(|(segment, _)| report.segments.get(segment));
+        let washes = data.washes().filter_map(|(segment, _)| report.segments.get(segment));
         let most = washes.map(|wash| 1e3 * wash.tracking.tip_m.max).fold(1e-6, f64::max);
         let most = errors.iter().map(|(_, error)| *error).fold(most, f64::max);
         let axes = Axes::new(frame, [0.0, (to.t_s - from.t_s).max(1e-6)], [0.0, 1.1 * most]);
@@ -198,7 +194,7 @@ impl<'a> Panel<'a> {
             0.42,
             &[&bold],
         );
-        let Some(report) = self.subject.report else {
+        let Some(report) = self.data.report else {
             return;
         };
         if let Some(outcome) = report.plates.iter().find(|outcome| outcome.plate == self.index) {
@@ -210,7 +206,7 @@ impl<'a> Panel<'a> {
             let words = format!("error ≤ {max} mm, {rms} mm rms");
             text([x, y + 50.0], &words, 18.0, 1.0, &[&grey]);
         }
-        if self.subject.is_paper() {
+        if self.data.is_paper() {
             let local = self.way.iter().map(|tip| self.plate.local(&tip.at).xy().norm());
             let [far, rim] = [local.fold(0.0, f64::max), self.plate.rim_m()].map(|metres| 1e3 * metres);
             let words = format!("≤ {far:.0} mm from the centre (rim {rim:.0})");

@@ -27,13 +27,13 @@ struct WashExample {
 }
 
 impl WashExample {
-    fn subject(&self) -> Subject<'_> {
-        let subject = Subject::new(&self.plan, self.job.arm()).unwrap();
-        let mut subject = subject.executed(&self.execution, &self.report).unwrap();
-        subject.certificate = Some(&self.certificate);
-        subject.region.base_circle_m = Some(0.28);
-        subject.region.polygon_m = Some(vec![[0.0, -0.38], [0.3, -0.38], [0.3, 0.38], [0.0, 0.38]]);
-        subject
+    fn data(&self) -> FigureData<'_> {
+        let data = FigureData::new(&self.plan, self.job.arm()).unwrap();
+        let mut data = data.executed(&self.execution, &self.report).unwrap();
+        data.certificate = Some(&self.certificate);
+        data.region.base_circle_m = Some(0.28);
+        data.region.polygon_m = Some(vec![[0.0, -0.38], [0.3, -0.38], [0.3, 0.38], [0.0, 0.38]]);
+        data
     }
 }
 
@@ -108,9 +108,9 @@ fn points(path: &str) -> Vec<[f64; 2]> {
 
 #[test]
 fn no_text_is_cut_or_lies_on_another() {
-    let subject = KNOWN.subject();
+    let data = KNOWN.data();
     for figure in Figure::ALL {
-        assert_readable(&draw(&subject, figure).unwrap(), figure.name());
+        assert_readable(&draw(&data, figure).unwrap(), figure.name());
     }
 }
 
@@ -118,9 +118,9 @@ fn no_text_is_cut_or_lies_on_another() {
 fn escapes_a_hostile_name_and_keeps_it_within_the_sheet() {
     let mut plan = KNOWN.plan.clone();
     plan.provenance.scenario = "</title><script>\"&\u{202e}\u{7}\n".repeat(400);
-    let subject = Subject::new(&plan, KNOWN.job.arm()).unwrap();
+    let data = FigureData::new(&plan, KNOWN.job.arm()).unwrap();
     for figure in [Figure::Layout, Figure::Joints, Figure::Spiral] {
-        let svg = draw(&subject, figure).unwrap();
+        let svg = draw(&data, figure).unwrap();
         assert_readable(&svg, figure.name());
         assert!(!svg.contains("<script"), "{figure:?}");
         assert!(svg.chars().all(|c| !c.is_control() || c == '\n'), "{figure:?}");
@@ -129,8 +129,8 @@ fn escapes_a_hostile_name_and_keeps_it_within_the_sheet() {
 
 #[test]
 fn the_layout_has_the_plans_wash_paths_and_transits() {
-    let subject = KNOWN.subject();
-    let svg = draw(&subject, Figure::Layout).unwrap();
+    let data = KNOWN.data();
+    let svg = draw(&data, Figure::Layout).unwrap();
     let group = |name: &str| {
         let from = svg.find(&format!("<g class=\"{name}\">")).unwrap();
         &svg[from..from + svg[from..].find("</g>").unwrap()]
@@ -146,10 +146,10 @@ fn the_layout_has_the_plans_wash_paths_and_transits() {
     // Seen from above: a similarity that turns a quarter takes the plan's places to the drawing's.
     let ends = |wash: &[[f64; 2]]| [wash[0], wash[wash.len() - 1]];
     let drawn: Vec<[f64; 2]> = washes.iter().flat_map(|wash| ends(wash)).collect();
-    let planned: Vec<Vector3<f64>> = subject
+    let planned: Vec<Vector3<f64>> = data
         .washes()
         .flat_map(|(segment, _)| {
-            let way = &subject.planned[segment];
+            let way = &data.planned[segment];
             [way[0].at, way[way.len() - 1].at]
         })
         .collect();
@@ -169,10 +169,10 @@ fn the_layout_has_the_plans_wash_paths_and_transits() {
 
 #[test]
 fn the_spiral_that_is_drawn_is_the_wash_path() {
-    let subject = KNOWN.subject();
-    for ideal in &subject.ideal {
-        let plate = &subject.plan.job.plates[ideal.plate];
-        let path = subject.plan.wash_path_of(ideal.plate).unwrap();
+    let data = KNOWN.data();
+    for ideal in &data.ideal {
+        let plate = &data.plan.job.plates[ideal.plate];
+        let path = data.plan.wash_path_of(ideal.plate).unwrap();
         let [first, last] = path.feet(plate);
         assert!((ideal.points[0] - first).norm() < 1e-12);
         assert!((ideal.points[ideal.points.len() - 1] - last).norm() < 1e-12);
@@ -183,8 +183,8 @@ fn the_spiral_that_is_drawn_is_the_wash_path() {
             .fold(0.0, f64::max);
         assert!((farthest - path.curve.radius_m).abs() < 1e-12);
         // The planned tip follows it.
-        let (segment, _) = subject.washes().find(|(_, wash)| wash.plate == ideal.plate).unwrap();
-        for point in &subject.planned[segment] {
+        let (segment, _) = data.washes().find(|(_, wash)| wash.plate == ideal.plate).unwrap();
+        for point in &data.planned[segment] {
             let near = ideal.points.iter().map(|at| (at - point.at).norm()).fold(1.0, f64::min);
             assert!(near < 5e-3, "{near} m at {} s", point.t_s);
         }
@@ -193,12 +193,12 @@ fn the_spiral_that_is_drawn_is_the_wash_path() {
 
 #[test]
 fn the_same_plan_gives_the_same_bytes_for_every_number_of_threads() {
-    let subject = KNOWN.subject();
+    let data = KNOWN.data();
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let all = [Figure::Layout, Figure::Joints, Figure::Coverage];
-            all.map(|figure| draw(&subject, figure).unwrap())
+            all.map(|figure| draw(&data, figure).unwrap())
         })
     };
     assert_eq!(with(1), with(3));
@@ -215,7 +215,7 @@ fn reports_figures_that_cannot_be_drawn() {
     let refused = |change: &dyn Fn(&mut Plan)| {
         let mut plan = known.plan.clone();
         change(&mut plan);
-        Subject::new(&plan, known.job.arm()).map(|_| ()).unwrap_err()
+        FigureData::new(&plan, known.job.arm()).map(|_| ()).unwrap_err()
     };
     let none = |plan: &mut Plan| {
         plan.knots.t_s.clear();
@@ -239,12 +239,12 @@ fn reports_figures_that_cannot_be_drawn() {
     assert!(matches!(refused(&lost), FigureError::NoPlate { plate: 0 }));
     let mut plan = known.plan.clone();
     plan.segments.retain(|segment| segment.kind != SegmentKind::Wash);
-    let subject = Subject::new(&plan, known.job.arm()).unwrap();
+    let data = FigureData::new(&plan, known.job.arm()).unwrap();
     for figure in [Figure::Coverage, Figure::Spiral] {
-        let refused = draw(&subject, figure).unwrap_err();
+        let refused = draw(&data, figure).unwrap_err();
         assert!(matches!(refused, FigureError::NothingWashed { .. }), "{figure:?}");
     }
-    draw(&subject, Figure::Layout).unwrap();
+    draw(&data, Figure::Layout).unwrap();
 }
 
 #[test]
@@ -277,9 +277,9 @@ fn a_hundred_plates_are_drawn_legibly() {
         t_end_s: at(k + 1),
     };
     plan.segments = (0..100).map(short).collect();
-    let subject = Subject::new(&plan, KNOWN.job.arm()).unwrap();
+    let data = FigureData::new(&plan, KNOWN.job.arm()).unwrap();
     for figure in [Figure::Layout, Figure::Spiral, Figure::Coverage, Figure::Joints] {
-        assert_readable(&draw(&subject, figure).unwrap(), figure.name());
+        assert_readable(&draw(&data, figure).unwrap(), figure.name());
     }
 }
 
@@ -334,9 +334,9 @@ fn text_has_enough_contrast_on_white() {
         };
         0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
     };
-    let subject = KNOWN.subject();
+    let data = KNOWN.data();
     for figure in Figure::ALL {
-        let svg = draw(&subject, figure).unwrap();
+        let svg = draw(&data, figure).unwrap();
         for text in svg.lines().filter(|line| line.starts_with("<text ")) {
             let colour = attribute(text, "fill").unwrap();
             // White letters lie on the colour of washing.
@@ -426,9 +426,9 @@ fn crosses(a: &Outline, b: &Outline) -> bool {
 
 #[test]
 fn plates_are_numbered_from_one() {
-    let subject = KNOWN.subject();
+    let data = KNOWN.data();
     for figure in [Figure::Joints, Figure::Coverage, Figure::Spiral] {
-        let said = draw(&subject, figure).unwrap();
+        let said = draw(&data, figure).unwrap();
         assert!(
             said.contains("plate 1") && said.contains("plate 2"),
             "{}",
@@ -440,17 +440,14 @@ fn plates_are_numbered_from_one() {
 
 #[test]
 fn washing_is_shaded_in_every_diagram_over_its_time() {
-    let subject = KNOWN.subject();
-    let svg = draw(&subject, Figure::Joints).unwrap();
+    let data = KNOWN.data();
+    let svg = draw(&data, Figure::Joints).unwrap();
     let shades: Vec<f64> = svg
         .lines()
         .filter(|line| line.contains("fill-opacity=\"0.07\""))
         .map(|line| attribute(line, "width").unwrap().parse().unwrap())
         .collect();
-    let washes: Vec<f64> = subject
-        .washes()
-        .map(|(_, wash)| wash.t_end_s - wash.t_start_s)
-        .collect();
+    let washes: Vec<f64> = data.washes().map(|(_, wash)| wash.t_end_s - wash.t_start_s).collect();
     assert_eq!(shades.len(), 5 * washes.len());
     for (k, shade) in shades.iter().enumerate() {
         let scale = shades[0] / washes[0];

@@ -1,7 +1,13 @@
 //! Page of a motion of an arm alone, of any planner: the motion, its proof and the worst places.
 
+use super::arm::Arm;
+use super::certificate::{Certificate, Check};
 use super::clearance::{Clearance, even_times};
-use super::{Arm, Certificate, Check, Heading, Motion, Numbers, Surroundings, View, ViewError};
+use super::document::{Surroundings, View};
+use super::error::ViewError;
+use super::heading::Heading;
+use super::motion::Motion;
+use super::numbers::Numbers;
 use nalgebra::Vector6;
 use platewash_bodies::clearance::ClearanceModel;
 use platewash_certificate::{self as proved, Status};
@@ -9,7 +15,7 @@ use platewash_kinematics::{AXES, RobotModel};
 use platewash_motion::piecewise::PiecewiseMotion;
 use platewash_motion::trajectory::{PlanSegment, SegmentKind};
 use platewash_workcell::words::printable;
-use platewash_workcell::workcell::{Exclusion, Workcell};
+use platewash_workcell::{Exclusion, Workcell};
 
 /// Time between two knots of the motion that is shown, at most \[s\].
 const STEP_S: f64 = 0.01;

@@ -75,7 +75,7 @@ impl Check {
             words: check.requirement.words(),
             detail: check.detail(),
             place: place(&check.worst),
-            why: Explanation::of(check, basis),
+            why: Explanation::new(check, basis),
             check: check.clone(),
         }
     }

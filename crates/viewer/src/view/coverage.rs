@@ -7,7 +7,7 @@
 
 use super::pressed::PressedRule;
 use super::raster::{Disc, Marks, Raster};
-use super::thinned;
+use super::thin::thinned;
 use super::tips::{Tip, washes};
 use platewash_certificate as proved;
 use platewash_motion::plan::Plan;

@@ -3,7 +3,7 @@
 use super::coverage::{self, PlateCoverage};
 use super::error::ViewError;
 use super::numbers::Numbers;
-use super::thinned;
+use super::thin::thinned;
 use super::tips::{Tip, Tips};
 use platewash_certificate as proved;
 use platewash_kinematics::JointVector;
@@ -189,7 +189,7 @@ impl Execution {
         let shown = thinned_samples(samples, plan.job.plates.len());
         let off_m = |sample: &&RecordedSample| {
             let planned = tips.at(sample.t_s)?.at;
-            Some((tips.of(&sample.q, sample.t_s).at - planned).norm())
+            Some((tips.tip(&sample.q, sample.t_s).at - planned).norm())
         };
         let coverage = if samples.is_empty() {
             Vec::new()
@@ -237,7 +237,7 @@ fn tip_between(samples: &[RecordedSample], tips: &Tips<'_>, [from_s, to_s]: [f64
     let during = thinned(samples.get(first..last).unwrap_or_default(), is_later(WASH_STEP_S));
     during
         .into_iter()
-        .map(|sample| tips.of(&sample.q, sample.t_s))
+        .map(|sample| tips.tip(&sample.q, sample.t_s))
         .collect()
 }
 

@@ -44,7 +44,7 @@ impl<'a> Tips<'a> {
     }
 
     /// The tip in a configuration \[rad\] at a moment \[s\].
-    pub fn of(&self, q: &JointVector, t_s: f64) -> Tip {
+    pub fn tip(&self, q: &JointVector, t_s: f64) -> Tip {
         let pose = self.mount.then(&self.robot.fk(q).rigid(&self.tip));
         Tip {
             t_s,
@@ -56,7 +56,7 @@ impl<'a> Tips<'a> {
     /// The planned tip at a moment \[s\].
     pub fn at(&self, t_s: f64) -> Option<Tip> {
         let state = self.motion.at(t_s)?;
-        Some(self.of(&state.q, t_s))
+        Some(self.tip(&state.q, t_s))
     }
 
     /// The planned tip from one time to another \[s\], close enough that straight lines between its moments are the way.

@@ -3,9 +3,7 @@
 //! A statement that a kind of plan has no use for is refused: whatever rests on it would rest on nothing.
 
 use crate::dry_run::DryRun;
-use crate::job::error::TermsError;
 use crate::job::recovery::Recovery;
-use crate::job::terms::JobTerms;
 use std::fmt;
 
 /// Kind of a plan, by what its job states.
@@ -60,12 +58,6 @@ pub enum StatementRule {
 impl PlanKind {
     /// All kinds.
     pub const ALL: [Self; 4] = [Self::Wash, Self::DryRun, Self::MotionHome, Self::Rest];
-
-    /// Returns the kind of a job's plan.
-    #[must_use]
-    pub fn of(job: &JobTerms) -> Self {
-        Self::stated(job.dry_run.as_ref(), job.recovery.as_ref())
-    }
 
     /// Returns the kind of a plan that states this dry run and this recovery.
     #[must_use]
@@ -135,41 +127,4 @@ impl Statement {
             Self::Wrist => ("job.requirements.wrist_rad", [Judged, Judged, Refused, Judged]),
         }
     }
-
-    /// Returns true if a job makes the statement; `None` for a statement of the plan outside of its job.
-    fn is_made(self, job: &JobTerms) -> Option<bool> {
-        let wanted = &job.requirements;
-        match self {
-            Self::Order | Self::WashPaths => None,
-            Self::DryRun => Some(job.dry_run.is_some()),
-            Self::NearAtStop => Some(job.workcell.reduced_clearances.iter().any(|pair| pair.at_stop)),
-            Self::Contact => Some(wanted.contact.is_some()),
-            Self::Holder => Some(wanted.holder.is_some()),
-            Self::LandingSpeed => Some(wanted.landing_m_s.is_some()),
-            Self::LiftingSpeed => Some(wanted.lifting_m_s.is_some()),
-            Self::Wrist => Some(wanted.wrist_rad.is_some()),
-        }
-    }
-}
-
-/// Checks that a job makes the statements that its kind needs, and none that it has no use for. Order and wash paths are for the
-/// certificate.
-///
-/// # Errors
-/// [`TermsError::Statement`] with the first fault.
-pub(crate) fn check(job: &JobTerms) -> Result<(), TermsError> {
-    let kind = PlanKind::of(job);
-    for statement in Statement::ALL {
-        let is_needed = match (kind.rule(statement), statement.is_made(job)) {
-            (StatementRule::Needed, Some(false)) => true,
-            (StatementRule::Refused, Some(true)) => false,
-            _ => continue,
-        };
-        return Err(TermsError::Statement {
-            kind,
-            path: statement.path(),
-            is_needed,
-        });
-    }
-    Ok(())
 }

@@ -6,27 +6,33 @@
 //! | the terms: everything about a job but the arm; in the frame of the base | `terms` |
 //! | kinds of plans, and the statements that each may make | `kind` |
 //! | requirements and limits | `requirements` |
-//! | what is left to do after a stop | `recovery` |
+//! | what is left to do after a stop; its jobs | `recovery`; `recovery_terms` |
 //! | shapes of plates that were measured | `measured_shape` |
-//! | kinds of soil, and the requirements of each plate | `soil` |
+//! | kinds of soil; the requirements of each plate | `soil`; `plate_requirements` |
+//! | validity of the terms | `validity`, `ranges` |
 //! | errors | `error` |
 
 mod error;
 mod kind;
 mod measured_shape;
+mod plate_requirements;
+mod ranges;
 mod recovery;
+mod recovery_terms;
 mod requirements;
 mod soil;
 mod terms;
+mod validity;
 
 pub use crate::job::error::TermsError;
 pub use crate::job::kind::{PlanKind, Statement, StatementRule};
 pub use crate::job::measured_shape::{MeasuredShape, Relief};
-pub use crate::job::recovery::{NEARER_M, RETREAT_M_S, Recovery, RecoveryPart, RetreatLine, retreat_speed_m_s};
+pub use crate::job::recovery::{NEARER_M, RETREAT_M_S, Recovery, RecoveryPart, RetreatLine};
 pub use crate::job::requirements::{
     CONTACT_SPEED_M_S, ContactRequirements, ContactThresholds, FixtureTerms, HolderTerms, LINE_TOLERANCE_M, Limits,
     OrderRule, Overlap, PATH_TOLERANCE_M, Planner, PlannerSettings, ReachBorders, Requirements, RingTerms, Treatment,
     WRIST_DEG,
 };
 pub use crate::job::soil::Soil;
-pub use crate::job::terms::{JobTerms, MAX_SEED, check_workcell};
+pub use crate::job::terms::{JobTerms, MAX_SEED};
+pub use crate::job::validity::check_workcell;

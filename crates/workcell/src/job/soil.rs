@@ -1,8 +1,8 @@
 //! Kinds of soil: the washing that each needs.
 
 use crate::job::error::TermsError;
+use crate::job::ranges::within;
 use crate::job::requirements::ContactRequirements;
-use crate::job::terms::{JobTerms, within};
 use crate::plate::Plate;
 use crate::wash_path::MOST_LAPS;
 use crate::words::printable;
@@ -112,52 +112,5 @@ impl Plate {
         ];
         let told: Vec<_> = parts.into_iter().flatten().collect();
         (!told.is_empty()).then(|| told.join("; "))
-    }
-}
-
-impl JobTerms {
-    /// Soil of a plate, if one is stated.
-    #[must_use]
-    pub fn soil_of(&self, plate: &Plate) -> Option<&Soil> {
-        self.soils.get(plate.terms.soil?)
-    }
-
-    /// Contact requirements of a plate: see [`ContactRequirements::of_plate`]; `None` without any.
-    #[must_use]
-    pub fn contact_of(&self, plate: &Plate) -> Option<ContactRequirements> {
-        Some(self.requirements.contact?.of_plate(plate, &self.soils))
-    }
-
-    /// Height by which a plate may lie higher or lower than stated, for its contact \[m\]: its deviation alone where contact is not required.
-    #[must_use]
-    pub fn height_error_of(&self, plate: &Plate) -> f64 {
-        let contact = self.contact_of(plate);
-        contact.map_or(plate.deviation_m(), |contact| contact.height_error_m)
-    }
-
-    /// Greatest speed of the tip while it washes a plate \[m/s\]: that of the job, or that of the plate's soil if it is less.
-    #[must_use]
-    pub fn wash_speed_of(&self, plate: &Plate) -> f64 {
-        let soil = self.soil_of(plate).and_then(|soil| soil.speed_m_s);
-        soil.map_or(self.wash_speed_m_s(), |speed| speed.min(self.wash_speed_m_s()))
-    }
-
-    /// Least number of times that the path on a plate goes round every ring.
-    #[must_use]
-    pub fn passes_of(&self, plate: &Plate) -> u32 {
-        self.soil_of(plate).and_then(|soil| soil.passes).unwrap_or(1)
-    }
-
-    /// Checks the soils, and that every plate's terms name one that there is.
-    pub(crate) fn check_soils(&self) -> Result<(), TermsError> {
-        self.soils.iter().try_for_each(Soil::validate)?;
-        let names_one = |index: Option<usize>, of: usize| index.is_none_or(|index| index < of);
-        let lost = |plate: &Plate| {
-            !names_one(plate.terms.soil, self.soils.len()) || !names_one(plate.terms.measured, self.measured.len())
-        };
-        match self.plates.iter().position(lost) {
-            Some(plate) => Err(TermsError::NoPlate { plate }),
-            None => Ok(()),
-        }
     }
 }

@@ -3,7 +3,7 @@
 //! The area in which plates are drawn, for display.
 
 use crate::layout::region::Region;
-use crate::trig::sin_cos;
+use platewash_kinematics::trig::sin_cos;
 use serde::Serialize;
 use ts_rs::TS;
 

@@ -2,7 +2,7 @@
 
 use crate::layout::outline::{Point, clip};
 use crate::layout::region::{Area, Region};
-use crate::trig::sin_cos;
+use platewash_kinematics::trig::sin_cos;
 
 /// Number of sides of the polygon that replaces the outer circle of `rho_m`. It is drawn around the circle.
 const CIRCLE_SIDES: usize = 64;

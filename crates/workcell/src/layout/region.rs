@@ -6,9 +6,9 @@
 
 use crate::layout::BaseFootprint;
 use crate::layout::error::{InputProblem, LayoutError, not_negative, range};
-use crate::trig::sin_cos;
 use nalgebra::Matrix3;
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::{Pose, RobotModel};
 use serde::{Deserialize, Serialize};
 

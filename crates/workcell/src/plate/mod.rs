@@ -11,9 +11,9 @@ pub use crate::plate::terms::PlateTerms;
 
 use crate::pose;
 use crate::surface::Surface;
-use crate::trig::atan2;
 use nalgebra::{Point3, Vector3};
 use platewash_kinematics::Pose;
+use platewash_kinematics::trig::atan2;
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -143,7 +143,7 @@ impl Plate {
     #[must_use]
     pub fn normal_at(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let local = self.local(point);
-        let phi = crate::trig::atan2(local.y, local.x);
+        let phi = platewash_kinematics::trig::atan2(local.y, local.x);
         self.pose.rotation * self.surface.normal(local.xy().norm(), phi).into_inner()
     }
 

@@ -22,10 +22,10 @@
 
 use crate::plate::Plate;
 use crate::surface::{Knot, MeridianPoint, Surface};
-use crate::trig::{cos, sin, sin_cos};
 use nalgebra::{Point3, Quaternion, UnitQuaternion};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
+use platewash_kinematics::trig::{cos, sin, sin_cos};
 use std::f64::consts::PI;
 
 /// Greatest height of a chord of the meridian above its arc, as a share of the rim's radius.

@@ -9,7 +9,7 @@
 //! - the curvature along the meridian is κ, that across it sin β / ρ,
 //! - the area is 2π ∫ ρ dℓ.
 
-use crate::trig::{asin, cos, sin, sin_cos};
+use platewash_kinematics::trig::{asin, cos, sin, sin_cos};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use thiserror::Error;

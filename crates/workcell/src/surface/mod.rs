@@ -13,8 +13,8 @@ pub use crate::surface::meridian::{
     Knot, MOST_KNOTS, Meridian, MeridianError, MeridianPoint, Patch, SHARPEST_M, STEEPEST_RAD, share_of_slope,
 };
 
-use crate::trig::sin_cos;
 use nalgebra::{Point3, Unit, Vector3};
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::words::rounded;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};

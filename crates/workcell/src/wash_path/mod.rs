@@ -22,9 +22,9 @@ pub use crate::wash_path::spiral::BLEND_RAD;
 
 use crate::plate::Plate;
 use crate::surface::Surface;
-use crate::trig::sin_cos;
 use crate::wash_path::pattern::{PatternPath, of_pattern};
 use nalgebra::{Vector2, Vector3};
+use platewash_kinematics::trig::sin_cos;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 

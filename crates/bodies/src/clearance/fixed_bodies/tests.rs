@@ -2,7 +2,7 @@ use crate::clearance::fixed_bodies::*;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
-use platewash_workcell::workcell::ObstacleShape;
+use platewash_workcell::ObstacleShape;
 use proptest::prelude::*;
 
 proptest! {

@@ -5,7 +5,8 @@
 //! [`directions`], a little too small: they shape a proposal, and nothing else.
 
 use crate::clearance::convex::ConvexHull;
-use crate::clearance::solid::{Cuts, Part, SolidError, cells, distinct, enclosing};
+use crate::clearance::solid::cells::{Cuts, Part, cells, distinct, enclosing};
+use crate::clearance::solid::error::SolidError;
 use parry3d_f64::math::Vector;
 
 /// Cuts of a body that moves.
@@ -32,7 +33,7 @@ pub(super) fn parts(triangles: &[[Vector; 3]], points: Vec<Vector>) -> Result<Ve
     let cells = joined(cells(triangles, &CUTS)?);
     if cells.len() > 1 {
         let directions = directions();
-        let volume = |points: &[Vector]| Outline::of(points, &directions).volume;
+        let volume = |points: &[Vector]| Outline::new(points, &directions).volume;
         let parts = enclosing(triangles, &cells);
         if parts.iter().map(|part| volume(part)).sum::<f64>() <= (1.0 - LEFT_OUT) * volume(&points) {
             return Ok(parts);
@@ -45,7 +46,7 @@ pub(super) fn parts(triangles: &[[Vector; 3]], points: Vec<Vector>) -> Result<Ve
 fn joined(cells: Vec<Part>) -> Vec<Part> {
     let directions = directions();
     let all = distinct(cells.iter().flat_map(|cell| cell.corners.iter().copied()));
-    let whole = Outline::of(&all, &directions);
+    let whole = Outline::new(&all, &directions);
     let mut groups: Vec<Group> = Vec::new();
     let mut pairs: Vec<Pair> = Vec::new();
     let mut waiting: Vec<Group> = cells
@@ -53,14 +54,14 @@ fn joined(cells: Vec<Part>) -> Vec<Part> {
         .enumerate()
         .map(|(number, cell)| Group {
             number,
-            outline: Outline::of(&cell.corners, &directions),
+            outline: Outline::new(&cell.corners, &directions),
             corners: cell.corners,
         })
         .collect();
     let mut number = waiting.len();
     loop {
         for group in waiting.drain(..) {
-            pairs.extend(groups.iter().map(|other| Pair::of(other, &group, &directions)));
+            pairs.extend(groups.iter().map(|other| Pair::new(other, &group, &directions)));
             groups.push(group);
         }
         let best = (0..pairs.len()).min_by(|&a, &b| pairs[a].added.total_cmp(&pairs[b].added));
@@ -105,9 +106,9 @@ struct Pair {
 }
 
 impl Pair {
-    fn of(a: &Group, b: &Group, directions: &[Vector]) -> Self {
+    fn new(a: &Group, b: &Group, directions: &[Vector]) -> Self {
         let both = [&a.outline.points[..], &b.outline.points].concat();
-        let outline = Outline::of(&both, directions);
+        let outline = Outline::new(&both, directions);
         Self {
             of: [a.number, b.number],
             added: outline.volume - a.outline.volume - b.outline.volume,
@@ -124,13 +125,13 @@ struct Outline {
 }
 
 impl Outline {
-    fn of(points: &[Vector], directions: &[Vector]) -> Self {
+    fn new(points: &[Vector], directions: &[Vector]) -> Self {
         let farthest = |along: &Vector| {
             let points = points.iter().copied();
             points.max_by(|a, b| along.dot(*a).total_cmp(&along.dot(*b)))
         };
         let points = distinct(directions.iter().filter_map(farthest));
-        let volume = ConvexHull::of(&points).map_or(0.0, |hull| {
+        let volume = ConvexHull::from_points(&points).map_or(0.0, |hull| {
             let corner = |k: u32| hull.corners[k as usize] - points[0];
             let sixfold = |face: &[u32; 3]| corner(face[0]).dot(corner(face[1]).cross(corner(face[2])));
             hull.triangles.iter().map(sixfold).sum::<f64>() / 6.0

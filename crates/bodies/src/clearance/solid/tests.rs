@@ -1,3 +1,4 @@
+use crate::clearance::convex::{bits, guarded};
 use crate::clearance::solid::*;
 use nalgebra::{DMatrix, Rotation3, Vector3};
 use platewash_fixtures::is_thorough;

@@ -2,7 +2,7 @@
 
 use crate::clearance::motion::PartPairs;
 use crate::clearance::tests::*;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 fn shape() -> impl Strategy<Value = Shape> {
     let size = || 0.01..0.3f64;

@@ -89,7 +89,7 @@ proptest! {
         let from_pole_m = near.xy().norm();
         prop_assume!(from_pole_m < plate.rim_m());
         let place = plate.surface.point(from_pole_m, near.y.atan2(near.x)).coords;
-        let bound = FaceBound::of(robot, &terms, &plate);
+        let bound = FaceBound::new(robot, &terms, &plate);
         // On a steep face the place may lie deeper than the sponge.
         prop_assume!((plate.world(&place) - tip.translation).norm() <= bound.touch_m);
         prop_assert!(!bound.is_beyond(&place, 0.0), "{place}");

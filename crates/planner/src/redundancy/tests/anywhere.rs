@@ -4,10 +4,10 @@
 //! takes: tilts out of the arm's plane are tried too, and neighbouring points are not used. Yaw about the tool's axis is left out
 //! where it changes nothing but joint 6: with the tool along axis 6.
 
+use crate::placed_arm::{Contact, Width};
 use crate::redundancy::task::Task;
-use crate::scene::{Contact, Width};
-use crate::trig::sin_cos;
 use platewash_kinematics::JointVector;
+use platewash_kinematics::trig::sin_cos;
 use platewash_workcell::cancel::Cancelled;
 
 /// Difference of neighbouring tilts, at most \[rad\]: 1°.
@@ -34,10 +34,10 @@ pub struct FoundConfiguration {
 /// # Errors
 /// [`Cancelled`].
 pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<FoundConfiguration>, Cancelled> {
-    let scene = task.scene;
+    let placed = task.placed;
     let contact = task.samples.at(theta.clamp(0.0, task.path.curve.end()));
     let contact = Contact::on_normal(contact.point, contact.normal);
-    let out = scene.outward_direction(&contact);
+    let out = placed.outward_direction(&contact);
     let steps = (task.tilt_max_rad() / TILT_STEP_RAD).ceil();
     for k in 0..=steps as u32 {
         let tilt_rad = if k == 0 {
@@ -47,12 +47,12 @@ pub fn anywhere(task: &Task<'_>, theta: f64) -> Result<Option<FoundConfiguration
         };
         let directions = if k == 0 { 1 } else { DIRECTIONS };
         for d in 0..directions {
-            scene.check_cancelled()?;
+            placed.check_cancelled()?;
             let azimuth_rad = std::f64::consts::TAU * f64::from(d) / f64::from(DIRECTIONS);
             let (s, c) = sin_cos(azimuth_rad);
             let lean = (out * c + contact.normal.cross(&out) * s) * tilt_rad;
-            let target = scene.tip_leaning(&contact, &lean);
-            let starts = scene.inverse.starts(&target, &task.near, Width::Near);
+            let target = placed.tip_leaning(&contact, &lean);
+            let starts = placed.inverse.starts(&target, &task.near, Width::Near);
             if let Some(start) = starts
                 .unwrap_or_default()
                 .iter()

@@ -1,10 +1,10 @@
 //! Leaning away from obstacles beside the arm.
 
+use crate::placed_arm::Stance;
 use crate::redundancy::tests::*;
-use crate::scene::Stance;
 use platewash_kinematics::Pose;
 use platewash_kinematics::geometry::Shape;
-use platewash_workcell::workcell::{Obstacle, ObstacleShape};
+use platewash_workcell::{Obstacle, ObstacleShape};
 
 /// A plate with a wall beside it, along the direction from axis 1 at this azimuth.
 fn beside_a_wall<T>(azimuth_deg: f64, act: impl FnOnce(&World<'_>) -> T) -> T {
@@ -21,7 +21,7 @@ fn beside_a_wall<T>(azimuth_deg: f64, act: impl FnOnce(&World<'_>) -> T) -> T {
     let plates = [plate_at(0.359, -17.8)];
     let clearance = ClearanceModel::new(&robot, &cell, &plates).unwrap();
     act(&World {
-        scene: Scene::new(&robot, &tool, &clearance, &plates, ReachBorders::IRB_120).unwrap(),
+        placed: PlacedArm::new(&robot, &tool, &clearance, &plates, ReachBorders::IRB_120).unwrap(),
         clearance: &clearance,
     })
 }
@@ -74,21 +74,21 @@ proptest! {
         within(&kitchen_tool(), &[plate_at(0.4, 0.0)], |world| {
             let point = Vector3::new(rho * azimuth.cos(), rho * azimuth.sin(), 0.03);
             let contact = Contact::level(point);
-            let scene = world.scene.clone().leaning_aside(aside);
-            let tip = scene.tip_rigid(&contact, tilt);
+            let placed = world.placed.clone().leaning_aside(aside);
+            let tip = placed.tip_rigid(&contact, tilt);
             prop_assert_eq!(tip.translation, point);
             let stance = Stance { aside_rad: aside, ..Stance::default() };
             let lean = stance.lean_rad(tilt);
             let up = -tip.rotation.column(2);
             prop_assert!((up.dot(&contact.normal) - lean.cos()).abs() < 1e-12);
-            let out = scene.outward_direction(&contact);
+            let out = placed.outward_direction(&contact);
             let [along, across] = [out, contact.normal.cross(&out)].map(|direction| up.dot(&direction));
             let per_rad = if lean > 0.0 { lean.sin() / lean } else { 1.0 };
             prop_assert!((along - tilt * per_rad).abs() < 1e-12);
             prop_assert!((across - aside * per_rad).abs() < 1e-12);
             prop_assert!((stance.tilt_rad(lean) - tilt.abs()).abs() < 1e-7);
             if aside == 0.0 {
-                prop_assert_eq!(tip, world.scene.tip_rigid(&contact, tilt));
+                prop_assert_eq!(tip, world.placed.tip_rigid(&contact, tilt));
             }
             Ok(())
         })?;

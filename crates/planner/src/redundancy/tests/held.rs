@@ -1,7 +1,7 @@
 //! How the wrist is held by tools that lean.
 
+use crate::placed_arm::Stance;
 use crate::redundancy::tests::*;
-use crate::scene::Stance;
 use platewash_bodies::tool_chain::{Handle, ToolChain};
 use platewash_kinematics::Pose;
 
@@ -24,12 +24,12 @@ fn leaning() -> Tool {
 
 /// Joint 5 on the line over an end of a wash \[rad\].
 fn wrist_on_line(world: &World<'_>, path: &WashPath, washing: &Washing, end: usize) -> Vec<f64> {
-    let scene = &world.scene;
+    let placed = &world.placed;
     let k = end * (washing.q.len() - 1);
     let height = |step: i32| path.lift_m * f64::from(step) / 60.0;
-    let pose = |step| scene.tip_pose(&washing.feet[end].raised(height(step)), washing.tilt_rad[k]);
+    let pose = |step| placed.tip_pose(&washing.feet[end].raised(height(step)), washing.tilt_rad[k]);
     let poses: Vec<_> = (0..=60).map(pose).collect();
-    let line = scene.solver.solve_path(&poses, &washing.q[k]).unwrap();
+    let line = placed.solver.solve_path(&poses, &washing.q[k]).unwrap();
     line.q.iter().map(|q| q[4]).collect()
 }
 
@@ -44,9 +44,9 @@ fn the_wrist_is_held_on_the_lines_as_on_the_path() {
                 wrist_rad: Some(WRIST_RAD),
                 ..Stance::default()
             };
-            let held = |scene: Scene<'_>| -> bool {
+            let held = |placed: PlacedArm<'_>| -> bool {
                 let world = World {
-                    scene: scene.with_stance(stance).half_turned(),
+                    placed: placed.with_stance(stance).half_turned(),
                     clearance: world.clearance,
                 };
                 let path = path(curve(0.08), 15.0);
@@ -60,7 +60,7 @@ fn the_wrist_is_held_on_the_lines_as_on_the_path() {
                 }
                 true
             };
-            if held(world.scene.clone()) {
+            if held(world.placed.clone()) {
                 washed += 1;
             } else {
                 refused += 1;

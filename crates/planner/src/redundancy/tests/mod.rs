@@ -8,21 +8,21 @@ mod world;
 
 use self::anywhere::anywhere;
 use self::world::*;
+use crate::placed_arm::{Contact, Filter, Hindrance, Inverse, PlacedArm, TiltPolicy, Width, tilt_policy};
 use crate::redundancy::places::{MovedPlate, nearest_washable, on_grid};
 use crate::redundancy::search::Graph;
 use crate::redundancy::task::Profile;
 use crate::redundancy::washability::{Cause, Points, WashablePart, washable_part};
 use crate::redundancy::washing::{by_policy, by_search, policies, search_starts};
 use crate::redundancy::*;
-use crate::scene::{Contact, Filter, Hindrance, Inverse, Scene, TiltPolicy, Width, tilt_policy};
-use crate::trig::sin_cos;
-use crate::{redundancy, scene};
+use crate::{placed_arm, redundancy};
 use nalgebra::Vector3;
 use platewash_bodies::clearance::ClearanceModel;
 use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::RobotModel;
 use platewash_kinematics::irb120::IRB120_URDF;
 use platewash_kinematics::rotation::RigidTransform;
+use platewash_kinematics::trig::sin_cos;
 use platewash_kinematics::urdf::MeshSource;
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::job::ReachBorders;
@@ -74,14 +74,14 @@ proptest! {
         prop_assume!(x.abs() + y.abs() > 1e-6);
         within(&kitchen_tool(), &[], |world| {
             let contact = Contact::level(Vector3::new(x, y, 0.03));
-            let pose = world.scene.tip_pose(&contact, tilt);
+            let pose = world.placed.tip_pose(&contact, tilt);
             let out = Vector3::new(x, y, 0.0).normalize();
             let (s, c) = sin_cos(tilt);
             assert!((pose.rotation * Vector3::z() + Vector3::z() * c + out * s).norm() < 1e-12);
             let side = pose.rotation * Vector3::x();
             assert!(side.dot(&Vector3::z().cross(&out)).abs() < 1e-12, "x of the tip lies in the arm's plane");
             assert!((pose.translation.vector - contact.point).norm() == 0.0);
-            let leaning = world.scene.tip_leaning(&contact, &(out * tilt));
+            let leaning = world.placed.tip_leaning(&contact, &(out * tilt));
             assert!((leaning.rotation - RigidTransform::from(&pose).rotation).norm() < 1e-12);
         });
     }
@@ -92,16 +92,16 @@ proptest! {
         let plates = [plate_at(rho, azimuth)];
         let path = path(curve(RADIUS_M), 15.0);
         within(&kitchen_tool(), &plates, |world| {
-            let (task, scene) = (world.task(&path), &world.scene);
+            let (task, placed) = (world.task(&path), &world.placed);
             let policy = policies(&task)[0];
             let profile = Profile::Policy(policy);
             let tilts = task.tilts(&profile);
             let k = (share * tilts.len() as f64) as usize;
-            let first = scene.tip_rigid(&task.samples.contact[0], tilts[0]);
-            let start = scene.inverse.starts(&first, &HOME, Width::Near).unwrap()[0];
+            let first = placed.tip_rigid(&task.samples.contact[0], tilts[0]);
+            let start = placed.inverse.starts(&first, &HOME, Width::Near).unwrap()[0];
             let at = |theta: f64| {
                 let contact = task.samples.at(theta);
-                scene.inverse.continuing(&scene.tip_rigid(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
+                placed.inverse.continuing(&placed.tip_rigid(&contact, task.tilt(&profile, &contact, 0.0)), &start).unwrap()
             };
             let (theta, h) = (task.samples.theta[k], 1e-5);
             let slope = task.slope(&profile, k, &at(theta)).unwrap();
@@ -148,7 +148,7 @@ fn failures_name_obstructions_of_the_arm_itself() {
             assert!(free_m.iter().chain(&dead_m).all(surveyed));
             assert!(free_m.iter().all(|place| !dead_m.contains(place)));
             for place in &dead_m {
-                let from_axis_m = world.scene.distance(&Vector3::from(*place));
+                let from_axis_m = world.placed.distance(&Vector3::from(*place));
                 let within = |cause: &Cause| {
                     let [least, most] = cause.from_axis_m;
                     (least..=most).contains(&from_axis_m)
@@ -219,16 +219,16 @@ fn a_cancelled_search_returns_cancelled() {
     for rho in [0.36, 0.62] {
         let plates = [plate_at(rho, 20.0)];
         within(&kitchen_tool(), &plates, |world| {
-            let scene = world.scene.clone().with_cancel(&cancel);
+            let placed = world.placed.clone().with_cancel(&cancel);
             let path = path(curve(RADIUS_M), 15.0);
-            let task = Task::new(&scene, &path, CLEARANCE_M, &HOME).unwrap();
+            let task = Task::new(&placed, &path, CLEARANCE_M, &HOME).unwrap();
             let cancelled = cancel.check().unwrap_err();
             assert_eq!(by_search(&task), Err(RedundancyError::Cancelled(cancelled)));
             assert_eq!(is_blocked(&task), Err(cancelled));
             assert_eq!(anywhere(&task, 1.0), Err(cancelled));
             assert_eq!(washability::washable_part(&task), Err(cancelled));
             let search = MovedPlate {
-                scene: &scene,
+                placed: &placed,
                 ..elsewhere(world, &path)
             };
             assert_eq!(
@@ -250,7 +250,7 @@ fn an_arm_without_a_closed_form_washes_too() {
         .with_disabled_pairs(RobotModel::irb120().unwrap().disabled_pairs().unwrap().clone())
         .unwrap();
     with_arm(&robot, &kitchen_tool(), &[plate_at(0.36, 30.0)], |world| {
-        assert!(matches!(*world.scene.inverse, Inverse::Numeric(_)));
+        assert!(matches!(*world.placed.inverse, Inverse::Numeric(_)));
         let path = path(curve(0.1), 15.0);
         let washing = world.washing(&path).unwrap();
         check(world, &path, &washing);

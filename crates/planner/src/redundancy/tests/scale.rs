@@ -26,7 +26,7 @@ struct Tally {
 
 impl Tally {
     fn add(&mut self, world: &World<'_>, path: &WashPath) {
-        let at = world.scene.plates[path.plate].centre();
+        let at = world.placed.plates[path.plate].centre();
         let task = world.task(path);
         let start = Instant::now();
         let answer = washing(&task);
@@ -46,8 +46,8 @@ impl Tally {
                     }
                 }
                 let gentle = TiltPolicy::sloping(
-                    path.cone_rad.min(crate::scene::tilt_policy::GENTLE_TILT_RAD),
-                    world.scene.distance(&at),
+                    path.cone_rad.min(crate::placed_arm::tilt_policy::GENTLE_TILT_RAD),
+                    world.placed.distance(&at),
                     path.curve.radius_m,
                 );
                 match washing.choice {

@@ -1,7 +1,7 @@
 //! Joints of many turns: those that no motion needs are not looked at, and nothing is lost by it.
 
+use crate::placed_arm::{Stance, Start, merge_starts};
 use crate::redundancy::tests::*;
-use crate::scene::{Stance, Start, merge_starts};
 use platewash_kinematics::ik::analytic::{AnalyticArm, Elbow, Label, Shoulder};
 use platewash_kinematics::{Frame, JointLimits, JointVector};
 use std::f64::consts::{PI, TAU};
@@ -74,11 +74,11 @@ fn the_wrist_keeps_away_from_whole_turns_too() {
     within(&kitchen_tool(), &[plate_at(0.4, 0.0)], |world| {
         let stance = Stance {
             wrist_rad: Some(0.05),
-            ..world.scene.stance
+            ..world.placed.stance
         };
-        let scene = world.scene.clone().with_stance(stance);
+        let placed = world.placed.clone().with_stance(stance);
         let path = path(curve(RADIUS_M), 15.0);
-        let task = Task::new(&scene, &path, CLEARANCE_M, &HOME).unwrap();
+        let task = Task::new(&placed, &path, CLEARANCE_M, &HOME).unwrap();
         let at = |joint_5: f64| JointVector::new(0.0, 0.0, 0.0, 0.0, joint_5, 0.0);
         for turns in [-15.0, -1.0, 0.0, 1.0, 12.0] {
             let by = TAU * turns;

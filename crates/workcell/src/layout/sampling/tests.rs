@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::layout::sampling::*;
-use crate::trig::{atan2, sin_cos};
+use platewash_kinematics::trig::{atan2, sin_cos};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -224,7 +224,7 @@ fn has_room_by_arcs(region: &Region, spacing: &Spacing, placed: &[[f64; 2]]) -> 
             let d = squared_distance(c, other).sqrt();
             let cos = (d * d + r * r - s * s) / (2.0 * d * r);
             if d > 0.0 && cos.abs() < 1.0 {
-                cuts.extend([-1.0, 1.0].map(|sign| angle(c, other) + sign * crate::trig::acos(cos)));
+                cuts.extend([-1.0, 1.0].map(|sign| angle(c, other) + sign * platewash_kinematics::trig::acos(cos)));
             }
         }
         cuts = cuts
