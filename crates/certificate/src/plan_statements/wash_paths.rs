@@ -8,7 +8,7 @@
 use crate::report::check::{Check, Discrepancy};
 use crate::report::requirement::Requirement;
 use platewash_motion::plan::Plan;
-use platewash_workcell::job::{PlanKind, Statement, StatementRule};
+use platewash_workcell::job::{Statement, StatementRule};
 use platewash_workcell::wash_path::{CurveNumber, WashPath};
 
 /// Greatest lift \[m\].
