@@ -3,8 +3,8 @@
 //! ROS names it (REP-199): the link `base`. In many descriptions it lies apart from the root link, at the height of axis 2 or turned by half
 //! a turn. Where there is no link `base`, the first link of the arm, `base_link`, stands for it; without either, the root link.
 
-use crate::Pose;
 use crate::model::{Link, RobotModel};
+use crate::rotation::Pose;
 use crate::words::nonzero_decimals;
 use std::fmt;
 

@@ -1,6 +1,6 @@
 //! Geometry of a link, as data: collision shapes, visuals and mass properties. No collision library is used here.
 
-use crate::Pose;
+use crate::rotation::Pose;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Halton's sequence (J. H. Halton, Numer. Math. 2, 1960): points spread evenly over a cube, the same on every machine.
 
-use crate::AXES;
+use crate::joints::AXES;
 
 /// The first six primes, a base a joint.
 const BASES: [u32; AXES] = [2, 3, 5, 7, 11, 13];

@@ -28,7 +28,7 @@
 //! | inverse kinematics | [`ik`] |
 //! | many configurations at once | [`batch`] |
 //! | points spread evenly | [`halton`] |
-//! | rotations, folded transforms | [`rotation`] |
+//! | the number of joints, one value for each; poses, rotations, folded transforms | `joints`; [`rotation`] |
 //! | trigonometry, the same on every machine | [`trig`] |
 //! | vectors of four numbers, with the instructions that the processor has | `lanes.rs` |
 //! | SHA-256 of descriptions | [`fingerprint`] |
@@ -57,6 +57,7 @@ pub mod halton;
 pub mod ik;
 pub mod inertia;
 pub mod irb120;
+mod joints;
 mod lanes;
 pub mod limits;
 pub mod model;
@@ -69,20 +70,13 @@ pub mod urdf;
 pub mod words;
 
 pub use crate::fingerprint::sha256_hex;
+pub use crate::joints::{AXES, JointVector};
 pub use crate::limits::{JointFriction, JointLimits, LimitViolation};
 pub use crate::model::{Axes, BodyPoses, Frame, Jacobian, Joint, Link, RobotModel};
+pub use crate::rotation::Pose;
 pub use crate::srdf::{DisabledPairs, SrdfError};
 pub use crate::tool_frame::{ToolFrame, ToolFrameError};
 pub use crate::urdf::UrdfError;
-
-/// Number of joints of every arm that this project handles.
-pub const AXES: usize = 6;
-
-/// One value per joint, from the base to the tip: \[rad\] for positions, \[rad/s\] for speeds.
-pub type JointVector = nalgebra::Vector6<f64>;
-
-/// A rigid transform `T_a_b`: rotation as a unit quaternion, translation in metres.
-pub type Pose = nalgebra::Isometry3<f64>;
 
 /// The example in the README, run as a test.
 #[cfg(doctest)]

@@ -1,7 +1,7 @@
 //! Joint limits, margins and violations.
 
+use crate::joints::{AXES, JointVector};
 use crate::words::angles_told_apart;
-use crate::{AXES, JointVector};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::fmt;

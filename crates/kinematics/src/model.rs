@@ -15,15 +15,17 @@
 //! Geometric Jacobian and manipulability.
 
 use crate::geometry::{Inertial, Primitive, Shape, Visual, VisualFinding};
+use crate::joints::{AXES, JointVector};
 use crate::lanes::{Kernel, Vector, run_exact};
 use crate::limits::{JointFriction, JointLimits};
+use crate::rotation::Pose;
 use crate::rotation::{Columns, RigidTransform};
 use crate::srdf::DisabledPairs;
+use crate::srdf::SrdfError;
 use crate::trig::{atan2, sin_cos_vector};
 use crate::urdf::fixed::FixedJoints;
 use crate::urdf::followers::FollowerLink;
 use crate::urdf::statements::UnusedStatement;
-use crate::{AXES, JointVector, Pose, SrdfError};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
 /// Revolute joint of the chain.

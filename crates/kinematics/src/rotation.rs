@@ -1,9 +1,11 @@
 //! Rotation matrices, rotation vectors and folded rigid transforms.
 
-use crate::Pose;
 use crate::lanes::Vector;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+/// A rigid transform `T_a_b`: rotation as a unit quaternion, translation in metres.
+pub type Pose = nalgebra::Isometry3<f64>;
 
 /// A rigid transform as matrix and vector, `p_a = R p_b + t`: the form in which chains are folded, because
 /// one product is cheaper than with quaternions.

@@ -4,7 +4,7 @@
 //! The other elements of an SRDF name groups, states, joints and grippers for planners, and change no pair. An unknown element whose name
 //! begins as those above do is refused, and so is one of xacro, whose file is yet to be processed.
 
-use crate::sha256_hex;
+use crate::fingerprint::sha256_hex;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,6 +1,6 @@
 //! Frames in which tool poses are stated, by name.
 
-use crate::AXES;
+use crate::joints::AXES;
 use crate::model::{Frame, Link, RobotModel};
 use serde::{Deserialize, Serialize};
 

@@ -4,11 +4,12 @@
 //! the link lies along axis 6 and leads away from axis 5. Where the description allows two answers, there is none: the user is asked.
 
 use crate::geometry::Shape;
+use crate::joints::AXES;
 use crate::model::{Frame, Link, RobotModel};
+use crate::rotation::Pose;
 use crate::rotation::RigidTransform;
 use crate::tool_frame::{ToolFrame, ToolFrameError};
 use crate::trig::cos;
-use crate::{AXES, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::fmt;
 

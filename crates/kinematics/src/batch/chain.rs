@@ -9,10 +9,11 @@
 //! is the Denavit–Hartenberg form without its trouble with nearly parallel axes, because the common normal is used
 //! where it is well defined only. Most α are 0 or π/2, which cost nothing.
 
+use crate::joints::AXES;
 use crate::model::Frame;
+use crate::model::RobotModel;
 use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
-use crate::{AXES, RobotModel};
 use nalgebra::{Matrix3, Vector3};
 
 /// Magnitude of a constant (m, or a sine or cosine) below which it counts as rounding and becomes 0.

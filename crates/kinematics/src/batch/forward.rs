@@ -1,9 +1,9 @@
 //! Forward kinematics of four configurations at once, and the columns of their Jacobians.
 
 use crate::batch::chain::{Bend, Chain, Link};
+use crate::joints::{AXES, JointVector};
 use crate::lanes::{LANES, Vector};
 use crate::trig::sin_cos_vector;
-use crate::{AXES, JointVector};
 
 /// Frames: columns of the rotation, and the origin \[m\].
 #[derive(Clone, Copy)]

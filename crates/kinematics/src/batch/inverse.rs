@@ -5,8 +5,9 @@ use crate::batch::forward::{Tips, frames_and_lines, no_lines, vectors};
 use crate::batch::slices::{BatchError, CHUNK, same_length};
 use crate::batch::step::{Bounds, LEAST_COSINE, damped_step, errors, moved};
 use crate::ik::{IkError, IkSettings, IkSolution, IkSolver, Method, Start, dls};
+use crate::joints::{AXES, JointVector};
 use crate::lanes::{Backend, Kernel, LANES, Vector, run};
-use crate::{AXES, JointVector, Pose};
+use crate::rotation::Pose;
 use rayon::prelude::*;
 
 /// Greatest number of steps of a lane; a problem that needs more is not warm.

@@ -3,9 +3,11 @@
 use crate::batch::chain::Chain;
 use crate::batch::forward::{Tips, dot, frames, frames_and_lines, gather, moment, no_lines};
 use crate::batch::slices::{BatchError, CHUNK, same_length};
+use crate::joints::JointVector;
 use crate::lanes::{Backend, Kernel, LANES, Vector, run};
+use crate::model::{Axes, Frame, Jacobian, RobotModel};
+use crate::rotation::Pose;
 use crate::rotation::RigidTransform;
-use crate::{Axes, Frame, Jacobian, JointVector, Pose, RobotModel};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 

@@ -1,9 +1,9 @@
 //! The pose error and the damped step of four inverse-kinematics problems at once: the equations of [`crate::ik`],
 //! lane by lane.
 
-use crate::AXES;
 use crate::batch::forward::{Line, Tips, cross, dot, moment};
 use crate::ik::dls::{DAMPING_GAIN, LEAST_DAMPING};
+use crate::joints::AXES;
 use crate::lanes::Vector;
 
 /// Cosine of the error angle (0.5 rad) below which a lane is left to the scalar solver.

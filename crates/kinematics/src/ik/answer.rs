@@ -1,6 +1,6 @@
 //! Answer of the solver, and the reasons that there is none.
 
-use crate::JointVector;
+use crate::joints::JointVector;
 use serde::Serialize;
 
 /// Method that found the answer.

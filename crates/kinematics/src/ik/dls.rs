@@ -9,10 +9,11 @@
 #![allow(clippy::needless_range_loop)] // a row's or a joint's number indexes several arrays at once
 
 use crate::ik::settings::IkSettings;
+use crate::joints::{AXES, JointVector};
 use crate::lanes::{Kernel, LANES, Vector, run_exact};
+use crate::model::RobotModel;
 use crate::model::{Axes, Frame, Jacobian, moved_bodies};
 use crate::rotation::{Columns, RigidTransform, rotation_vector};
-use crate::{AXES, JointVector, RobotModel};
 use nalgebra::{Matrix3, Vector6};
 
 /// Damping of a step as a share of the squared error ‖e‖² (in m and rad): the λ of `(JᵀJ + λI) Δq = Jᵀe` is strong far from the target and

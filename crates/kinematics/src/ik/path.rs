@@ -16,7 +16,8 @@
 use crate::ik::answer::{IkCause, IkError};
 use crate::ik::cascade::IkSolver;
 use crate::ik::dls::{self, ALL_FREE, Iterate, Stop, Task};
-use crate::{JointVector, Pose};
+use crate::joints::JointVector;
+use crate::rotation::Pose;
 use nalgebra::UnitQuaternion;
 
 /// Largest joint motion between waypoints that counts as continuous without further checks \[rad\].

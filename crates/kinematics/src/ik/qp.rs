@@ -7,7 +7,7 @@
 
 use crate::ik::dls::{self, DAMPING_GAIN, Descent, Iterate, ON_LIMIT_RAD, Stop, Task};
 use crate::ik::settings::IkSettings;
-use crate::{AXES, JointVector};
+use crate::joints::{AXES, JointVector};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use nalgebra::{Matrix6, Vector6};

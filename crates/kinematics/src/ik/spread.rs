@@ -11,9 +11,10 @@
 use crate::ik::answer::IkError;
 use crate::ik::cascade::IkSolver;
 use crate::ik::dls::{self, ALL_FREE, Task};
+use crate::joints::{AXES, JointVector};
+use crate::rotation::Pose;
 use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
-use crate::{AXES, JointVector, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 

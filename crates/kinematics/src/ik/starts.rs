@@ -5,9 +5,11 @@
 //! a target, the starts whose frame is nearest to it are tried first: squared distance of the origins in
 //! metres plus 0.05 of the squared chord between the rotations.
 
+use crate::halton;
+use crate::joints::JointVector;
 use crate::model::Frame;
+use crate::model::RobotModel;
 use crate::rotation::RigidTransform;
-use crate::{JointVector, RobotModel, halton};
 use std::f64::consts::PI;
 
 /// Length of the list.

@@ -2,7 +2,7 @@
 //!
 //! `urdf-rs` reports the error but not its position: this file finds the element.
 
-use crate::AXES;
+use crate::joints::AXES;
 use crate::urdf::line::line_at;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;

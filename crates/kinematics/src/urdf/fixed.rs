@@ -1,6 +1,6 @@
 //! Joints of a description that a caller holds still, such as those of a gripper.
 
-use crate::AXES;
+use crate::joints::AXES;
 use crate::rotation::RigidTransform;
 use crate::trig::sin_cos;
 use crate::urdf::error::UrdfError;

@@ -1,8 +1,8 @@
 //! A model is built from URDF text.
 
-use crate::AXES;
 use crate::fingerprint::sha256_hex;
 use crate::geometry::{Inertial, Primitive, Shape};
+use crate::joints::AXES;
 use crate::model::{Frame, Joint, Link, RobotModel};
 use crate::rotation::RigidTransform;
 use crate::urdf::error::{self, UrdfError};

@@ -4,12 +4,13 @@
 //!
 //! Numbers of a description: finite, and no longer than an arm can be.
 
+use crate::joints::{AXES, JointVector};
 use crate::limits::{JointFriction, JointLimits};
+use crate::rotation::Pose;
 use crate::rotation::{RigidTransform, from_rpy};
 use crate::urdf::error::UrdfError;
 use crate::urdf::statements::Rates;
 use crate::words::is_hidden;
-use crate::{AXES, JointVector, Pose};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::{JointType, Robot};

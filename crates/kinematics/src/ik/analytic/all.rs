@@ -8,8 +8,9 @@ use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::error::{AnalyticError, check_finite};
 use crate::ik::analytic::tolerances::LIMIT_ROUNDING_RAD;
 use crate::ik::analytic::window::{Window, nearest_integer};
+use crate::joints::{AXES, JointVector};
+use crate::limits::{JointLimits, LimitViolation};
 use crate::rotation::RigidTransform;
-use crate::{AXES, JointLimits, JointVector, LimitViolation};
 use serde::Serialize;
 use std::f64::consts::TAU;
 

@@ -5,9 +5,9 @@ use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::closed_form::ClosedForm;
 use crate::ik::analytic::error::{AnalyticError, check_finite};
 use crate::ik::analytic::mismatch::StructureMismatch;
+use crate::joints::{AXES, JointVector};
 use crate::model::Frame;
 use crate::rotation::RigidTransform;
-use crate::{AXES, JointVector};
 use std::fmt::Debug;
 use std::sync::Arc;
 

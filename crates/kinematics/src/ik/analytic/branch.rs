@@ -1,6 +1,6 @@
 //! Branches of a target: their names, and the borders where they meet.
 
-use crate::JointVector;
+use crate::joints::JointVector;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::fmt;

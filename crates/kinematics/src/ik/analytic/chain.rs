@@ -2,9 +2,10 @@
 
 use crate::ik::analytic::mismatch::StructureMismatch;
 use crate::ik::analytic::tolerances::{CLOSED, LIMIT_ROUNDING_RAD};
+use crate::joints::{AXES, JointVector};
+use crate::limits::JointLimits;
 use crate::rotation::{RigidTransform, rotation_vector};
 use crate::trig::sin_cos;
-use crate::{AXES, JointLimits, JointVector};
 use nalgebra::{Matrix6, Vector6};
 
 /// Greatest number of Gauss–Newton steps.

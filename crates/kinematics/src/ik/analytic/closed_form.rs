@@ -4,8 +4,9 @@ use crate::ik::analytic::branch::{Branch, OutOfReach};
 use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
+use crate::joints::JointVector;
+use crate::limits::JointLimits;
 use crate::rotation::RigidTransform;
-use crate::{JointLimits, JointVector};
 use std::fmt::Debug;
 
 /// Branch, and its configuration within the limits or nearly so.

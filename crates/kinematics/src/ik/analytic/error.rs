@@ -1,8 +1,9 @@
 //! Reasons that there is no analytic answer.
 
 use crate::ik::analytic::branch::{Label, OutOfReach};
+use crate::joints::{AXES, JointVector};
+use crate::limits::LimitViolation;
 use crate::rotation::RigidTransform;
-use crate::{AXES, JointVector, LimitViolation};
 use std::fmt::Debug;
 
 /// Reason that there is no analytic answer.

@@ -5,9 +5,10 @@ use crate::ik::analytic::links::Links;
 use crate::ik::analytic::mismatch::{ROUNDED_M, StructureMismatch};
 use crate::ik::analytic::tolerances::{GEOMETRY_TOLERANCE_M, GEOMETRY_TOLERANCE_RAD, SHORTEST_LINK_M};
 use crate::ik::analytic::wrist::Turns;
+use crate::joints::AXES;
+use crate::model::RobotModel;
 use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
-use crate::{AXES, RobotModel};
 use nalgebra::{Complex, Matrix3, Vector3};
 
 /// Joint axis as a line in the base frame.

@@ -1,9 +1,9 @@
 //! Joint 1 and a triangle: the part that both closed forms share. The shoulder turns a plane, and two links in it reach a point.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Degeneracies, Elbow, OutOfReach, ReachBorder, Shoulder};
 use crate::ik::analytic::tolerances::{FREE_SHOULDER_M, REACH_ROUNDING_M};
 use crate::ik::analytic::wrist::Turn;
+use crate::joints::JointVector;
 use crate::rotation::RigidTransform;
 use crate::trig::{atan2, sin_cos};
 use nalgebra::{Complex, Matrix3, Vector3};

@@ -5,8 +5,9 @@ use crate::ik::analytic::arm::AnalyticArm;
 use crate::ik::analytic::branch::{Label, OutOfReach};
 use crate::ik::analytic::error::{AnalyticError, check_finite};
 use crate::ik::analytic::window::{NearestConfiguration, Window};
+use crate::joints::JointVector;
+use crate::limits::{JointLimits, LimitViolation};
 use crate::rotation::RigidTransform;
-use crate::{JointLimits, JointVector, LimitViolation};
 
 impl AnalyticArm {
     /// Returns the configuration within `limits` that brings body 6 to `target` (`T_base_body6`, as for [`AnalyticArm::branches`]) and is

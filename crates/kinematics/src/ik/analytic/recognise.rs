@@ -1,12 +1,12 @@
 //! Recognition of an arm: the structures are tried in turn. A structure that the arm does not have at all keeps the reason found before.
 
-use crate::RobotModel;
 use crate::ik::analytic::arm::AnalyticArm;
 use crate::ik::analytic::closed_form::ClosedForm;
 use crate::ik::analytic::geometry::Geometry;
 use crate::ik::analytic::mismatch::StructureMismatch;
 use crate::ik::analytic::parallel::arm::ParallelAxesArm;
 use crate::ik::analytic::spherical::arm::SphericalWristArm;
+use crate::model::RobotModel;
 use std::sync::Arc;
 
 impl AnalyticArm {

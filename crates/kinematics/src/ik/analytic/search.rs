@@ -1,9 +1,9 @@
 //! Search for the answer nearest to a start.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Degeneracies, Label};
 use crate::ik::analytic::closed_form::ClosedForm;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
+use crate::joints::JointVector;
 use crate::rotation::RigidTransform;
 
 /// The search for the nearest answer.

@@ -2,7 +2,8 @@
 
 use crate::ik::analytic::branch::{Degeneracies, Label};
 use crate::ik::analytic::tolerances::{LIMIT_NEAR_RAD, LIMIT_ROUNDING_RAD, MOST_TURNS};
-use crate::{JointLimits, JointVector, LimitViolation};
+use crate::joints::JointVector;
+use crate::limits::{JointLimits, LimitViolation};
 use serde::Serialize;
 use std::f64::consts::TAU;
 

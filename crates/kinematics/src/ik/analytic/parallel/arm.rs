@@ -7,7 +7,6 @@
 //! form intervals, at whose ends the elbow is stretched or folded or a joint stands on a limit. At each such end two points of the arm's
 //! plane have a known distance: `|p − e^{iθ} v| = d`.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist, principal};
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::geometry::{Geometry, meeting_point, nearly, parallel};
@@ -16,6 +15,7 @@ use crate::ik::analytic::mismatch::StructureMismatch;
 use crate::ik::analytic::tolerances::FREE_WRIST_RAD;
 use crate::ik::analytic::window::Window;
 use crate::ik::analytic::wrist::{Turn, Turns};
+use crate::joints::JointVector;
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::Complex;
 

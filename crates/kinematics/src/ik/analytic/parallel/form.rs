@@ -1,6 +1,5 @@
 //! Equations of the arm and its branches side by side, as a closed form.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Label, OutOfReach, Shoulder, principal};
 use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::chain::Chain;
@@ -10,6 +9,7 @@ use crate::ik::analytic::parallel::side_by_side::AllSideBySide;
 use crate::ik::analytic::search::Search;
 use crate::ik::analytic::side_by_side::Rare;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
+use crate::joints::JointVector;
 use crate::lanes::run_exact;
 use crate::rotation::RigidTransform;
 

@@ -1,7 +1,6 @@
 //! The branches of an arm with parallel axes 2, 3 and 4, side by side in the lanes of vectors: front and back, wrist plain and flipped. The
 //! elbows follow one after the other.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Degeneracies, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::links::Goal;
 use crate::ik::analytic::parallel::arm::ParallelAxesArm;
@@ -11,6 +10,7 @@ use crate::ik::analytic::side_by_side::{
 };
 use crate::ik::analytic::tolerances::FREE_WRIST_RAD;
 use crate::ik::analytic::window::Window;
+use crate::joints::JointVector;
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::trig::atan2_vector;
 use nalgebra::Complex;

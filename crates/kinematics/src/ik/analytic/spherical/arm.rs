@@ -10,7 +10,6 @@
 //! - joint 5 at λ: `ẑ · E ẑ = cos(λ + α₅)`;
 //! - joint 6 at λ: `ẑ · E (sin(λ + α₆), cos(λ + α₆), 0) = 0`.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder, Wrist};
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::geometry::{Geometry, wrist_centre};
@@ -19,6 +18,7 @@ use crate::ik::analytic::mismatch::StructureMismatch;
 use crate::ik::analytic::search::Search;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
 use crate::ik::analytic::wrist::{Turn, Turns};
+use crate::joints::JointVector;
 use crate::rotation::RigidTransform;
 use crate::trig::{acos, atan2, sin_cos};
 use nalgebra::{Complex, Matrix3, Vector3};

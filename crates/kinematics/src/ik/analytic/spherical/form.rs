@@ -1,6 +1,5 @@
 //! Equations of the arm and its branches side by side, as a closed form.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Branch, Elbow, OutOfReach, Shoulder};
 use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::chain::Chain;
@@ -9,6 +8,7 @@ use crate::ik::analytic::side_by_side::Rare;
 use crate::ik::analytic::spherical::arm::SphericalWristArm;
 use crate::ik::analytic::spherical::side_by_side::SideBySide;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
+use crate::joints::JointVector;
 use crate::lanes::run_exact;
 use crate::rotation::RigidTransform;
 use nalgebra::Complex;

@@ -2,7 +2,6 @@
 //!
 //! The equations are those of `links`, `wrist` and `spherical`, operation by operation, so that the answers have the same bits.
 
-use crate::JointVector;
 use crate::ik::analytic::branch::{Elbow, Label, Shoulder, Wrist};
 use crate::ik::analytic::links::Goal;
 use crate::ik::analytic::search::Search;
@@ -12,6 +11,7 @@ use crate::ik::analytic::side_by_side::{
 };
 use crate::ik::analytic::spherical::arm::SphericalWristArm;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
+use crate::joints::JointVector;
 use crate::lanes::{Kernel, LANES, Vector};
 use crate::rotation::RigidTransform;
 use crate::trig::atan2_vector;
