@@ -7,7 +7,7 @@
 
 use platewash::certificate::prove_with;
 use platewash::planner::{Watch, plan_with};
-use platewash::study::{Journal, Resolver, Study, run};
+use platewash::study::{Journal, RowMaker, Study, run};
 use platewash::{CancelToken, Scenario, WashJob};
 use std::error::Error;
 use std::hint::black_box;
@@ -96,12 +96,7 @@ fn rows(study: &Arc<Study>) -> Result<f64, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let (began, cancel) = (Instant::now(), CancelToken::new());
     let mut journal = Journal::open(folder.path(), study)?;
-    let resolver = Resolver::new(study.clone());
-    run(
-        &mut journal,
-        &cancel,
-        |index, cancel| resolver.row(index, cancel),
-        |_| (),
-    )?;
+    let maker = RowMaker::new(study.clone());
+    run(&mut journal, &cancel, |index, cancel| maker.row(index, cancel), |_| ())?;
     Ok(began.elapsed().as_secs_f64())
 }

@@ -6,7 +6,7 @@ use super::options::Options;
 use super::output;
 use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
-use platewash::study::{self, AxisValue, Journal, Outcome, Resolver, Row, Study, StudyError, Summary};
+use platewash::study::{self, AxisValue, Journal, Outcome, Row, RowMaker, Study, StudyError, Summary};
 use std::fmt::Write as _;
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -88,12 +88,12 @@ fn work(options: &Options, file: &Path) -> Result<ExitCode> {
         if before > 0 {
             options.say(&format!("going on: {before} of {rows} rows are there"));
         }
-        let resolver = Resolver::new(study);
+        let maker = RowMaker::new(study);
         let progress = options.progress("planning and proving");
         let made = study::run(
             &mut journal,
             &options.cancel,
-            |index, cancel| resolver.row(index, cancel),
+            |index, cancel| maker.row(index, cancel),
             |at| progress.rows(&at),
         );
         drop(progress);

@@ -4,7 +4,7 @@ use crate::study::StudyObject;
 use crate::work::patiently_by;
 use crate::{argument, errors, exception};
 use platewash::CancelToken;
-use platewash::study::{self, Journal, Outcome, Resolver, RowWithPlan, Study, StudyError};
+use platewash::study::{self, Journal, Outcome, RowMaker, RowWithPlan, Study, StudyError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::mpsc::channel;
@@ -112,7 +112,7 @@ impl StudyJournalObject {
         let (raises, gives_up) = (raised.clone(), heard.clone());
         let (back, returned) = channel();
         let worked = patiently_by(py, threads, &heard, move |cancel| {
-            let resolver = Resolver::new(study);
+            let maker = RowMaker::new(study);
             let mut last: Option<Instant> = None;
             let tell = |at: study::Progress| {
                 if at.done < at.rows && last.is_some_and(|last| last.elapsed() < TOLD_EVERY) {
@@ -125,7 +125,7 @@ impl StudyJournalObject {
                     gives_up.cancel();
                 }
             };
-            let make = |index: u64, cancel: &CancelToken| resolver.row(index, cancel);
+            let make = |index: u64, cancel: &CancelToken| maker.row(index, cancel);
             let done = study::run(&mut held.journal, cancel, make, tell);
             // Who was interrupted still waits for the folder.
             let _ = back.send(held);

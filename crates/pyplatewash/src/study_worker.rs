@@ -4,7 +4,7 @@ use crate::study::restored;
 use crate::work::patiently_by;
 use crate::{argument, errors};
 use platewash::CancelToken;
-use platewash::study::{Outcome, Resolver, Study};
+use platewash::study::{Outcome, RowMaker, Study};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ type RowTuple<'py> = (Bound<'py, PyBytes>, f64, Option<Bound<'py, PyBytes>>);
 #[pyclass(frozen, module = "pyplatewash._core", name = "StudyWorker")]
 pub struct StudyWorkerObject {
     study: Arc<Study>,
-    resolver: Arc<Resolver>,
+    maker: Arc<RowMaker>,
     cancel: CancelToken,
 }
 
@@ -30,7 +30,7 @@ impl StudyWorkerObject {
             .map(Arc::new)
             .map_err(|error| errors::study(py, error))?;
         Ok(Self {
-            resolver: Arc::new(Resolver::new(study.clone())),
+            maker: Arc::new(RowMaker::new(study.clone())),
             study,
             cancel: CancelToken::new(),
         })
@@ -39,9 +39,9 @@ impl StudyWorkerObject {
     /// Makes a row; None where it was cancelled.
     fn make<'py>(&self, py: Python<'py>, index: &Bound<'_, PyAny>) -> PyResult<Option<RowTuple<'py>>> {
         let index = argument::count("index", index, argument::ANY_COUNT)? as u64;
-        let resolver = self.resolver.clone();
+        let maker = self.maker.clone();
         let began = Instant::now();
-        let made = patiently_by(py, 1, &self.cancel, move |cancel| resolver.row(index, cancel))?;
+        let made = patiently_by(py, 1, &self.cancel, move |cancel| maker.row(index, cancel))?;
         let Some(made) = made.map_err(|error| errors::study(py, error))? else {
             return Ok(None);
         };

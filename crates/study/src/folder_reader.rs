@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::lines;
-use crate::manifest::{FORMAT, Manifest, ManifestAxis};
+use crate::manifest::{FORMAT, MANIFEST, Manifest, ManifestAxis};
 use crate::row::{ROW_SCHEMA, Row};
 use crate::study::MOST_ROWS;
 use platewash_kinematics::fingerprint::Sha256;
@@ -11,8 +11,6 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// The manifest's name.
-pub(crate) const MANIFEST: &str = "manifest.json";
 /// The name of the file of all that the study names.
 pub(crate) const PARTS: &str = "study.json";
 /// The name of the file of rows.

@@ -1,8 +1,9 @@
 //! The folder of a study: its file, its manifest, its rows as they are done, and how long each took.
 
 use crate::error::StudyError;
-use crate::folder_reader::{MANIFEST, PARTS, ROWS, check_unchanged, each_row, hashed, read_manifest};
+use crate::folder_reader::{PARTS, ROWS, check_unchanged, each_row, hashed, read_manifest};
 use crate::lines::{self, Lines};
+use crate::manifest::MANIFEST;
 use crate::manifest::Manifest;
 use crate::row::RowWithPlan;
 use crate::study::Study;

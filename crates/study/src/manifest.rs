@@ -2,7 +2,6 @@
 
 use crate::axis::AxisKind;
 use crate::error::StudyError;
-use crate::folder_reader::MANIFEST;
 use crate::lines::write_whole;
 use crate::row::ROW_SCHEMA;
 use crate::study::{Base, Study};
@@ -11,6 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// The manifest's name.
+pub(crate) const MANIFEST: &str = "manifest.json";
 /// Value of `format`.
 pub(crate) const FORMAT: &str = "platewash-study-manifest/1";
 

@@ -25,7 +25,7 @@ pub struct Progress {
 }
 
 /// Works on the rows that the journal does not have, on rayon's threads, keeps each as soon as it is done, and reports each to
-/// `told`. `make` is [`Resolver::row`](crate::Resolver::row), or another function that makes a row: it returns `None` when it is
+/// `told`. `make` is [`RowMaker::row`](crate::RowMaker::row), or another function that makes a row: it returns `None` when it is
 /// cancelled.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! Sweep: a study of one axis, the seed, whose rows no folder keeps.
 
-use crate::resolve::{judged, row_of};
 use crate::row::Row;
+use crate::row_maker::{judged, row_of};
 use crate::study::RowAddress;
 use platewash_kinematics::RobotModel;
 use platewash_scenario::{Failure, Scenario, ScenarioError, TextKind, check_seed};

@@ -1,6 +1,6 @@
 //! A process that is killed loses no row, and a large study needs little memory.
 
-use platewash_study::{Journal, Resolver, Row, RowWithPlan, Study, export, run};
+use platewash_study::{Journal, Row, RowMaker, RowWithPlan, Study, export, run};
 use platewash_workcell::cancel::CancelToken;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -153,11 +153,11 @@ fn a_full_disk_ends_the_study_with_whole_rows_and_it_resumes() {
 fn real_work(folder: &Path) {
     let study = Arc::new(study(120));
     let mut journal = Journal::open(folder, &study).unwrap();
-    let resolver = Resolver::new(study.clone());
+    let maker = RowMaker::new(study.clone());
     run(
         &mut journal,
         &CancelToken::new(),
-        |index, cancel| resolver.row(index, cancel),
+        |index, cancel| maker.row(index, cancel),
         |_| (),
     )
     .unwrap();

@@ -1,6 +1,6 @@
 //! Rows are the same bytes however they were made, and none is lost.
 
-use platewash_study::{Journal, Outcome, Resolver, Row, RowWithPlan, Study, StudyError, export, run, summary};
+use platewash_study::{Journal, Outcome, Row, RowMaker, RowWithPlan, Study, StudyError, export, run, summary};
 use platewash_workcell::cancel::CancelToken;
 use proptest::prelude::*;
 use std::fs;
@@ -212,7 +212,7 @@ fn a_scenario_may_be_a_text() {
     let own = format!("{{ name = \"own\", text = '''{kitchen}''' }}");
     let two = Arc::new(study(&text(&own)).unwrap());
     let of = |index| {
-        Resolver::new(two.clone())
+        RowMaker::new(two.clone())
             .row(index, &CancelToken::new())
             .unwrap()
             .unwrap()
@@ -241,12 +241,12 @@ fn a_row_depends_on_its_scenario_alone() {
     let text = "format = \"platewash-study/1\"\nname = \"tools\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"tool.length_m\"\nvalues = [0.1, 0]\n[[axis]]\nkey = \"seed\"\nvalues = [1, 2]\n";
     let study = Arc::new(study(text).unwrap());
     let of = |index| {
-        Resolver::new(study.clone())
+        RowMaker::new(study.clone())
             .row(index, &CancelToken::new())
             .unwrap()
             .unwrap()
     };
-    let (shared, cancel) = (Resolver::new(study.clone()), CancelToken::new());
+    let (shared, cancel) = (RowMaker::new(study.clone()), CancelToken::new());
     for index in [3, 0, 2, 1] {
         assert_eq!(shared.row(index, &cancel).unwrap().unwrap(), of(index));
     }

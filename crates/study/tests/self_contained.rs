@@ -1,7 +1,7 @@
 //! A study has all that its rows name: it is sent to whoever has none of its files, and knows them again.
 
 use platewash_kinematics::irb120::IRB120_URDF;
-use platewash_study::{Journal, Outcome, Resolver, RowWithPlan, Study, StudyError, StudyParts};
+use platewash_study::{Journal, Outcome, RowMaker, RowWithPlan, Study, StudyError, StudyParts};
 use platewash_workcell::cancel::CancelToken;
 use std::fs;
 use std::path::Path;
@@ -36,9 +36,9 @@ fn laid(folder: &Path) -> Study {
 
 fn rows(study: Study) -> Vec<RowWithPlan> {
     let (rows, cancel) = (study.rows(), CancelToken::new());
-    let resolver = Resolver::new(Arc::new(study));
+    let maker = RowMaker::new(Arc::new(study));
     (0..rows)
-        .map(|index| resolver.row(index, &cancel).unwrap().unwrap())
+        .map(|index| maker.row(index, &cancel).unwrap().unwrap())
         .collect()
 }
 

@@ -1,4 +1,4 @@
-//! Resolver: from a row's values to its result, planned and proved, from the row alone.
+//! Maker of rows: from a row's values to its result, planned and proved, from the row alone.
 
 use crate::error::StudyError;
 use crate::row::{Outcome, Row, RowWithPlan};
@@ -46,7 +46,7 @@ pub(crate) fn row_of(
 }
 
 /// Makes rows of a study. It keeps data that many rows share: arms, and the scenario of rows that differ in their seed alone.
-pub struct Resolver {
+pub struct RowMaker {
     study: Arc<Study>,
     /// Meshes that were cut, for all scenarios.
     solids: Solids,
@@ -61,8 +61,8 @@ pub struct Resolver {
 /// Function from a scenario with its arm to a plan and its certificate.
 type Judge = fn(&Scenario, &Arc<RobotModel>, &CancelToken) -> Result<(PlannedJob, Certificate), Failure>;
 
-impl Resolver {
-    /// Resolver of a study; nothing is read yet.
+impl RowMaker {
+    /// Maker of the rows of a study; nothing is read yet.
     #[must_use]
     pub fn new(study: Arc<Study>) -> Self {
         Self {
@@ -176,20 +176,14 @@ mod tests {
     fn a_planner_that_panics_is_the_outcome_of_its_row_and_the_others_go_on() {
         let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n[[axis]]\nkey = \"seed\"\nseeds = \"1..4\"\n";
         let study = Arc::new(Study::parse(text, "p.toml", Path::new("")).unwrap());
-        let resolver = Resolver {
+        let maker = RowMaker {
             judge: broken,
-            ..Resolver::new(study.clone())
+            ..RowMaker::new(study.clone())
         };
         let folder = tempfile::tempdir().unwrap();
         let mut journal = Journal::open(folder.path(), &study).unwrap();
         let cancel = CancelToken::new();
-        run(
-            &mut journal,
-            &cancel,
-            |index, cancel| resolver.row(index, cancel),
-            |_| (),
-        )
-        .unwrap();
+        run(&mut journal, &cancel, |index, cancel| maker.row(index, cancel), |_| ()).unwrap();
         let mut ended = vec![None; 4];
         let manifest = read_manifest(folder.path()).unwrap();
         rows(folder.path(), &manifest, |_, row| {
@@ -210,10 +204,10 @@ mod tests {
         }
         let text = "format = \"platewash-study/1\"\nname = \"p\"\nscenario = \"kitchen\"\n";
         let study = Arc::new(Study::parse(text, "p.toml", Path::new("")).unwrap());
-        let resolver = Resolver {
+        let maker = RowMaker {
             judge: given_up,
-            ..Resolver::new(study)
+            ..RowMaker::new(study)
         };
-        assert_eq!(resolver.row(0, &CancelToken::new()).unwrap(), None);
+        assert_eq!(maker.row(0, &CancelToken::new()).unwrap(), None);
     }
 }

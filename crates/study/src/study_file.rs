@@ -23,7 +23,7 @@ const MOST_LISTED: usize = 10_000;
 /// A study file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Statement {
+pub(crate) struct StudyFile {
     pub format: Spanned<String>,
     pub name: Spanned<String>,
     pub scenario: Spanned<OneOrMore>,
@@ -99,8 +99,8 @@ pub(crate) struct Source<'a> {
 
 impl Source<'_> {
     /// Parses the text.
-    pub fn statement(&self) -> Result<Statement, StudyError> {
-        let stated: Statement = toml::from_str(self.text).map_err(|error| {
+    pub fn statement(&self) -> Result<StudyFile, StudyError> {
+        let stated: StudyFile = toml::from_str(self.text).map_err(|error| {
             let key = error.span().and_then(|span| self.key_at(span.start));
             let key = key.filter(|key| !error.message().contains(key)).unwrap_or_default();
             self.error_at(error.span(), &message_in_words(key, error.message()))
@@ -160,7 +160,7 @@ impl Source<'_> {
     }
 
     /// The study of these scenarios, without the files that its rows name.
-    pub fn study(&self, stated: Statement, bases: Vec<Base>) -> Result<Study, StudyError> {
+    pub fn study(&self, stated: StudyFile, bases: Vec<Base>) -> Result<Study, StudyError> {
         if let Some(rows) = &stated.rows {
             let wrong = |problem: &str| Err(self.error_at(Some(rows.span()), &format!("rows: {problem}")));
             if stated.axis.is_some() {
