@@ -23,7 +23,8 @@ pub struct SampleRequest {
     pub count: usize,
     /// Shape and height of the plates.
     pub geometry: PlateGeometry,
-    /// Footprint of the robot's base, only for [`Finding::OverlapsBase`](crate::layout::Finding::OverlapsBase); `None` if no plate is level with it.
+    /// Footprint of the robot's base, only for [`Finding::OverlapsBase`](crate::layout::Finding::OverlapsBase); `None` if no plate is
+    /// level with it.
     pub base: Option<BaseFootprint>,
 }
 
