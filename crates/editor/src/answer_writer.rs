@@ -1,20 +1,12 @@
 //! An answer on its way to the page, line by line, and how it ends.
 
-use crate::protocol::{EndLine, Refusal};
+use crate::protocol::{EndLine, Milliseconds, Refusal};
 use crate::refusal::of_failure;
 use platewash_planner::PlanError;
 use platewash_scenario::Failure;
 use platewash_workcell::cancel::{CancelToken, Cancelled, Clock};
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::time::Duration;
-use ts_rs::TS;
-
-/// Time that steps took, by their names \[ms\].
-#[derive(Debug, Clone, Default, PartialEq, Serialize, TS)]
-#[serde(transparent)]
-#[ts(as = "BTreeMap<String, f64>")]
-pub struct Milliseconds(BTreeMap<&'static str, f64>);
 
 /// Writes the lines of an answer while the client listens, and records the duration of each step.
 pub struct AnswerWriter<'a> {

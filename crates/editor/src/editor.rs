@@ -1,13 +1,13 @@
 //! An editor: it answers the page's questions and makes the page's first contents.
 
 use crate::answer_writer::AnswerWriter;
-use crate::cell;
+use crate::cell_answer;
+use crate::edited_scenario::{EditedScenario, LONGEST, LONGEST_MAP, LastResult, accepted, may_name_its_files, stated};
 use crate::host::Host;
 use crate::keep::{DiskContents, Keeper, SavedFile};
 use crate::protocol::{CellQuestion, DiskQuestion, FORMAT, LastStage, MapQuestion, RecoveryQuestion, SaveQuestion};
-use crate::recovery;
+use crate::recovery_answer;
 use crate::sessions::{Lane, Sessions, Turn, is_name};
-use crate::subject::{LONGEST, LONGEST_MAP, LastResult, Subject, accepted, may_name_its_files, stated};
 use platewash_kinematics::JointVector;
 use platewash_scenario::{Draft, FormKey, Scenario, ScenarioError, form, source};
 use platewash_viewer::bundle::Bundle;
@@ -37,7 +37,7 @@ pub enum EditorError {
 /// A scenario that is edited. Its only state of a page is the work under way: the page holds the scenario.
 #[derive(Debug)]
 pub struct Editor {
-    subject: Subject,
+    edited: EditedScenario,
     saved_file: Option<SavedFile>,
     sessions: Sessions,
     clock: Clock,
@@ -60,7 +60,7 @@ impl Editor {
     pub fn of_text(name: &str, text: &str, folder: Option<&Path>) -> Result<Self, EditorError> {
         Scenario::parse(text, name)?;
         Ok(Self {
-            subject: Subject::new(name, text, folder),
+            edited: EditedScenario::new(name, text, folder),
             saved_file: None,
             sessions: Sessions::default(),
             clock: system_clock,
@@ -70,7 +70,7 @@ impl Editor {
     /// The same editor on another machine than the one with the system's clock and the files on disk.
     #[must_use]
     pub fn with_host(mut self, host: Host) -> Self {
-        self.subject.files = host.files;
+        self.edited.files = host.files;
         self.clock = host.clock;
         self
     }
@@ -87,39 +87,39 @@ impl Editor {
     /// The same editor for pages that other machines can reach: they may name no files except those that the scenario names.
     #[must_use]
     pub fn open_to_others(mut self) -> Self {
-        self.subject.is_open_to_others = true;
+        self.edited.is_open_to_others = true;
         self
     }
 
     /// The same editor, which remembers its latest answer.
     #[must_use]
     pub fn with_memory(mut self) -> Self {
-        self.subject.remembers = true;
+        self.edited.remembers = true;
         self
     }
 
     /// Name of the scenario, or its file as it was given.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.subject.name
+        &self.edited.name
     }
 
     /// Folder that relative paths in the scenario start from.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
-        self.subject.folder.as_deref()
+        self.edited.folder.as_deref()
     }
 
     /// The scenario as it was opened.
     #[must_use]
     pub fn text(&self) -> &str {
-        &self.subject.text
+        &self.edited.text
     }
 
     /// Latest answer of an editor that is [`Editor::with_memory`].
     #[must_use]
     pub fn latest(&self) -> Option<LastResult> {
-        self.subject.latest()
+        self.edited.latest()
     }
 
     /// A page whose questions go to the window around it.
@@ -160,19 +160,19 @@ impl Editor {
 
     /// The arm at home: the view before the first answer.
     fn view(&self, text: &str) -> Result<View, EditorError> {
-        let subject = &self.subject;
-        let scenario = stated(subject, text).ok();
-        let scenario = scenario.filter(|scenario| may_name_its_files(subject, scenario).is_ok());
+        let edited = &self.edited;
+        let scenario = stated(edited, text).ok();
+        let scenario = scenario.filter(|scenario| may_name_its_files(edited, scenario).is_ok());
         let scenario = match scenario {
             Some(scenario) => scenario,
             None => {
-                let mut opened = Draft::new(&subject.text)?.scenario(&subject.name, self.folder())?;
-                opened.name.clone_from(&subject.name);
-                opened.files = subject.files.clone();
+                let mut opened = Draft::new(&edited.text)?.scenario(&edited.name, self.folder())?;
+                opened.name.clone_from(&edited.name);
+                opened.files = edited.files.clone();
                 opened
             }
         };
-        let arm = subject.arm(&scenario)?.arm;
+        let arm = edited.arm(&scenario)?.arm;
         let mut view = View::of_configuration(&arm, None, &scenario.homes()[0].unwrap_or_else(JointVector::zeros));
         view.heading.scenario.clone_from(&scenario.name);
         Ok(view)
@@ -208,19 +208,19 @@ impl Editor {
                 };
                 let _turn = self.turn(&question.session, lane, gone)?;
                 answer.end_within(LONGEST);
-                cell::answer(&self.subject, &question, answer);
+                cell_answer::answer(&self.edited, &question, answer);
             }
             ("/map", _) => {
                 let question: MapQuestion = read(question)?;
                 let _turn = self.turn(&question.session, Lane::Map, gone)?;
                 answer.end_within(LONGEST_MAP);
-                cell::map(&self.subject, &question, answer);
+                cell_answer::map(&self.edited, &question, answer);
             }
             ("/recover", _) => {
                 let question: RecoveryQuestion = read(question)?;
                 let _turn = self.turn(&question.session, Lane::Map, gone)?;
                 answer.end_within(LONGEST);
-                recovery::answer(&self.subject, &question, answer);
+                recovery_answer::answer(&self.edited, &question, answer);
             }
             ("/save", Some(kept)) => {
                 let question: SaveQuestion = read(question)?;
@@ -246,13 +246,13 @@ impl Editor {
         question: &SaveQuestion,
         answer: &mut AnswerWriter<'_>,
     ) -> Result<(), String> {
-        let subject = &self.subject;
-        let scenario = stated(subject, &question.text);
+        let edited = &self.edited;
+        let scenario = stated(edited, &question.text);
         // Whatever is refused for other reasons is saved: it may be mended later.
         if let Ok(scenario) = &scenario {
-            may_name_its_files(subject, scenario).map_err(|refusal| refusal.words)?;
+            may_name_its_files(edited, scenario).map_err(|refusal| refusal.words)?;
         }
-        let scenario = scenario.and_then(|scenario| accepted(subject, scenario));
+        let scenario = scenario.and_then(|scenario| accepted(edited, scenario));
         let scenario = scenario.map_err(|refusal| refusal.words);
         saved_file.save(question, scenario.as_ref().map_err(String::as_str), answer);
         Ok(())

@@ -10,10 +10,10 @@
 //! | clock and files of the machine that it runs on | `host.rs` |
 //! | questions and lines as JSON | `protocol.rs` |
 //! | a new question ends those before it | `sessions.rs` |
-//! | the subject: the scenario, changed; its arm and its job; the limit on work | `subject.rs` |
-//! | from the scenario to the proof, or the reason that there is none; places at which plates could lie | `cell.rs` |
+//! | the edited scenario: its changes; its arm and its job; the limit on work | `edited_scenario.rs` |
+//! | from the scenario to the proof, or the reason that there is none; places at which plates could lie | `cell_answer.rs` |
 //! | the paper's program on the plates of a plan | `beside.rs` |
-//! | the way on after a stop | `recovery.rs` |
+//! | the way on after a stop | `recovery_answer.rs` |
 //! | the things that a user can move | `moves.rs` |
 //! | the reasons that a scenario is refused | `refusal.rs` |
 //! | lines on their way to the page, their time, the reasons that an answer ends | `answer_writer.rs` |
@@ -21,19 +21,19 @@
 
 mod answer_writer;
 mod beside;
-mod cell;
+mod cell_answer;
+mod edited_scenario;
 mod editor;
 mod host;
 mod keep;
 mod moves;
 pub mod protocol;
-mod recovery;
+mod recovery_answer;
 mod refusal;
 mod sessions;
-mod subject;
 
 pub use beside::paper_beside;
+pub use edited_scenario::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};
 pub use editor::{Editor, EditorError, FirstContents};
 pub use host::Host;
 pub use keep::{Keeper, Save, SaveError, SaveReport};
-pub use subject::{LastResult, MOST_CONTACT_POINTS, MOST_QUESTION_BYTES};

@@ -1,6 +1,5 @@
 //! Questions of the page and lines of answers, as JSON: `platewash-edit/1`. The page's TypeScript types are made from these.
 
-use crate::answer_writer::Milliseconds;
 use platewash_motion::trajectory::PlanSegment;
 use platewash_planner::Chance;
 use platewash_viewer::view;
@@ -172,7 +171,7 @@ pub enum CellLine<'a> {
 #[derive(Debug, Serialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum EndLine<'a> {
-    /// The text is no scenario, or states no job, or not the subject of the question.
+    /// The text is no scenario, or states no job, or not what the question asks for.
     Refused {
         /// Reason of the refusal.
         #[serde(flatten)]
@@ -445,3 +444,9 @@ pub struct HelloLine<'a> {
     /// SHA-256 of the file on disk.
     pub disk: Option<&'a str>,
 }
+
+/// Time that steps took, by their names \[ms\].
+#[derive(Debug, Clone, Default, PartialEq, Serialize, TS)]
+#[serde(transparent)]
+#[ts(as = "BTreeMap<String, f64>")]
+pub struct Milliseconds(pub(crate) BTreeMap<&'static str, f64>);

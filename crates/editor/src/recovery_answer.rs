@@ -1,9 +1,9 @@
 //! The way on after a stop of the cell's plan: planned and proved, and shown.
 
 use crate::answer_writer::{AnswerWriter, End};
+use crate::edited_scenario::{EditedScenario, changed, place_job};
 use crate::protocol::{RecoveryLine, RecoveryQuestion};
 use crate::refusal::plain;
-use crate::subject::{Subject, changed, place_job};
 use platewash_certificate::prove_with;
 use platewash_kinematics::JointVector;
 use platewash_motion::plan::Plan;
@@ -12,8 +12,8 @@ use platewash_scenario::Failure;
 use platewash_viewer::view::{View, ViewExtras};
 
 /// Answers a question for a recovery.
-pub fn answer(subject: &Subject, question: &RecoveryQuestion, answer: &mut AnswerWriter<'_>) {
-    if let Err(end) = answer_recovery(subject, question, answer) {
+pub fn answer(edited: &EditedScenario, question: &RecoveryQuestion, answer: &mut AnswerWriter<'_>) {
+    if let Err(end) = answer_recovery(edited, question, answer) {
         answer.end(
             &end,
             "this recovery takes longer than a minute; `platewash recover` takes its time",
@@ -21,11 +21,15 @@ pub fn answer(subject: &Subject, question: &RecoveryQuestion, answer: &mut Answe
     }
 }
 
-fn answer_recovery(subject: &Subject, question: &RecoveryQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+fn answer_recovery(
+    edited: &EditedScenario,
+    question: &RecoveryQuestion,
+    answer: &mut AnswerWriter<'_>,
+) -> Result<(), End> {
     let gone = answer.gone.clone();
     let watch = Watch::silent(&gone);
-    let scenario = changed(subject, &question.text, &[], &gone)?.scenario?;
-    let placed = place_job(subject, scenario, &gone)?;
+    let scenario = changed(edited, &question.text, &[], &gone)?.scenario?;
+    let placed = place_job(edited, scenario, &gone)?;
     let arm = &placed.loaded.arm;
     let plan = plan_here(&placed.job, &watch)?.plan;
     let proof = |plan: &Plan| prove_with(plan, arm, &gone).map_err(Failure::from);

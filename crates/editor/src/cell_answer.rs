@@ -2,13 +2,13 @@
 //! reason that there is none, and places at which plates could lie.
 
 use crate::answer_writer::{AnswerWriter, End};
+use crate::edited_scenario::{EditedScenario, LastResult, PlacedJob, changed, place_job};
 use crate::moves::moves;
 use crate::protocol::{
     ArmLine, CellLine, CellParts, CellQuestion, FindingLine, LastStage, MapLine, MapQuestion, PlanParts, PlateChance,
     PlateProof, UnwashableReport,
 };
 use crate::refusal::plain;
-use crate::subject::{LastResult, PlacedJob, Subject, changed, place_job};
 use platewash_certificate::{Certificate, prove_with};
 use platewash_motion::plan::Plan;
 use platewash_planner::{
@@ -27,15 +27,15 @@ const MEANING: &str = "Where a plate of this size could lie, the others as they 
                        configurations were found for all of its wash path. Not planned, not proved.";
 
 /// Answers a question for a cell.
-pub fn answer(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>) {
-    if let Err(end) = answer_cell(subject, question, answer) {
+pub fn answer(edited: &EditedScenario, question: &CellQuestion, answer: &mut AnswerWriter<'_>) {
+    if let Err(end) = answer_cell(edited, question, answer) {
         let too_long = "this cell takes longer than a minute to plan and prove; `platewash run` takes its time";
         answer.end(&end, too_long);
     }
 }
 
-fn answer_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
-    let changed = changed(subject, &question.text, &question.edits, &answer.gone)?;
+fn answer_cell(edited: &EditedScenario, question: &CellQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+    let changed = changed(edited, &question.text, &question.edits, &answer.gone)?;
     answer.step("read");
     answer.line(&CellLine::Scenario {
         text: &changed.text,
@@ -43,7 +43,7 @@ fn answer_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWr
         values: &changed.values,
         ms: answer.ms(),
     });
-    let placed = place_job(subject, changed.scenario?, &answer.gone)?;
+    let placed = place_job(edited, changed.scenario?, &answer.gone)?;
     answer.step("place");
     tell_parts(&placed, question.arm.as_deref(), answer);
     if question.want == LastStage::Preview {
@@ -67,7 +67,7 @@ fn answer_cell(subject: &Subject, question: &CellQuestion, answer: &mut AnswerWr
         Some(Err(error)) => (None, None, tell_unplanned(&placed, error, true, answer)?),
         None => return Err(End::Failed("planning did not begin".to_owned())),
     };
-    subject.remember(|| LastResult {
+    edited.remember(|| LastResult {
         text: changed.text,
         scenario: placed.scenario,
         plan,
@@ -220,8 +220,8 @@ fn tell_unplanned(
 }
 
 /// Answers a question for a map: places at which a plate could be washed, sent as they are found.
-pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>) {
-    let answered = answer_map(subject, question, answer);
+pub fn map(edited: &EditedScenario, question: &MapQuestion, answer: &mut AnswerWriter<'_>) {
+    let answered = answer_map(edited, question, answer);
     answer.step("map");
     match answered {
         Ok(()) => answer.line(&MapLine::MapDone {
@@ -235,10 +235,10 @@ pub fn map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<
     }
 }
 
-fn answer_map(subject: &Subject, question: &MapQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
+fn answer_map(edited: &EditedScenario, question: &MapQuestion, answer: &mut AnswerWriter<'_>) -> Result<(), End> {
     let gone = answer.gone.clone();
-    let scenario = changed(subject, &question.text, &[], &gone)?.scenario?;
-    let placed = place_job(subject, scenario, &gone)?;
+    let scenario = changed(edited, &question.text, &[], &gone)?.scenario?;
+    let placed = place_job(edited, scenario, &gone)?;
     let (plate, count) = (question.plate, placed.layout.plates.len());
     if plate >= count {
         return Err(plain(format!("there is no {}: the cell has {count}", plate_name(plate))).into());

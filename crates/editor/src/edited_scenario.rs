@@ -1,4 +1,4 @@
-//! Subject of an editor: the scenario as it was opened, its change by a question, the limit on work, and the latest answer.
+//! Scenario under edit: the scenario as it was opened, its change by a question, the limit on work, and the latest answer.
 
 use crate::answer_writer::End;
 use crate::protocol::{Edit, Refusal};
@@ -49,7 +49,7 @@ pub fn too_much(scenario: &Scenario) -> Option<String> {
 
 /// Scenario that is edited.
 #[derive(Debug, Default)]
-pub struct Subject {
+pub struct EditedScenario {
     /// Name of the scenario, or its file as it was given.
     pub name: String,
     /// Folder that relative paths in it start from.
@@ -84,7 +84,7 @@ pub struct LastResult {
     pub headline: String,
 }
 
-impl Subject {
+impl EditedScenario {
     /// A scenario; paths in it begin in `folder`.
     pub fn new(name: &str, text: &str, folder: Option<&Path>) -> Self {
         Self {
@@ -137,7 +137,7 @@ pub struct EditedText {
 ///
 /// # Errors
 /// [`End`]: it is no TOML, a change is none, or it is given up.
-pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelToken) -> Result<EditedText, End> {
+pub fn changed(edited: &EditedScenario, text: &str, edits: &[Edit], cancel: &CancelToken) -> Result<EditedText, End> {
     if edits.len() > MOST_EDITS {
         let words = format!("{} changes at once; at most {MOST_EDITS} are made", edits.len());
         return Err(plain(words).into());
@@ -151,41 +151,41 @@ pub fn changed(subject: &Subject, text: &str, edits: &[Edit], cancel: &CancelTok
     let stated = draft.stated();
     // Paths are shown as they stand.
     let values = draft
-        .scenario(&subject.name, None)
+        .scenario(&edited.name, None)
         .as_ref()
         .map(values_of)
         .unwrap_or_default();
-    let scenario = in_folder(subject, &draft);
+    let scenario = in_folder(edited, &draft);
     Ok(EditedText {
         text: draft.text().to_owned(),
         stated,
         values,
-        scenario: scenario.and_then(|scenario| accepted(subject, scenario)),
+        scenario: scenario.and_then(|scenario| accepted(edited, scenario)),
     })
 }
 
 /// The scenario that a text states, its paths found from the scenario's folder; not one yet that a page may ask for.
-pub fn stated(subject: &Subject, text: &str) -> Result<Scenario, Refusal> {
+pub fn stated(edited: &EditedScenario, text: &str) -> Result<Scenario, Refusal> {
     let draft = Draft::new(text).map_err(|error| of_scenario(&error))?;
-    in_folder(subject, &draft)
+    in_folder(edited, &draft)
 }
 
-fn in_folder(subject: &Subject, draft: &Draft) -> Result<Scenario, Refusal> {
-    let scenario = draft.scenario(&subject.name, subject.folder.as_deref());
+fn in_folder(edited: &EditedScenario, draft: &Draft) -> Result<Scenario, Refusal> {
+    let scenario = draft.scenario(&edited.name, edited.folder.as_deref());
     let mut scenario = scenario.map_err(|error| of_scenario(&error))?;
-    scenario.solids = subject.solids.clone();
-    scenario.files = subject.files.clone();
+    scenario.solids = edited.solids.clone();
+    scenario.files = edited.files.clone();
     Ok(scenario)
 }
 
 /// A scenario that a page may ask for.
-pub fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refusal> {
+pub fn accepted(edited: &EditedScenario, scenario: Scenario) -> Result<Scenario, Refusal> {
     if scenario.job.program == Program::Paper {
         let words = "job.program = \"paper\": the paper's program moves from waypoint to waypoint, and nothing of it is proved; set it to \
                      \"certified\" (its wash.height_m to 0) for a plan with its proof, or look at it with `platewash run`";
         return Err(at("job.program", words));
     }
-    may_name_its_files(subject, &scenario)?;
+    may_name_its_files(edited, &scenario)?;
     match too_much(&scenario) {
         Some(words) => Err(about(words)),
         None => match scenario.plates_read() {
@@ -196,8 +196,8 @@ pub fn accepted(subject: &Subject, scenario: Scenario) -> Result<Scenario, Refus
 }
 
 /// Refuses files that a page which other machines can reach may not name.
-pub fn may_name_its_files(subject: &Subject, scenario: &Scenario) -> Result<(), Refusal> {
-    if !subject.may_name_files() && !subject.names_all_of(scenario) {
+pub fn may_name_its_files(edited: &EditedScenario, scenario: &Scenario) -> Result<(), Refusal> {
+    if !edited.may_name_files() && !edited.names_all_of(scenario) {
         let words = "robot.urdf, robot.srdf, robot.package_path, meshes: a page that other machines can reach names no files but those of \
                      the scenario on disk; change them there";
         return Err(at("robot.urdf", words));
@@ -217,7 +217,7 @@ pub struct LoadedArm {
     pub arm: Arc<RobotModel>,
 }
 
-impl Subject {
+impl EditedScenario {
     /// The arm of a scenario.
     pub fn arm(&self, scenario: &Scenario) -> Result<LoadedArm, Failure> {
         let id = id(scenario);
@@ -262,8 +262,8 @@ pub struct PlacedJob {
 }
 
 /// The job of a scenario.
-pub fn place_job(subject: &Subject, scenario: Scenario, cancel: &CancelToken) -> Result<PlacedJob, End> {
-    let loaded = subject.arm(&scenario)?;
+pub fn place_job(edited: &EditedScenario, scenario: Scenario, cancel: &CancelToken) -> Result<PlacedJob, End> {
+    let loaded = edited.arm(&scenario)?;
     let layout = scenario.place(&loaded.arm, &Watch::silent(cancel))?;
     let job = scenario.job_on(&loaded.arm, &layout)?;
     Ok(PlacedJob {
