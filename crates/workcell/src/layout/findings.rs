@@ -1,6 +1,8 @@
 //! Problems of a layout that do not make it unusable.
 
-use crate::layout::{BaseFootprint, Region, Spacing};
+use crate::layout::footprint::BaseFootprint;
+use crate::layout::region::Region;
+use crate::layout::spacing::Spacing;
 use crate::plate::Plate;
 use crate::words::plate_name;
 use platewash_kinematics::words::{distinct_decimals, nonzero_decimals};

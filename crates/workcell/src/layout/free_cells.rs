@@ -2,16 +2,14 @@
 //!
 //! Discs around earlier plates that are forbidden to later ones.
 
-use crate::layout::MAX_PLATES;
+use crate::layout::count::MAX_PLATES;
+use crate::layout::region::{Area, QuadCell};
 
 /// Greatest number of halvings of cells: to 2⁻³⁰ of the region's box, below 1e-9 m for a box of 1 m.
 const MAX_LEVEL: u32 = 30;
 
 /// Number of cells above which they are not halved any further.
 const MAX_CELLS: usize = 1 << 16;
-
-use crate::layout::region::QuadCell;
-use crate::layout::sampling::Space;
 
 /// Equal rectangles of one level of a quadtree over the region's box. Together they contain every free point.
 #[derive(Debug)]
@@ -196,5 +194,34 @@ impl Buckets {
                 .clone()
                 .map(move |column| self.lists[row * self.counts[0] + column].as_slice())
         })
+    }
+}
+
+/// The region, the free space around the base, and the discs around earlier plates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Space<'a> {
+    pub(crate) area: &'a Area,
+    pub(crate) base_radius_squared: f64,
+    pub(crate) discs: &'a Discs,
+}
+
+impl Space<'_> {
+    /// True if a point is in the region and strictly outside of every disc.
+    pub(crate) fn is_free(&self, p: [f64; 2]) -> bool {
+        p[0] * p[0] + p[1] * p[1] > self.base_radius_squared
+            && !self.discs.any_near(p, |[x, y], radius_squared| {
+                let (dx, dy) = (p[0] - x, p[1] - y);
+                dx * dx + dy * dy <= radius_squared
+            })
+            && self.area.contains(p)
+    }
+
+    /// True if a cell of the region's box certainly holds no free point: it lies wholly in one disc or outside the region.
+    pub(crate) fn is_closed(&self, cell: &QuadCell) -> bool {
+        cell.farthest_squared([0.0; 2]) <= self.base_radius_squared
+            || self.discs.any_near(cell.middle, |centre, radius_squared| {
+                cell.farthest_squared(centre) <= radius_squared
+            })
+            || self.area.excludes(cell)
     }
 }

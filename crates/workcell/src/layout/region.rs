@@ -4,8 +4,8 @@
 //!
 //! The footprint of the arm's base is computed here, too.
 
-use crate::layout::BaseFootprint;
 use crate::layout::error::{InputProblem, LayoutError, not_negative, range};
+use crate::layout::footprint::BaseFootprint;
 use nalgebra::Matrix3;
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::trig::sin_cos;

@@ -18,17 +18,15 @@
 //! hyperspheres at saturation", Physical Review E 88 (2013) 053312.
 //!
 //! Free points for the next plate.
-//!
-//! The source of a job's plates: given one by one, or drawn.
 
 #[allow(clippy::disallowed_methods)]
 #[cfg(test)]
 mod tests;
 
 use crate::layout::error::{EmptyReason, LayoutError};
-use crate::layout::free_cells::{Cells, Discs, Refinement};
-use crate::layout::region::{Area, QuadCell, Region};
-use crate::layout::{BaseFootprint, Layout, PlateGeometry, SampleRequest, Spacing, check_explicit, sample};
+use crate::layout::free_cells::{Cells, Discs, Refinement, Space};
+use crate::layout::region::{Area, Region};
+use crate::layout::spacing::Spacing;
 use rand::Rng;
 
 /// Number of draws from the box before cells are used.
@@ -215,94 +213,4 @@ fn first_free<R: Rng + ?Sized>(
 /// Returns a uniform number in [0, 1), from the upper 53 bits of one word: the same on every machine and with every version of `rand`.
 fn unit<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// The region, the free space around the base, and the discs around earlier plates.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Space<'a> {
-    pub(crate) area: &'a Area,
-    base_radius_squared: f64,
-    pub(crate) discs: &'a Discs,
-}
-
-impl Space<'_> {
-    /// True if a point is in the region and strictly outside of every disc.
-    fn is_free(&self, p: [f64; 2]) -> bool {
-        p[0] * p[0] + p[1] * p[1] > self.base_radius_squared
-            && !self.discs.any_near(p, |[x, y], radius_squared| {
-                let (dx, dy) = (p[0] - x, p[1] - y);
-                dx * dx + dy * dy <= radius_squared
-            })
-            && self.area.contains(p)
-    }
-
-    /// True if a cell of the region's box certainly holds no free point: it lies wholly in one disc or outside the region.
-    pub(crate) fn is_closed(&self, cell: &QuadCell) -> bool {
-        cell.farthest_squared([0.0; 2]) <= self.base_radius_squared
-            || self.discs.any_near(cell.middle, |centre, radius_squared| {
-                cell.farthest_squared(centre) <= radius_squared
-            })
-            || self.area.excludes(cell)
-    }
-}
-
-/// Source of a job's plates.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Placement {
-    /// Given by their centres.
-    Given {
-        /// Centres `[x, y]` \[m\].
-        centres_m: Vec<[f64; 2]>,
-        /// Region in which they should be, if any. Only findings depend on it.
-        region: Option<Region>,
-    },
-    /// Drawn from a random stream.
-    Sampled {
-        /// Region of the centres.
-        region: Region,
-        /// Number of plates.
-        count: usize,
-        /// True if layouts are drawn until every plate can be washed completely.
-        washable_only: bool,
-    },
-}
-
-impl Placement {
-    /// True if layouts are drawn until one can be washed completely, which only a planner can decide.
-    #[must_use]
-    pub fn needs_planner(&self) -> bool {
-        matches!(
-            self,
-            Self::Sampled {
-                washable_only: true,
-                ..
-            }
-        )
-    }
-
-    /// Places plates of one shape round a base. A planner decides later if they can be washed.
-    ///
-    /// # Errors
-    /// As [`sample`] and [`check_explicit`].
-    pub fn place<R: Rng + ?Sized>(
-        &self,
-        spacing: &Spacing,
-        geometry: &PlateGeometry,
-        base: Option<&BaseFootprint>,
-        rng: &mut R,
-    ) -> Result<Layout, LayoutError> {
-        match self {
-            Self::Given { centres_m, region } => check_explicit(centres_m, region.as_ref(), spacing, geometry, base),
-            Self::Sampled { region, count, .. } => {
-                let request = SampleRequest {
-                    region: *region,
-                    spacing: *spacing,
-                    count: *count,
-                    geometry: *geometry,
-                    base: base.copied(),
-                };
-                sample(&request, rng)
-            }
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Position of two plates relative to each other, seen along the axis of one.
 
-use crate::plate::Plate;
+use crate::plate::placed_plate::Plate;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 

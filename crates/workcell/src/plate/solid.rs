@@ -20,7 +20,7 @@
 //! What parts hold above the face, all as a share of the rim's radius: where the meridian bends [`BEND`]; where the face is hollow across
 //! the meridian ρ (1 − cos α) sin β ≤ [`TURN`]; over the middle [`WELL`]. Beyond the rim they reach [`BEYOND`] at most.
 
-use crate::plate::Plate;
+use crate::plate::placed_plate::Plate;
 use crate::surface::{Knot, MeridianPoint, Surface};
 use nalgebra::{Point3, Quaternion, UnitQuaternion};
 use platewash_kinematics::Pose;

@@ -1,6 +1,6 @@
 //! Terms of one plate, where they differ from those of its job.
 
-use crate::plate::GREATEST_M;
+use crate::plate::bounds::GREATEST_M;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
