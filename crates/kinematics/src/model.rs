@@ -25,7 +25,7 @@ use crate::srdf::SrdfError;
 use crate::trig::{atan2, sin_cos_vector};
 use crate::urdf::fixed::FixedJoints;
 use crate::urdf::followers::FollowerLink;
-use crate::urdf::statements::UnusedStatement;
+use crate::urdf::unused_statements::UnusedStatement;
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 
 /// Revolute joint of the chain.

@@ -5,8 +5,8 @@
 
 use crate::body_error::BodyError;
 use crate::error::ScenarioError;
-use crate::resolve::arm::ArmError;
 use crate::sections::tool::tool_keys;
+use crate::to_job::arm::ArmError;
 use platewash_bodies::clearance::ClearanceError;
 use platewash_bodies::job::{End, JobError};
 use platewash_bodies::tool_chain::ToolError;

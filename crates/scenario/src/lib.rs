@@ -12,7 +12,7 @@
 //! | --- | --- |
 //! | sections, their keys, units, ranges and meanings | `sections`, `keys` |
 //! | reading and checking a file | `source`, `load`, `scenario`, `units`, `lossy_path` |
-//! | from a scenario to its job | `resolve` |
+//! | from a scenario to its job | `to_job` |
 //! | a plate from a mesh or from probed points | [`measured`] |
 //! | changing a text key by key | `draft` |
 //! | failures and refusals in the words of the keys | `failure`, `error`, `body_error` |
@@ -30,11 +30,11 @@ mod lossy_path;
 pub mod measured;
 mod obstacle_file;
 mod remedy;
-mod resolve;
 mod scenario;
 mod sections;
 mod source;
 mod suggest;
+mod to_job;
 mod units;
 
 pub use crate::body_error::{BodyError, BodyFault, BodySection};
@@ -48,10 +48,6 @@ pub use crate::keys::table::{LISTS, List};
 pub use crate::keys::value::values_of;
 pub use crate::obstacle_file::{MeshPlaces, ObstacleText};
 pub use crate::remedy::{MOST_TRIALS, Remedies, Remedy};
-pub use crate::resolve::arm::{ArmError, load_arm, load_arm_with_fixed};
-pub use crate::resolve::plate_files::PlateFiles;
-pub use crate::resolve::solids::Solids;
-pub use crate::resolve::work::MAX_CONTACT_CHECKS;
 pub use crate::scenario::{Scenario, check_seed};
 pub use crate::sections::body_shape::{BodyShape, StatedShape};
 pub use crate::sections::holder::HolderSection;
@@ -65,5 +61,9 @@ pub use crate::sections::tool::{ASSUMED_STIFFNESS_KPA, BodyFrame, HandleName, To
 pub use crate::sections::wash::WashSection;
 pub use crate::source::{ScenarioSource, source};
 pub use crate::suggest::Suggestion;
+pub use crate::to_job::arm::{ArmError, load_arm, load_arm_with_fixed};
+pub use crate::to_job::plate_files::PlateFiles;
+pub use crate::to_job::solids::Solids;
+pub use crate::to_job::work::MAX_CONTACT_CHECKS;
 pub use crate::units::{MeshAs, Note};
 pub use platewash_scenarios::{SHIPPED, ShippedScenario};

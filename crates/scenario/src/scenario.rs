@@ -1,8 +1,6 @@
 //! A scenario: everything that a file states, section by section.
 
 use crate::error::Problem;
-use crate::resolve::plate_files::PlateFiles;
-use crate::resolve::solids::Solids;
 use crate::sections::holder::HolderSection;
 use crate::sections::layout::{LayoutSection, PlateSection};
 use crate::sections::motion::{IkSection, JobSection, LimitsSection, Program, TransitionSection};
@@ -12,6 +10,8 @@ use crate::sections::room::{FloorSection, TableSection};
 use crate::sections::simulation::{ControlSection, PlantSection};
 use crate::sections::tool::{ToolBodySection, ToolSection};
 use crate::sections::wash::WashSection;
+use crate::to_job::plate_files::PlateFiles;
+use crate::to_job::solids::Solids;
 use platewash_keys::Section;
 use platewash_kinematics::urdf::Files;
 use platewash_kinematics::{AXES, JointVector};

@@ -10,7 +10,7 @@ use crate::urdf::fixed::{self, Fixed, FixedJoints};
 use crate::urdf::mesh::MeshSource;
 use crate::urdf::shapes::{self, VisualReader};
 use crate::urdf::tree::{self, Tree, finite, pose, rigid, unit_axis};
-use crate::urdf::{followers, scan, statements};
+use crate::urdf::{followers, scan, unused_statements};
 use crate::words::message_in_words;
 use nalgebra::{Matrix3, Vector3};
 
@@ -63,7 +63,7 @@ impl RobotModel {
 /// [`UrdfError`], naming the joint or link at fault.
 pub(crate) fn load(text: &str, meshes: &MeshSource, fixed: &FixedJoints) -> Result<RobotModel, UrdfError> {
     scan::check(text)?;
-    let stated = statements::read(text)?;
+    let stated = unused_statements::read(text)?;
     let used = &stated.used_text;
     let mut robot = urdf_rs::read_from_string(used).map_err(|e| syntax(used, &e))?;
     sizes(&robot)?;

@@ -24,9 +24,9 @@ mod mesh_text;
 mod obj;
 mod scan;
 pub(crate) mod shapes;
-pub(crate) mod statements;
 mod stl;
 mod tree;
+pub(crate) mod unused_statements;
 
 pub use crate::urdf::error::UrdfError;
 pub use crate::urdf::files::{Files, HeldFiles};
@@ -35,4 +35,4 @@ pub use crate::urdf::followers::FollowerLink;
 pub use crate::urdf::mesh::{MeshError, MeshSource, MeshSplitter, Scan};
 pub use crate::urdf::scan::MAX_BYTES;
 pub use crate::urdf::shapes::{MAX_TRIANGLES, MAX_VISUALS};
-pub use crate::urdf::statements::UnusedStatement;
+pub use crate::urdf::unused_statements::UnusedStatement;

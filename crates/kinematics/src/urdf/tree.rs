@@ -9,7 +9,7 @@ use crate::limits::{JointFriction, JointLimits};
 use crate::rotation::Pose;
 use crate::rotation::{RigidTransform, from_rpy};
 use crate::urdf::error::UrdfError;
-use crate::urdf::statements::Rates;
+use crate::urdf::unused_statements::Rates;
 use crate::words::is_hidden;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};

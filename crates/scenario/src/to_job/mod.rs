@@ -24,11 +24,11 @@ pub(crate) mod work;
 
 use crate::error::{Problem, ScenarioError};
 use crate::failure::Failure;
-use crate::resolve::arm::load;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
 use crate::sections::robot::ReducedClearanceSection;
 use crate::sections::wash::{PAPER_RADIUS_M, PAPER_TURNS};
+use crate::to_job::arm::load;
 use platewash_bodies::assembly;
 use platewash_bodies::job::check_standing;
 use platewash_bodies::job::{End, JobError, WashJob};

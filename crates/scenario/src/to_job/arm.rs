@@ -1,7 +1,7 @@
 //! From the `[robot]` section to an arm.
 
-use crate::resolve::solids::Solids;
 use crate::sections::robot::{BuiltInArm, RobotSection};
+use crate::to_job::solids::Solids;
 use platewash_kinematics::irb120::EmbeddedModelError;
 use platewash_kinematics::urdf::{Files, FixedJoints, MAX_BYTES, MeshSource};
 use platewash_kinematics::{DisabledPairs, RobotModel, SrdfError, UrdfError};

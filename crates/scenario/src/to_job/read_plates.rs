@@ -4,14 +4,14 @@
 
 use crate::error::{Problem, ScenarioError, conflict};
 use crate::measured::{self, FaceSide, MeasuredError, MeasuredPlate, Unit};
-use crate::resolve::mount::place_words;
-use crate::resolve::placement::ShapeKeys;
-use crate::resolve::plate_files::ReadFiles;
 use crate::scenario::Scenario;
 use crate::sections::layout::{LayoutSection, PlateSection, ProfileName};
 use crate::sections::motion::Program;
 use crate::sections::robot::OriginLink;
 use crate::source::{MAX_BYTES, unread};
+use crate::to_job::mount::place_words;
+use crate::to_job::placement::ShapeKeys;
+use crate::to_job::plate_files::ReadFiles;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use platewash_kinematics::Pose;
 use platewash_kinematics::urdf::MeshSource;

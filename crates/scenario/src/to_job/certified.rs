@@ -1,9 +1,9 @@
 //! Requirements of a certified job on keys whose ranges are wider for the paper's program, or for messages that name the key.
 
 use crate::error::Problem;
-use crate::resolve::placement::ShapeKeys;
 use crate::scenario::Scenario;
 use crate::sections::motion::Program;
+use crate::to_job::placement::ShapeKeys;
 use platewash_workcell::surface::Surface;
 use platewash_workcell::wash_path::{LEAST_RADIUS_M, LEAST_TURNS, LONGEST_M, MOST_TURNS, WashCurve, WashPattern};
 
