@@ -99,10 +99,10 @@ fn find_arm(options: &Options, wanted: &ArmId, besides: Option<&Arc<RobotModel>>
             ..options.robot_section(RobotSection::default())
         };
         let arm = load_arm(&section, &options.files)?;
-        refuse_other(wanted, &ArmId::of(&arm))?;
+        refuse_other(wanted, &ArmId::new(&arm))?;
         return Ok(Arc::new(arm));
     }
-    let is_it = |arm: &&Arc<RobotModel>| is_same_arm(wanted, &ArmId::of(arm));
+    let is_it = |arm: &&Arc<RobotModel>| is_same_arm(wanted, &ArmId::new(arm));
     if let Some(arm) = besides.filter(is_it) {
         return Ok(arm.clone());
     }

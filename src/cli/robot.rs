@@ -172,7 +172,7 @@ pub fn run(options: &Options, arguments: &RobotArguments) -> Result<ExitCode> {
     let tool_mount = match stated {
         Some(text) => {
             robot.tool_mount(stated).context("tool.mounted_on")?;
-            Ok(ToolMount::of(text))
+            Ok(ToolMount::from_text(text))
         }
         None => robot.find_tool_mount().map_err(|error| error.to_string()),
     };

@@ -51,7 +51,7 @@ pub fn wash(options: &Options, scenario: &Scenario) -> Result<Washing, Failure> 
     let progress = options.progress("planning");
     let watch = progress.watch(&options.cancel);
     // What fails wherever the plates lie, before they are placed.
-    scenario.check_standing(&arm, &Layout::of(Vec::new()))?;
+    scenario.check_standing(&arm, &Layout::from_plates(Vec::new()))?;
     let layout = scenario.place(&arm, &watch)?;
     let job = scenario.job_on(&arm, &layout);
     let planned = job.and_then(|job| Ok(plan_with(&job, &watch)?));

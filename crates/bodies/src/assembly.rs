@@ -17,7 +17,7 @@ pub fn workcell(
 ) -> Result<Workcell, ClearanceError> {
     let mut workcell = Workcell {
         mount,
-        arm: ArmId::of(robot),
+        arm: ArmId::new(robot),
         tool,
         obstacles,
         exclusions: Vec::new(),

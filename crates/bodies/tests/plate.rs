@@ -65,7 +65,7 @@ fn body_points(plate: &Plate, seed: u64, count: usize) -> Vec<Point3<f64>> {
 /// Every point of the body lies within a part, and every part within the whole.
 fn holds(plate: &Plate, seed: u64, count: usize) -> Result<(), TestCaseError> {
     let solids: Vec<_> = plate.bodies().iter().map(Solid::new).collect();
-    let parts = PlateParts::of(plate);
+    let parts = PlateParts::new(plate);
     let whole = Solid::new(&(parts.whole.0, plate.pose * parts.whole.1));
     for point in body_points(plate, seed, count) {
         let out = solids

@@ -16,7 +16,7 @@ pub fn paper_beside(plan: &Plan, arm: &RobotModel) -> Option<Beside> {
     if plan.process == Process::Paper || job.dry_run.is_some() || !is_known {
         return None;
     }
-    let layout = Layout::of(job.plates.clone());
+    let layout = Layout::from_plates(job.plates.clone());
     let job = PaperJob::of_part(PaperPart::Appendix, Arc::new(arm.clone()), layout, job.seed).ok()?;
     let run = paper::run(&job).ok()?;
     let report = run.report().ok()?;

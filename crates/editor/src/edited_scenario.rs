@@ -221,7 +221,7 @@ impl EditedScenario {
     /// The arm of a scenario.
     pub fn arm(&self, scenario: &Scenario) -> Result<LoadedArm, Failure> {
         let id = id(scenario);
-        let arm = self.arms.of(id.clone(), || scenario.arm())?;
+        let arm = self.arms.get_or_make(id.clone(), || scenario.arm())?;
         Ok(LoadedArm { id, arm })
     }
 }

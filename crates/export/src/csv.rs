@@ -215,7 +215,7 @@ fn read(file: &ProgramFile) -> Result<Reading, TableError> {
         speed_share: plan_time
             .map(|[place]| share(&table, place, &points, &plan_times))
             .transpose()?,
-        ..Reading::of(points, interpolation)
+        ..Reading::from_points(points, interpolation)
     })
 }
 

@@ -93,7 +93,7 @@ fn check(
 ) -> Result<(), Refusal> {
     settings.check(dialect, arm)?;
     let job = &certified.plan().job;
-    let (expected, found) = (&job.workcell.arm, ArmId::of(arm));
+    let (expected, found) = (&job.workcell.arm, ArmId::new(arm));
     if *expected != found {
         return Err(Refusal::OtherArm {
             expected: expected.name.clone(),

@@ -137,7 +137,7 @@ fn workcell(source: &Source<'_>) -> Vec<String> {
             world.arm.fixed_words()
         ));
     }
-    lines.extend(world.tool.mounted_on.as_deref().map(ToolMount::of).map(|mount| {
+    lines.extend(world.tool.mounted_on.as_deref().map(ToolMount::from_text).map(|mount| {
         let flange = match tool_frame::check_mount(&world.tool, source.arm) {
             Ok(()) => "the controller's flange is assumed to be there, its z along that axis",
             Err(_) => "the controller's flange is not there, or looks another way",

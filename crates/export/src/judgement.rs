@@ -76,7 +76,7 @@ pub fn judge(
         Ok(Case {
             corner_scale: motion.corner_scale,
             proof: prove_program(certified, &motion.motion, arm, &limits, cancel)?,
-            demands: ControllerDemands::of(&motion, &job.limits.joint_acceleration_rad_s2),
+            demands: ControllerDemands::new(&motion, &job.limits.joint_acceleration_rad_s2),
         })
     };
     let motions = motions(reading, arm, &tip)?;
@@ -136,7 +136,7 @@ impl Case {
 }
 
 impl ControllerDemands {
-    fn of(motion: &ProgramMotion, limits_rad_s2: &[f64; AXES]) -> Self {
+    fn new(motion: &ProgramMotion, limits_rad_s2: &[f64; AXES]) -> Self {
         let pieces = motion.motion.pieces();
         let mut shares: Vec<f64> = Vec::new();
         let mut speed_step_rad_s = 0.0_f64;

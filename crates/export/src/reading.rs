@@ -31,7 +31,7 @@ pub struct Reading {
 
 impl Reading {
     /// A motion of which the program states nothing else.
-    pub(crate) fn of(points: Vec<ReadPoint>, interpolation: SegmentShape) -> Self {
+    pub(crate) fn from_points(points: Vec<ReadPoint>, interpolation: SegmentShape) -> Self {
         Self {
             speed_share: None,
             most_share: None,

@@ -21,7 +21,7 @@ const MOUNT_WITHIN: (f64, f64) = (1e-4, 0.01);
 pub(crate) fn check_mount(tool: &Tool, arm: &RobotModel) -> Result<(), Refusal> {
     let mount = tool.mounting_frame(arm);
     let refused = |found: String| {
-        let on = ToolMount::of(tool.mounted_on.as_deref().unwrap_or(ToolFrame::Tool0.name()));
+        let on = ToolMount::from_text(tool.mounted_on.as_deref().unwrap_or(ToolFrame::Tool0.name()));
         Err(Refusal::Frame(format!(
             "the tool is mounted on link '{}' along its {} axis, {found}; a program states the tool from the controller's tool0, whose z \
                  axis leaves the flange along axis 6: plan with another mount (tool.mounted_on, --tool-mount LINK:AXIS)",

@@ -85,7 +85,7 @@ pub struct ToolMount<'a> {
 impl<'a> ToolMount<'a> {
     /// Returns the mount of a text.
     #[must_use]
-    pub fn of(text: &'a str) -> Self {
+    pub fn from_text(text: &'a str) -> Self {
         let stated = text.rsplit_once(':').and_then(|(link, name)| {
             let axis = LinkAxis::find(|axis| axis.name() == name)?;
             Some(Self { link, axis })
@@ -143,7 +143,7 @@ impl RobotModel {
     /// # Errors
     /// [`ToolFrameError::NoMount`] for a link that is not behind joint 6, and for `None` if the description has no `tool0`.
     pub fn tool_mount(&self, mounted_on: Option<&str>) -> Result<Frame, ToolFrameError> {
-        let ToolMount { link, axis } = ToolMount::of(mounted_on.unwrap_or(ToolFrame::Tool0.name()));
+        let ToolMount { link, axis } = ToolMount::from_text(mounted_on.unwrap_or(ToolFrame::Tool0.name()));
         let found = self
             .behind_joint_6(link)
             .ok_or_else(|| self.no_mount(format!("has no link '{}' behind joint 6", link.escape_debug())))?;

@@ -91,7 +91,7 @@ impl PaperJob {
     /// As [`PaperJob::of_terms`].
     pub fn of_plan(plan: &Plan, arm: Arc<RobotModel>) -> Result<Self, PaperError> {
         let (name, terms) = (plan.provenance.scenario.clone(), plan.job.clone());
-        let layout = Layout::of(terms.plates.clone());
+        let layout = Layout::from_plates(terms.plates.clone());
         Self::of_terms(name, terms, layout, arm)
     }
 

@@ -159,7 +159,7 @@ impl WashJobObject {
         let inner = self.inner.on_plates(plates.clone());
         Ok(Self {
             inner: inner.map_err(|e| errors::failure(py, &e.into()))?,
-            layout: Layout::of(plates),
+            layout: Layout::from_plates(plates),
             robot: self.robot(py),
         })
     }

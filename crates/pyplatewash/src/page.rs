@@ -249,7 +249,7 @@ pub fn _plan_figure<'py>(
     let (certificate, done) = of_the_plan(py, plan, execution, certificate)?;
     let (plan, arm) = (plan.inner().clone(), robot.get().model().clone());
     let known = &plan.job.workcell.arm;
-    if ArmId::of(&arm).urdf_sha256 != known.urdf_sha256 {
+    if ArmId::new(&arm).urdf_sha256 != known.urdf_sha256 {
         let words = format!(
             "the plan was made for another arm, '{}'; found '{}'",
             known.name,

@@ -126,7 +126,7 @@ impl PlanObject {
             return Ok(Some(robot.clone_ref(py)));
         }
         let built_in = Robot::built_in(py)?;
-        let is_it = ArmId::of(built_in.get().model()) == self.inner.job.workcell.arm;
+        let is_it = ArmId::new(built_in.get().model()) == self.inner.job.workcell.arm;
         Ok(is_it.then_some(built_in))
     }
 }

@@ -18,7 +18,7 @@ impl<K: PartialEq, T: Clone, const MOST: usize> Cache<K, T, MOST> {
     ///
     /// # Errors
     /// The error of `make`; nothing is kept then.
-    pub fn of<E>(&self, key: K, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+    pub fn get_or_make<E>(&self, key: K, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut kept = lock();
         if let Some(at) = kept.iter().position(|(of, _)| *of == key) {
@@ -48,10 +48,10 @@ mod tests {
     #[test]
     fn the_cache_is_bounded_and_drops_the_longest_unused_first() {
         let cache = Cache::<usize, (), 64>::default();
-        let is_kept = |k: usize| cache.of(k, || Err(())).is_ok();
-        (0..64).for_each(|k| cache.of::<()>(k, || Ok(())).unwrap());
+        let is_kept = |k: usize| cache.get_or_make(k, || Err(())).is_ok();
+        (0..64).for_each(|k| cache.get_or_make::<()>(k, || Ok(())).unwrap());
         assert!(is_kept(0));
-        cache.of::<()>(64, || Ok(())).unwrap();
+        cache.get_or_make::<()>(64, || Ok(())).unwrap();
         assert_eq!(cache.0.lock().unwrap().len(), 64);
         assert!(is_kept(0) && !is_kept(1));
     }

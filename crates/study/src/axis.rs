@@ -46,11 +46,11 @@ pub enum AxisKind {
 impl AxisKind {
     /// Kind of values, of which there is at least one.
     pub(crate) fn of_all<'a>(values: impl IntoIterator<Item = &'a Value>) -> Self {
-        let kinds = values.into_iter().map(Self::of);
+        let kinds = values.into_iter().map(Self::from_value);
         kinds.reduce(Self::with).unwrap_or(Self::Json)
     }
 
-    fn of(value: &Value) -> Self {
+    fn from_value(value: &Value) -> Self {
         match value {
             Value::Bool(_) => Self::Flag,
             Value::Number(number) if number.is_i64() => Self::Whole,
@@ -65,7 +65,7 @@ impl AxisKind {
 
     /// Checks that a value is of this kind.
     pub(crate) fn fits(self, value: &Value) -> bool {
-        Self::of(value).with(self) == self
+        Self::from_value(value).with(self) == self
     }
 
     fn with(self, other: Self) -> Self {

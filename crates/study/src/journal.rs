@@ -186,7 +186,7 @@ fn state(folder: &Path, study: &Study, kept: Option<Manifest>) -> Result<Manifes
     if let Some(manifest) = kept {
         return Ok(manifest);
     }
-    let manifest = Manifest::of(study);
+    let manifest = Manifest::new(study);
     manifest.write(folder)?;
     Ok(manifest)
 }
@@ -198,7 +198,7 @@ fn state(folder: &Path, study: &Study, kept: Option<Manifest>) -> Result<Manifes
 fn kept_manifest(folder: &Path, study: &Study) -> Result<Option<Manifest>, StudyError> {
     if folder.join(MANIFEST).exists() {
         let kept = read_manifest(folder)?;
-        return match kept.difference(&Manifest::of(study)) {
+        return match kept.difference(&Manifest::new(study)) {
             None => Ok(Some(kept)),
             Some((what, kept, given)) => Err(StudyError::Other {
                 folder: folder.to_owned(),

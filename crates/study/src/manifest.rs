@@ -79,7 +79,7 @@ pub struct ManifestAxis {
 impl Manifest {
     /// The manifest of a study without any row.
     #[must_use]
-    pub fn of(study: &Study) -> Self {
+    pub fn new(study: &Study) -> Self {
         let scenario = |base: &Base| ManifestScenario {
             name: base.name.clone(),
             sha256: sha256_hex(base.text.as_bytes()),

@@ -118,7 +118,7 @@ impl RowMaker {
     fn scenario(&self, address: &RowAddress) -> Result<Scenario, String> {
         let mut values = address.axes.clone();
         let seed = values.remove("seed").and_then(|seed| seed.as_u64());
-        let made = self.last.of((address.base, values.clone()), || {
+        let made = self.last.get_or_make((address.base, values.clone()), || {
             let mut scenario = self.study.bases[address.base].scenario(&values)?;
             scenario.solids = self.solids.clone();
             scenario.files = Files::held(self.study.files.clone());
@@ -140,7 +140,7 @@ impl RowMaker {
             &robot.split_links,
             &robot.fixed,
         );
-        self.arms.of(format!("{source:?}"), || scenario.arm())
+        self.arms.get_or_make(format!("{source:?}"), || scenario.arm())
     }
 }
 

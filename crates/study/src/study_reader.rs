@@ -50,7 +50,7 @@ impl Study {
         let text = fs::read_to_string(&file).map_err(StudyError::disk(&file, "cannot be read"))?;
         let study = StudyParts::from_json(&text).and_then(Self::from_parts);
         let study = study.map_err(|error| StudyError::damaged_file(&file, None, error.to_string()))?;
-        match manifest.difference(&Manifest::of(&study)) {
+        match manifest.difference(&Manifest::new(&study)) {
             None => Ok(study),
             Some((what, stated, found)) => Err(StudyError::damaged_file(
                 &file,

@@ -172,7 +172,7 @@ impl FoamContact {
     /// Returns the contact of a sponge without damping, with the geometric mean of its least and greatest stiffness; `None` for a sponge of
     /// unknown stiffness.
     #[must_use]
-    pub fn of(sponge: &Sponge) -> Option<Self> {
+    pub fn from_sponge(sponge: &Sponge) -> Option<Self> {
         let [least, most] = sponge.stiffness_pa?;
         Some(Self {
             stiffness_pa: least.sqrt() * most.sqrt(),

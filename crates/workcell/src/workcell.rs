@@ -122,7 +122,7 @@ impl ArmId {
 
     /// Returns the identity of an arm.
     #[must_use]
-    pub fn of(robot: &RobotModel) -> Self {
+    pub fn new(robot: &RobotModel) -> Self {
         Self {
             name: robot.name().to_owned(),
             urdf_sha256: robot.sha256().to_owned(),

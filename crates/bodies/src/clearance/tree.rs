@@ -58,7 +58,7 @@ pub(crate) enum Order {
 
 impl Solid {
     fn from_plate(plate: &Plate) -> Option<Self> {
-        let made = PlateParts::of(plate);
+        let made = PlateParts::new(plate);
         let part = |(shape, pose): &_| Part::new(shape, Frame::base().offset(&RigidTransform::from(pose))).ok();
         let whole = part(&made.whole)?;
         let mut parts = made.single.iter().map(part).collect::<Option<Vec<_>>>()?;

@@ -27,7 +27,7 @@ impl WashJob {
     /// plates or the arm's base.
     pub fn new(arm: Arc<RobotModel>, terms: JobTerms) -> Result<Self, JobError> {
         terms.validate()?;
-        let given = ArmId::of(&arm);
+        let given = ArmId::new(&arm);
         if terms.workcell.arm != given {
             let job = Box::new(terms.workcell.arm.clone());
             let given = Box::new(given);

@@ -22,7 +22,7 @@ use platewash_workcell::{ArmId, ObstacleShape};
 
 /// Checks that the plan is for this arm.
 pub(crate) fn arm(judged: &JudgedJob<'_>) -> Check {
-    let (stated, given) = (&judged.job.workcell.arm, ArmId::of(judged.robot));
+    let (stated, given) = (&judged.job.workcell.arm, ArmId::new(judged.robot));
     let srdf = |id: &ArmId| id.srdf_sha256.as_ref().map_or("none".to_owned(), |hash| quoted(hash));
     let fixed = |id: &ArmId| match id.fixed.is_empty() {
         true => "none".to_owned(),

@@ -111,7 +111,7 @@ impl VerdictBasis {
     pub(crate) fn new(job: &JobTerms, arm: &RobotModel, exclusions: Exclusions) -> Self {
         Self {
             workcell: Workcell {
-                arm: ArmId::of(arm),
+                arm: ArmId::new(arm),
                 exclusions: exclusions.own,
                 ..job.workcell.clone()
             },
@@ -400,7 +400,7 @@ fn arm(world: &Workcell) -> String {
 fn tool_mount(tool: &Tool) -> String {
     match &tool.mounted_on {
         Some(mount) => {
-            let ToolMount { link, axis } = ToolMount::of(mount);
+            let ToolMount { link, axis } = ToolMount::from_text(mount);
             format!("on link {} along its {axis}", quoted(link))
         }
         None => "on tool0 along its z".to_owned(),

@@ -608,7 +608,7 @@ impl<'a> Run<'a> {
             start_within_deg: self.start_rad.map(|_| within_deg),
             most_share: self.most_share,
             settings: self.settings.into_vec(),
-            ..Reading::of(self.points, SegmentShape::RoundedLines)
+            ..Reading::from_points(self.points, SegmentShape::RoundedLines)
         })
     }
 }

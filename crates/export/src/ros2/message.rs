@@ -40,7 +40,7 @@ pub(crate) struct Message {
 
 impl Message {
     /// Message of a program.
-    pub(crate) fn of(program: &Program<'_>) -> Self {
+    pub(crate) fn from_program(program: &Program<'_>) -> Self {
         let share = program.speed_share;
         let times = times::nanoseconds(program.points.iter().map(|point| point.t_s / share));
         let points = program.points.iter().zip(times).map(|(point, time_ns)| MessagePoint {

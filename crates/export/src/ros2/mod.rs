@@ -71,7 +71,7 @@ impl Dialect for Ros2 {
     }
 
     fn write(&self, program: &Program<'_>) -> Vec<ProgramFile> {
-        let message = Message::of(program);
+        let message = Message::from_program(program);
         let trajectory = |language| write::trajectory(&message, language);
         let goal = |language| write::goal(&message, language);
         let head = write::head(program, &message_notes(program));

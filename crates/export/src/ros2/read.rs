@@ -65,7 +65,7 @@ fn one(file: &ProgramFile, arm: &RobotModel) -> Result<Reading, Fault> {
     };
     Ok(Reading {
         settings: settings.into_vec(),
-        ..Reading::of(points, SegmentShape::Cubics)
+        ..Reading::from_points(points, SegmentShape::Cubics)
     })
 }
 

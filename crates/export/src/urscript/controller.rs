@@ -276,7 +276,7 @@ impl Controller {
             speed_share,
             tool,
             settings: self.settings.into_vec(),
-            ..Reading::of(self.points, SegmentShape::Lines)
+            ..Reading::from_points(self.points, SegmentShape::Lines)
         })
     }
 }

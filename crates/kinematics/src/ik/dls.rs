@@ -221,7 +221,7 @@ impl Task<'_> {
     /// Returns the error at `q` and the lines of the joints.
     #[inline(always)]
     fn evaluate<V: Vector>(&self, q: JointVector) -> (Iterate, JointLines<V>) {
-        let (tip, lines) = JointLines::<V>::of(self.robot, &self.frame, &q);
+        let (tip, lines) = JointLines::<V>::with_pose(self.robot, &self.frame, &q);
         let (position, rotation) = (&self.target.translation, self.target.rotation.as_slice());
         let [x, y, z] = [
             [rotation[0], rotation[1], rotation[2], 0.0],
@@ -276,7 +276,7 @@ struct JointLines<V> {
 impl<V: Vector> JointLines<V> {
     /// Returns the pose of `frame` at `q` and the lines of the joints between it and the base.
     #[inline(always)]
-    fn of(robot: &RobotModel, frame: &Frame, q: &JointVector) -> (Columns<V>, Self) {
+    fn with_pose(robot: &RobotModel, frame: &Frame, q: &JointVector) -> (Columns<V>, Self) {
         let bodies = moved_bodies::<V>(robot, q);
         let mut body = Columns::<V>::identity();
         let (mut axes, mut points) = ([V::splat(0.0); AXES], [V::splat(0.0); AXES]);

@@ -86,7 +86,7 @@ pub(crate) struct Deviation(pub Vector6<f64>);
 
 impl Deviation {
     /// Returns the deviation of `frame` from `target`, both `T_base_…`.
-    pub fn of(frame: &RigidTransform, target: &RigidTransform) -> Self {
+    pub fn between(frame: &RigidTransform, target: &RigidTransform) -> Self {
         let origin = target.rotation.tr_mul(&(frame.translation - target.translation));
         let r = target.rotation.tr_mul(&frame.rotation);
         let (tilt, _) = lean(&r);
@@ -188,7 +188,7 @@ mod tests {
             let robot = RobotModel::irb120().map_err(|e| TestCaseError::fail(e.to_string()))?;
             let target = robot.fk(&JointVector::from(at)).rigid(&robot.last_link_frame());
             let given = Deviation(Vector6::new(p[0], p[1], p[2], lean * towards.cos(), lean * towards.sin(), yaw));
-            let back = Deviation::of(&given.applied_to(&target), &target);
+            let back = Deviation::between(&given.applied_to(&target), &target);
             prop_assert!((back.0 - given.0).amax() < 1e-9, "{given:?} {back:?}");
         }
 
@@ -198,7 +198,7 @@ mod tests {
             let frame = robot.last_link_frame();
             let target = robot.fk(&JointVector::from(to)).rigid(&frame);
             let q = JointVector::from(at);
-            let deviation = |q: &JointVector| Deviation::of(&robot.fk(q).rigid(&frame), &target).0;
+            let deviation = |q: &JointVector| Deviation::between(&robot.fk(q).rigid(&frame), &target).0;
             let here = deviation(&q);
             prop_assume!(here.fixed_rows::<2>(3).norm() < 2.8 && here[5].abs() < 3.0);
             let bodies = robot.fk(&q);

@@ -261,7 +261,7 @@ impl Search<'_> {
     }
 
     fn deviation(&self, q: &JointVector) -> Deviation {
-        Deviation::of(&self.solver.robot.fk(q).rigid(self.solver.frame()), &self.target)
+        Deviation::between(&self.solver.robot.fk(q).rigid(self.solver.frame()), &self.target)
     }
 
     /// Squared distance from the allowed deviations (m², rad²); missing clearance counts too.
@@ -311,7 +311,7 @@ impl Search<'_> {
         let jacobian = bodies.jacobian(self.solver.frame(), Axes::Base);
         let slope = Deviation::jacobian(&frame, &self.target, &jacobian);
         let lambda = (DAMPING_GAIN * cost).max(LEAST_DAMPING) * boost;
-        let mut here = Deviation::of(&frame, &self.target).0;
+        let mut here = Deviation::between(&frame, &self.target).0;
         let mut m = DMatrix::zeros(6, N);
         m.view_mut((0, 0), (6, AXES)).copy_from(&slope);
         for i in 0..5 {

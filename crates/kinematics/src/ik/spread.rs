@@ -38,7 +38,7 @@ const MIRRORS: [Mirror; 3] = [
 struct Mirror([Option<f64>; AXES], [bool; AXES]);
 
 impl Mirror {
-    fn of(&self, q: &JointVector) -> JointVector {
+    fn image(&self, q: &JointVector) -> JointVector {
         JointVector::from_fn(|joint, _| {
             let at = if self.1[joint] { -q[joint] } else { q[joint] };
             at + self.0[joint].unwrap_or(0.0)
@@ -75,7 +75,7 @@ impl IkSolver<'_> {
         while k < found.answers.len() {
             let q = found.answers[k];
             for mirror in &MIRRORS {
-                found.descend(&mirror.of(&q));
+                found.descend(&mirror.image(&q));
             }
             k += 1;
         }
@@ -86,7 +86,7 @@ impl IkSolver<'_> {
 
     /// Returns the listed starts with joint 1 turned towards the target, the `count` nearest in pose, nearest first.
     fn facing(&self, target: &RigidTransform, count: usize) -> Vec<JointVector> {
-        let axis = Axis::of(self);
+        let axis = Axis::new(self);
         let entries = self.starts.entries().iter();
         let turned = entries.map(|(q, pose)| {
             let by = axis.azimuth(&pose.translation, &target.translation);
@@ -107,7 +107,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn of(solver: &IkSolver<'_>) -> Self {
+    fn new(solver: &IkSolver<'_>) -> Self {
         let first = &solver.robot().folded()[0];
         Self {
             point: first.translation,
@@ -148,7 +148,7 @@ struct FoundAnswers<'a> {
 impl FoundAnswers<'_> {
     /// Returns the start with joint 1 turned towards the target.
     fn turned(&self, start: &JointVector) -> JointVector {
-        let axis = Axis::of(self.solver);
+        let axis = Axis::new(self.solver);
         let tip = self.solver.robot().fk(start).rigid(self.solver.frame()).translation;
         let mut q = *start;
         q[0] += axis.azimuth(&tip, &self.task.target.translation);

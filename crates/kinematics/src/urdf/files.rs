@@ -45,22 +45,22 @@ impl Files {
     /// Returns the disk as a source that keeps everything that is read; [`recorded`](Self::recorded) returns it.
     #[must_use]
     pub fn recording() -> Self {
-        Self::of(FileSource::Recorded(Arc::default()))
+        Self::from_source(FileSource::Recorded(Arc::default()))
     }
 
     /// Returns files that were read before, under the same names, as a source; no other files exist in it.
     #[must_use]
     pub fn held(files: Arc<HeldFiles>) -> Self {
-        Self::of(FileSource::Held(files))
+        Self::from_source(FileSource::Held(files))
     }
 
     /// Returns a source without files, for a host that has none.
     #[must_use]
     pub fn none() -> Self {
-        Self::of(FileSource::None)
+        Self::from_source(FileSource::None)
     }
 
-    fn of(source: FileSource) -> Self {
+    fn from_source(source: FileSource) -> Self {
         Self {
             source,
             ..Self::default()

@@ -186,7 +186,7 @@ fn convert_link(
         name: link.name.clone(),
         frame,
         collision: shapes::primitives(link, meshes)?,
-        visuals: reader.of(link),
+        visuals: reader.visuals(link),
         inertial: inertial(link)?,
     })
 }

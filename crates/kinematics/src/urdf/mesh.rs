@@ -119,7 +119,7 @@ impl MeshSource {
             return Ok(vec![Shape::Hull { points }]);
         };
         let triangles = self.open(name, scale, MAX_BYTES).and_then(|file| file.solid());
-        let triangles = triangles.map_err(|error| error.of(link))?;
+        let triangles = triangles.map_err(|error| error.at_link(link))?;
         let parts = splitter.split(&triangles).map_err(|why| UrdfError::Split {
             link: link.to_owned(),
             why: format!("mesh '{name}': {why}"),
@@ -138,7 +138,7 @@ impl MeshSource {
 
     /// Returns the scaled vertices of a mesh file, each once \[m\].
     pub(crate) fn vertices(&self, link: &str, name: &str, scale: [f64; 3]) -> Result<Vec<Point3<f64>>, UrdfError> {
-        let of = |error: MeshError| error.of(link);
+        let of = |error: MeshError| error.at_link(link);
         let file = self.open(name, scale, MAX_BYTES).map_err(of)?;
         let points = match file.format().map_err(of)? {
             // Used by a face or not.
@@ -163,7 +163,7 @@ impl MeshSource {
         scale: [f64; 3],
         most: usize,
     ) -> Result<Vec<Triangle>, UrdfError> {
-        let of = |error: MeshError| error.of(link);
+        let of = |error: MeshError| error.at_link(link);
         let file = self.open(name, scale, MAX_BYTES).map_err(of)?;
         let corners = file.all_corners(most).map_err(of)?;
         let count = corners.len() / 3;
@@ -355,7 +355,7 @@ pub enum MeshError {
 }
 
 impl MeshError {
-    fn of(self, link: &str) -> UrdfError {
+    fn at_link(self, link: &str) -> UrdfError {
         let link = link.to_owned();
         match self {
             Self::NotFound { file, searched } => UrdfError::MeshNotFound { link, file, searched },

@@ -203,7 +203,7 @@ impl<'a> VisualReader<'a> {
     }
 
     /// Returns the visuals of a link, without those that cannot be read.
-    pub fn of(&mut self, link: &urdf_rs::Link) -> Vec<Visual> {
+    pub fn visuals(&mut self, link: &urdf_rs::Link) -> Vec<Visual> {
         let mut visuals = Vec::new();
         for (index, element) in link.visual.iter().enumerate() {
             match self.read(link, element) {

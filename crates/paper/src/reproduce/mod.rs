@@ -59,7 +59,7 @@ pub fn reproduce(
     rows.extend(law::rows());
     let mut pooled = Vec::new();
     for part in PaperPart::ALL {
-        let job = PaperJob::of_part(part, arm.clone(), Layout::of(Vec::new()), 1)?;
+        let job = PaperJob::of_part(part, arm.clone(), Layout::from_plates(Vec::new()), 1)?;
         let measure = |k: usize| {
             cancel.check()?;
             let sample = layout::measure(part, &job, settings.seed, k);

@@ -104,7 +104,7 @@ impl Draft {
     /// Returns true where the values of a key are paths of files or folders.
     #[must_use]
     pub fn names_files(key: &str) -> bool {
-        Target::of(key).is_some_and(|target| matches!(target.key.domain, Domain::Path | Domain::Paths))
+        Target::parse(key).is_some_and(|target| matches!(target.key.domain, Domain::Path | Domain::Paths))
     }
 
     /// The scenario that the text states; paths in it are relative to the folder, without one they stay as they are.

@@ -18,7 +18,7 @@ pub(crate) struct Target {
 
 impl Target {
     /// The key of a path; `None` where there is no such key.
-    pub fn of(path: &str) -> Option<Self> {
+    pub fn parse(path: &str) -> Option<Self> {
         if let Some(key) = KEYS.iter().find(|key| key.path == path) {
             return Some(Self { key, row: None });
         }
@@ -34,7 +34,7 @@ impl Target {
     pub fn with_value(path: &str, value: Option<&Value>) -> Result<(Self, Option<Value>), EditError> {
         /// Up to here all whole numbers are there \[2^53\].
         const EXACT: f64 = 9_007_199_254_740_992.0;
-        let target = Self::of(path).ok_or_else(|| EditError::Refused(unknown(path)))?;
+        let target = Self::parse(path).ok_or_else(|| EditError::Refused(unknown(path)))?;
         let Some(value) = value else {
             return Ok((target, None));
         };

@@ -14,7 +14,7 @@ pub(super) struct Moments {
 
 impl Moments {
     /// Returns the moments of points.
-    pub fn of<I: Iterator<Item = (Vector3<f64>, f64)>>(points: impl Fn() -> I) -> Self {
+    pub fn from_points<I: Iterator<Item = (Vector3<f64>, f64)>>(points: impl Fn() -> I) -> Self {
         let (size, sum) = points().fold((0.0, Vector3::zeros()), |(size, sum), (p, w)| (size + w, sum + p * w));
         let middle = sum / size;
         let mut squares = Matrix3::zeros();

@@ -154,7 +154,7 @@ pub(super) struct Body {
 
 impl Body {
     /// Returns the body of facets.
-    pub fn of(ruler: &Ruler, facets: impl Iterator<Item = [Vector3<f64>; 3]>) -> Self {
+    pub fn from_facets(ruler: &Ruler, facets: impl Iterator<Item = [Vector3<f64>; 3]>) -> Self {
         let mut body = Self {
             depths: vec![0.0; CELLS],
             floors: vec![f64::INFINITY; CELLS],

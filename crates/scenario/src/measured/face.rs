@@ -45,7 +45,7 @@ fn place(ring: usize, azimuth: usize, rim_m: f64) -> [f64; 2] {
 impl Heights {
     /// Returns the greatest heights of triangles, plate frame, or with side −1 the least.
     #[inline(never)]
-    pub fn of(triangles: impl Iterator<Item = [Vector3<f64>; 3]>, rim_m: f64, side: f64) -> Self {
+    pub fn from_triangles(triangles: impl Iterator<Item = [Vector3<f64>; 3]>, rim_m: f64, side: f64) -> Self {
         let mut heights = vec![f64::NAN; GRID[0] * GRID[1]];
         for corners in triangles {
             let [from, to] = rings_of(&corners, rim_m);

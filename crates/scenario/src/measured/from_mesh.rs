@@ -45,7 +45,7 @@ pub fn from_mesh(
     let reaches = [0, 2].map(|k| reach(&axes[k], &moments.middle));
     let file = File {
         middle: mesh.middle,
-        unit: Unit::of(unit, 2.0 * reaches[0])?,
+        unit: Unit::determine(unit, 2.0 * reaches[0])?,
         unit_is_guessed: unit.is_none(),
     };
     let length_m = file.unit.length_m();
@@ -80,8 +80,8 @@ fn of_side(
 ) -> Result<MeasuredPlate, MeasuredError> {
     let [rise_m, fall_m] = [0, 1].map(|k| mesh.rise_m(&frames[k], rim_m));
     let found = |k: usize| of_face(mesh, file, frames[k], rim_m);
-    let side = |k: usize| FaceSide::of(&frames[k].axis());
-    let (k, is_sure) = match Side::of(stated, &frames[0].axis(), rise_m - fall_m, rim_m) {
+    let side = |k: usize| FaceSide::along(&frames[k].axis());
+    let (k, is_sure) = match Side::new(stated, &frames[0].axis(), rise_m - fall_m, rim_m) {
         Side::Stated(k) => return found(k),
         Side::Rising(k) => {
             // A high ring near the rim, on which a flat plate stands, seems to be a rim.
@@ -166,7 +166,7 @@ fn by_fit(
         return Err(MeasuredError::NotRound { rim_m, place });
     }
     let local = |t: &[u32; 3], frame: &Frame| t.map(|k| frame.local(&mesh.points[k as usize]));
-    let upper = Heights::of(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
+    let upper = Heights::from_triangles(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
     // That it is not round is told first; a steep wall leaves gaps.
     let means = rings(&fitted.placed(&frame), rim_m);
     match upper.check_whole(rim_m, |point| file.place(&frame, point)) {
@@ -185,20 +185,20 @@ fn by_fit(
         .iter()
         .for_each(|t| extremes.see_facet(&ruler, local(t, &frame)));
     let frame = frame.raised(extremes.middle_m());
-    let upper = Heights::of(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
+    let upper = Heights::from_triangles(face.facets.iter().map(|t| local(t, &frame)), rim_m, 1.0);
     let all = || mesh.triangles.iter().map(|t| local(t, &frame));
     let mut plate = file.plate(&frame, surface, &extremes, relief(&surface, Some(&upper), None));
     plate.out_of_round_m = out_of_round_m(face.facets.iter().flat_map(|t| local(t, &frame)), &surface);
     let mut plate = smooth_enough(plate)?;
     // Every triangle counts, whether it belongs to the face or not.
-    let body = Body::of(&ruler, all());
+    let body = Body::from_facets(&ruler, all());
     if body.above.0 > MOST_DEVIATION_M {
         let (height_m, place) = (body.above.0, file.place(&frame, &body.above.1));
         return Err(MeasuredError::StandsUp { height_m, place });
     }
     if mesh.is_closed(&frame.axis()) {
         let (thickness_m, foot) = body.thickness_and_foot(&surface);
-        let lower = Heights::of(all(), rim_m, -1.0);
+        let lower = Heights::from_triangles(all(), rim_m, -1.0);
         plate.relief = relief(&surface, Some(&upper), Some((&lower, thickness_m)));
         (plate.thickness_m, plate.foot) = (Some(thickness_m), foot);
     } else {

@@ -187,7 +187,7 @@ impl Mesh {
             // The middles of the edges have a triangle's moments up to the second.
             [a + b, b + c, c + a].map(|sum| (0.5 * sum, area))
         });
-        Moments::of(|| weighted.clone())
+        Moments::from_points(|| weighted.clone())
     }
 
     /// Share of the area seen along an axis by which both sides differ: 0 for a closed mesh, 1 for a face alone.

@@ -90,7 +90,7 @@ pub fn from_points(
         let (what, found) = ("point", points[index].coords.into());
         return Err(MeasuredError::Coordinate { what, index, found });
     }
-    let moments = Moments::of(|| points.iter().map(|point| (point.coords, 1.0)));
+    let moments = Moments::from_points(|| points.iter().map(|point| (point.coords, 1.0)));
     let [_, (beside, _), (along, _)] = moments.spread;
     if beside <= 0.01 * along {
         let why = "they lie in one line; touch the whole face, and the rim all round".to_owned();
@@ -101,7 +101,7 @@ pub fn from_points(
     let reach = points.iter().map(beside).fold(0.0, f64::max);
     let file = File {
         middle: moments.middle,
-        unit: Unit::of(unit, 2.0 * reach)?,
+        unit: Unit::determine(unit, 2.0 * reach)?,
         unit_is_guessed: unit.is_none(),
     };
     let length_m = file.unit.length_m();
@@ -203,8 +203,8 @@ fn side_of_points(
         ]
     });
     let rise_m = product / spread.max(f64::MIN_POSITIVE) * reach_m * reach_m;
-    let sides = [*axis, -axis].map(|axis| FaceSide::of(&axis));
-    let side = match Side::of(stated, axis, 2.0 * rise_m, reach_m) {
+    let sides = [*axis, -axis].map(|axis| FaceSide::along(&axis));
+    let side = match Side::new(stated, axis, 2.0 * rise_m, reach_m) {
         Side::Stated(k) | Side::Rising(k) | Side::Upper(k) => k,
         Side::Across(off_deg) => return Err(MeasuredError::across(stated, off_deg)),
         Side::Level => return Err(MeasuredError::level(sides)),

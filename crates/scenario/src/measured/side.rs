@@ -54,7 +54,7 @@ impl FaceSide {
     }
 
     /// Returns the side that looks most along an axis.
-    pub(super) fn of(axis: &Vector3<f64>) -> Self {
+    pub(super) fn along(axis: &Vector3<f64>) -> Self {
         let along = |side: &Self| side.direction().dot(axis);
         let sides = Self::ALL.into_iter().map(|(side, ..)| side);
         sides
@@ -96,7 +96,7 @@ pub(super) enum Side {
 
 impl Side {
     /// Returns the side of a plate about an axis, of which the side along it rises by `rise_m` more than the other one \[m\].
-    pub(super) fn of(stated: Option<FaceSide>, axis: &Vector3<f64>, rise_m: f64, rim_m: f64) -> Self {
+    pub(super) fn new(stated: Option<FaceSide>, axis: &Vector3<f64>, rise_m: f64, rim_m: f64) -> Self {
         if let Some(face) = stated {
             let cosine = face.direction().dot(axis) / axis.norm();
             return match cosine.abs() >= STATED {

@@ -61,7 +61,7 @@ impl Unit {
     }
 
     /// Returns the stated unit, or the only one in which a diameter is that of a plate.
-    pub(super) fn of(stated: Option<Self>, diameter: f64) -> Result<Self, MeasuredError> {
+    pub(super) fn determine(stated: Option<Self>, diameter: f64) -> Result<Self, MeasuredError> {
         let within = |unit: Self, [least, most]: [f64; 2]| (least..=most).contains(&(diameter * unit.length_m()));
         match stated {
             Some(unit) if within(unit, [LEAST_PLATE_M, MOST_PLATE_M]) => Ok(unit),

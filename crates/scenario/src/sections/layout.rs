@@ -331,7 +331,7 @@ impl PlateSection {
     }
 
     /// The section of a layout in which every plate is one of these.
-    pub(crate) fn of(&self, layout: &LayoutSection) -> LayoutSection {
+    pub(crate) fn as_layout(&self, layout: &LayoutSection) -> LayoutSection {
         let mut own = layout.clone();
         if self.has_shape() {
             own.plate_radius_m = self.radius_m;

@@ -136,7 +136,7 @@ impl PlantSection {
         });
         let own = || match self.contact_force_n {
             Some(_) => None,
-            None => sponge.and_then(FoamContact::of),
+            None => sponge.and_then(FoamContact::from_sponge),
         };
         let damping_pa_s = self.contact_damping_pa_s.unwrap_or(0.0);
         stated.or_else(own).map(|foam| FoamContact { damping_pa_s, ..foam })

@@ -148,7 +148,7 @@ impl Scenario {
             self.layout(&arm)?
         } else {
             self.check_region()?;
-            Layout::of(Vec::new())
+            Layout::from_plates(Vec::new())
         };
         let [start, _] = self.homes();
         if let Some(violation) = start.and_then(|start| arm.limits().violation(&start)) {

@@ -183,7 +183,7 @@ impl Scenario {
         let base = layout::mounted_footprint(arm, &self.robot.mount(arm));
         let mut rng = random::stream(self.seed, "layout");
         let mut draw = || self.draw(arm, base.as_ref(), &mut rng);
-        let terms = self.terms(arm, &Layout::of(Vec::new()))?;
+        let terms = self.terms(arm, &Layout::from_plates(Vec::new()))?;
         Ok(platewash_planner::draw_washable_layout(arm, &terms, &mut draw, watch)?)
     }
 
@@ -253,7 +253,7 @@ impl Scenario {
     /// Geometry of the plates of a `[[plate]]` section by its index, or of `[layout]`.
     fn geometry_of(&self, section: Option<usize>) -> PlateGeometry {
         let row = section.and_then(|k| self.plate.get(k));
-        let own = row.map_or_else(|| self.layout.clone(), |row| row.of(&self.layout));
+        let own = row.map_or_else(|| self.layout.clone(), |row| row.as_layout(&self.layout));
         PlateGeometry {
             terms: self.plate_terms(section, &own),
             ..own.geometry()
@@ -266,7 +266,7 @@ impl Scenario {
             return vec![(self.layout.clone(), ShapeKeys(None))];
         }
         let rows = self.plate.iter().enumerate();
-        rows.map(|(index, row)| (row.of(&self.layout), ShapeKeys(Some(index))))
+        rows.map(|(index, row)| (row.as_layout(&self.layout), ShapeKeys(Some(index))))
             .collect()
     }
 
@@ -312,7 +312,7 @@ impl Scenario {
                     "either every [[plate]] has its place, at_m, or every one a count",
                 )?,
             }
-            let geometry = row.of(&self.layout).geometry();
+            let geometry = row.as_layout(&self.layout).geometry();
             if row.has_both() && (!geometry.surface.is_flat() || geometry.foot.is_some() || row.count.is_some()) {
                 let detail = "both faces are those of a flat plate without a foot that has its place, at_m";
                 conflict(at("faces"), detail)?;

@@ -350,7 +350,7 @@ impl Scenario {
             out_of_round_m: plate.out_of_round_m,
             relief: plate.relief.clone(),
         });
-        Ok(Some((files.measured.len() - 1, Shape::of(&plate))))
+        Ok(Some((files.measured.len() - 1, Shape::from_measured(&plate))))
     }
 
     /// The text of a file that a key names.
@@ -518,7 +518,7 @@ struct Shape {
 }
 
 impl Shape {
-    fn of(plate: &MeasuredPlate) -> Self {
+    fn from_measured(plate: &MeasuredPlate) -> Self {
         let (radius_m, knots) = match &plate.surface {
             Surface::Profile(meridian) => {
                 let knots = meridian.knots().iter();

@@ -54,7 +54,7 @@ impl Solids {
             SolidParts::Few => "few",
         };
         let made = || solid_parts(triangles, parts).map(Arc::new);
-        self.hulls.of(id(triangles, kind), made)
+        self.hulls.get_or_make(id(triangles, kind), made)
     }
 
     /// The plate of a mesh, in the unit and with the face stated.
@@ -66,7 +66,7 @@ impl Solids {
     ) -> Result<MeasuredPlate, MeasuredError> {
         let stated = format!("{}{}", unit.map_or("", Unit::name), face.map_or("", FaceSide::name));
         let made = || measured::from_mesh(triangles, unit, face);
-        self.plates.of(id(triangles, &stated), made)
+        self.plates.get_or_make(id(triangles, &stated), made)
     }
 
     /// Upper bound on how far the convex parts of a mesh reach beyond it \[m\]; `None` where there are none.

@@ -36,7 +36,7 @@ pub struct Layout {
 impl Layout {
     /// Returns a layout of given plates without findings.
     #[must_use]
-    pub fn of(plates: Vec<Plate>) -> Self {
+    pub fn from_plates(plates: Vec<Plate>) -> Self {
         Self {
             plates,
             source: LayoutSource::Explicit,
@@ -51,7 +51,7 @@ impl Layout {
         let about_foot: Vec<_> = plates.iter().map(|plate| plate.seen_from(&to_foot)).collect();
         Self {
             findings: findings::overlaps(&about_foot, base),
-            ..Self::of(plates)
+            ..Self::from_plates(plates)
         }
     }
 

@@ -57,7 +57,7 @@ impl Plate {
     #[must_use]
     pub fn bodies(&self) -> Vec<(Shape, Pose)> {
         let placed = |(shape, pose)| (shape, self.pose * pose);
-        PlateParts::of(self).all().map(placed).collect()
+        PlateParts::new(self).all().map(placed).collect()
     }
 }
 
@@ -77,7 +77,7 @@ pub struct PlateParts {
 impl PlateParts {
     /// Returns the parts of a plate; a flat one is one cylinder.
     #[must_use]
-    pub fn of(plate: &Plate) -> Self {
+    pub fn new(plate: &Plate) -> Self {
         match plate.surface {
             Surface::Disc { .. } => Self {
                 whole: plate.enclosure_here(),

@@ -26,7 +26,7 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    pub fn of(robot: &RobotModel) -> Self {
+    pub fn from_robot(robot: &RobotModel) -> Self {
         let folded = *robot.folded();
         let bodies = at_zero(&folded);
         let axes = bodies.map(|body| Line {
@@ -102,7 +102,7 @@ impl Geometry {
     }
 
     pub fn turns(&self, links: &Links) -> Turns {
-        let zero = WristZero::of(&self.folded);
+        let zero = WristZero::new(&self.folded);
         let first = links.shoulder_from_base.rotation * self.bodies[3].rotation * about_z(zero.first);
         Turns {
             from_shoulder: first.transpose(),
@@ -200,7 +200,7 @@ struct WristZero {
 }
 
 impl WristZero {
-    fn of(folded: &[RigidTransform; AXES]) -> Self {
+    fn new(folded: &[RigidTransform; AXES]) -> Self {
         // Axis 5 in body 4 is y of the z–y–z form's first frame; axis 6 at q₅ = 0 gives α₅; α₆ is the rest.
         let [fifth, sixth] = [folded[4].rotation, folded[5].rotation];
         let first = atan2(-fifth.m13, fifth.m23);

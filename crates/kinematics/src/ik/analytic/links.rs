@@ -214,7 +214,7 @@ fn beyond(border: ReachBorder, by_m: f64) -> OutOfReach {
 
 impl Degeneracies {
     #[inline]
-    pub(crate) fn of(swing: &Swing, bend: &Bend, turn: &Turn) -> Self {
+    pub(crate) fn new(swing: &Swing, bend: &Bend, turn: &Turn) -> Self {
         Self {
             shoulder: swing.meets,
             elbow: bend.meets,

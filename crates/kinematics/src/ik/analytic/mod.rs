@@ -72,6 +72,7 @@
 mod all;
 mod arm;
 mod branch;
+mod branch_lanes;
 mod branches;
 mod chain;
 mod closed_form;
@@ -83,7 +84,6 @@ mod nearest;
 mod parallel;
 mod recognise;
 mod search;
-mod side_by_side;
 mod spherical;
 mod tolerances;
 mod window;

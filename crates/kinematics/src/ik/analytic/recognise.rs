@@ -16,7 +16,7 @@ impl AnalyticArm {
     /// [`StructureMismatch`]: the first property of the [module](super)'s lists that fails by more than the rounding of the description's
     /// numbers. Where axes 2, 3 and 4 are parallel it is from the second list, else from the first.
     pub fn recognise(robot: &RobotModel) -> Result<Self, StructureMismatch> {
-        let geometry = &Geometry::of(robot);
+        let geometry = &Geometry::from_robot(robot);
         let form = SphericalWristArm::recognise(geometry).map(shared).or_else(|mismatch| {
             ParallelAxesArm::recognise(geometry)
                 .unwrap_or(Err(mismatch))

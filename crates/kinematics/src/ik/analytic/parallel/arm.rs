@@ -85,7 +85,7 @@ impl ParallelAxesArm {
             let bend = bends[label.elbow as usize];
             let q4 = sum - self.sign_4 * self.turn_of_links(bend.q2, bend.q3);
             let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
-            Ok(Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)))
+            Ok(Branch::new(q, label, Degeneracies::new(&swing, &bend, &turn)))
         })
     }
 

@@ -1,13 +1,13 @@
 //! Equations of the arm and its branches side by side, as a closed form.
 
 use crate::ik::analytic::branch::{Branch, Label, OutOfReach, Shoulder, principal};
+use crate::ik::analytic::branch_lanes::Rare;
 use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::closed_form::{Candidate, ClosedForm};
 use crate::ik::analytic::parallel::arm::ParallelAxesArm;
-use crate::ik::analytic::parallel::side_by_side::AllSideBySide;
+use crate::ik::analytic::parallel::branch_lanes::BranchLanes;
 use crate::ik::analytic::search::Search;
-use crate::ik::analytic::side_by_side::Rare;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
 use crate::joints::JointVector;
 use crate::lanes::run_exact;
@@ -28,7 +28,7 @@ impl ClosedForm for ParallelAxesArm {
 
     fn all_branches(&self, target: &RigidTransform, previous: &JointVector) -> Branches<Result<Branch, OutOfReach>> {
         let goal = &self.links.goal(target);
-        let all = AllSideBySide {
+        let all = BranchLanes {
             arm: self,
             goal,
             window: None,
@@ -54,7 +54,7 @@ impl ClosedForm for ParallelAxesArm {
 
     fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
         let goal = &self.links.goal(target);
-        let all = AllSideBySide {
+        let all = BranchLanes {
             arm: self,
             goal,
             window: Some(window),

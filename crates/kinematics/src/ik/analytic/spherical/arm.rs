@@ -63,7 +63,7 @@ impl SphericalWristArm {
             let (bend, turn) = (bends[label.elbow as usize], turns[label.elbow as usize]);
             let [q4, q5, q6] = self.turns.joints(&turn, label.wrist);
             let q = JointVector::new(swing.q1, bend.q2, bend.q3, q4, q5, q6);
-            Ok((Branch::new(q, label, Degeneracies::of(&swing, &bend, &turn)), turn))
+            Ok((Branch::new(q, label, Degeneracies::new(&swing, &bend, &turn)), turn))
         })
     }
 
@@ -104,7 +104,7 @@ impl SphericalWristArm {
                 continue;
             }
             let turn = self.turn(&swing, &bend, window.anchor[3]);
-            let degenerate = Degeneracies::of(&swing, &bend, &turn);
+            let degenerate = Degeneracies::new(&swing, &bend, &turn);
             for wrist in [Wrist::Plain, Wrist::Flipped] {
                 if let Some([q4, q5, q6]) = self.wrist_within(&turn, wrist, window) {
                     let q = JointVector::new(q1, q2, q3, q4, q5, q6);

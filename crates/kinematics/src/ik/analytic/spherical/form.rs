@@ -1,12 +1,12 @@
 //! Equations of the arm and its branches side by side, as a closed form.
 
 use crate::ik::analytic::branch::{Branch, Elbow, OutOfReach, Shoulder};
+use crate::ik::analytic::branch_lanes::Rare;
 use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::chain::Chain;
 use crate::ik::analytic::closed_form::{Candidate, ClosedForm};
-use crate::ik::analytic::side_by_side::Rare;
 use crate::ik::analytic::spherical::arm::SphericalWristArm;
-use crate::ik::analytic::spherical::side_by_side::SideBySide;
+use crate::ik::analytic::spherical::branch_lanes::BranchLanes;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
 use crate::joints::JointVector;
 use crate::lanes::run_exact;
@@ -46,13 +46,13 @@ impl ClosedForm for SphericalWristArm {
 
     fn search(&self, target: &RigidTransform, window: &Window<'_>) -> Option<NearestConfiguration> {
         let goal = &self.links.goal(target);
-        let side_by_side = SideBySide {
+        let branch_lanes = BranchLanes {
             arm: self,
             target,
             goal,
             window,
         };
-        run_exact(side_by_side).unwrap_or_else(|Rare| self.search_in_turn(target, goal, window))
+        run_exact(branch_lanes).unwrap_or_else(|Rare| self.search_in_turn(target, goal, window))
     }
 
     /// Other values of joint 1, where it is free, nearest to the anchor first.

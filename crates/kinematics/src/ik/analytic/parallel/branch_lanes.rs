@@ -2,12 +2,12 @@
 //! elbows follow one after the other.
 
 use crate::ik::analytic::branch::{Degeneracies, Label, OutOfReach, Shoulder, Wrist};
-use crate::ik::analytic::links::Goal;
-use crate::ik::analytic::parallel::arm::ParallelAxesArm;
-use crate::ik::analytic::side_by_side::{
+use crate::ik::analytic::branch_lanes::{
     Complexes, Rare, Swings, Triangles, Turns, Within, all_lanes, angles_of_both, degeneracies, product, splat, times,
     turned,
 };
+use crate::ik::analytic::links::Goal;
+use crate::ik::analytic::parallel::arm::ParallelAxesArm;
 use crate::ik::analytic::tolerances::FREE_WRIST_RAD;
 use crate::ik::analytic::window::Window;
 use crate::joints::JointVector;
@@ -24,7 +24,7 @@ fn lane(shoulder: Shoulder, wrist: Wrist) -> usize {
 
 /// All branches of a target.
 #[derive(Clone)]
-pub(crate) struct AllSideBySide<'a> {
+pub(crate) struct BranchLanes<'a> {
     pub arm: &'a ParallelAxesArm,
     pub goal: &'a Goal,
     /// Limits and start, where each joint is to take the value within the limits that is nearest to the start.
@@ -51,7 +51,7 @@ struct Lanes<V> {
     meets: (bool, [f64; LANES]),
 }
 
-impl Kernel for AllSideBySide<'_> {
+impl Kernel for BranchLanes<'_> {
     type Output = Result<AllBranches, Rare>;
 
     #[inline(always)]
@@ -121,14 +121,14 @@ fn joints(outer: &[[f64; LANES]; 3], inner: &[[f64; LANES]; 3], l: usize) -> Joi
     JointVector::new(q1[l], q2[l], q3[l], q4[l], q5[l], q6[l])
 }
 
-impl AllSideBySide<'_> {
+impl BranchLanes<'_> {
     #[inline(always)]
     fn lanes<V: Vector>(&self) -> Result<Lanes<V>, Rare> {
         let (arm, links) = (self.arm, &self.arm.links);
-        let swings = Swings::<V>::of(links, self.goal)?;
+        let swings = Swings::<V>::new(links, self.goal)?;
         // `E = Kᵀ Rot_z(−q₁) R`.
         let rotation = times(&arm.turns.from_shoulder, turned(&self.goal.rotation, swings.unit));
-        let turns = Turns::of(&rotation, all_lanes())?;
+        let turns = Turns::new(&rotation, all_lanes())?;
         let [q1, first] = angles_of_both(swings.swing, turns.first);
         let [second, third] = angles_of_both(turns.second, turns.third);
 
@@ -142,7 +142,7 @@ impl AllSideBySide<'_> {
         let hand = product([c, V::splat(arm.sign_4) * s], splat(arm.hand));
         let end = [swings.wrist[0] - hand[0], swings.wrist[1] - hand[1]];
 
-        let triangles = Triangles::of(links, end)?;
+        let triangles = Triangles::new(links, end)?;
         self.check_borders(&triangles, turns.sine)?;
         let psi = atan2_vector(triangles.sine, triangles.cosine);
         let front_up = V::from_array([0.0, 0.0, -0.0, -0.0]);
@@ -196,7 +196,9 @@ mod tests {
     fn arm() -> (RobotModel, ParallelAxesArm) {
         let text = include_str!("../../../../tests/fixtures/family_8.urdf");
         let robot = RobotModel::from_urdf(text, &MeshSource::none()).unwrap();
-        let arm = ParallelAxesArm::recognise(&Geometry::of(&robot)).unwrap().unwrap();
+        let arm = ParallelAxesArm::recognise(&Geometry::from_robot(&robot))
+            .unwrap()
+            .unwrap();
         (robot, arm)
     }
 
@@ -212,7 +214,7 @@ mod tests {
             target.translation *= stretch;
             let goal = arm.links.goal(&target);
             let expected = arm.branches_in_turn(&goal, &start.into());
-            for found in portable_and_exact(&AllSideBySide { arm: &arm, goal: &goal, window: None }).into_iter().flatten() {
+            for found in portable_and_exact(&BranchLanes { arm: &arm, goal: &goal, window: None }).into_iter().flatten() {
                 for (found, expected) in found.branches.iter().zip(&expected) {
                     match (found, expected) {
                         (Ok((found, degenerate)), Ok(expected)) => {
@@ -232,7 +234,7 @@ mod tests {
     fn ordinary_targets_are_not_rare() {
         let (robot, arm) = arm();
         let target = robot.fk(&JointVector::new(0.3, 0.2, 0.9, 0.5, -0.6, 0.7)).bodies[6];
-        let all = AllSideBySide {
+        let all = BranchLanes {
             arm: &arm,
             goal: &arm.links.goal(&target),
             window: None,

@@ -33,7 +33,7 @@ pub(crate) struct Swings<V> {
 impl<V: Vector> Swings<V> {
     /// As [`Links::swing`].
     #[inline(always)]
-    pub fn of(links: &Links, goal: &Goal) -> Result<Self, Rare> {
+    pub fn new(links: &Links, goal: &Goal) -> Result<Self, Rare> {
         let (w, b) = (&goal.wrist, links.lateral_offset);
         let r = (w.x * w.x + w.y * w.y).sqrt();
         let free = b == 0.0 && r <= FREE_SHOULDER_M;
@@ -70,7 +70,7 @@ pub(crate) struct Triangles<V> {
 impl<V: Vector> Triangles<V> {
     /// As [`Links::triangle`].
     #[inline(always)]
-    pub fn of(links: &Links, end: Complexes<V>) -> Result<Self, Rare> {
+    pub fn new(links: &Links, end: Complexes<V>) -> Result<Self, Rare> {
         let ([upper, fore], [longest, shortest]) = (links.lengths, links.reach());
         let distance = squared_norm(end).sqrt();
         if distance.at_most(V::splat(FREE_SHOULDER_M)).sign_bits() != 0 {
@@ -131,7 +131,7 @@ pub(crate) struct Turns<V> {
 impl<V: Vector> Turns<V> {
     /// Splits rotations given by rows. Of the third row only the last entry is used.
     #[inline(always)]
-    pub fn of(rotation: &[[V; 3]; 3], reached: V) -> Result<Self, Rare> {
+    pub fn new(rotation: &[[V; 3]; 3], reached: V) -> Result<Self, Rare> {
         let [e11, e12, e13] = rotation[0];
         let [e21, e22, e23] = rotation[1];
         let e33 = rotation[2][2];

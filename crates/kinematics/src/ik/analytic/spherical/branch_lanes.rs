@@ -3,12 +3,12 @@
 //! The equations are those of `links`, `wrist` and `spherical`, operation by operation, so that the answers have the same bits.
 
 use crate::ik::analytic::branch::{Elbow, Label, Shoulder, Wrist};
-use crate::ik::analytic::links::Goal;
-use crate::ik::analytic::search::Search;
-use crate::ik::analytic::side_by_side::{
+use crate::ik::analytic::branch_lanes::{
     Complexes, Rare, Swings, Triangles, Turns, Within, angles_of_both, conjugate, degeneracies, product, splat,
     squared_norm, times, turned,
 };
+use crate::ik::analytic::links::Goal;
+use crate::ik::analytic::search::Search;
 use crate::ik::analytic::spherical::arm::SphericalWristArm;
 use crate::ik::analytic::window::{NearestConfiguration, Window};
 use crate::joints::JointVector;
@@ -27,7 +27,7 @@ const ARMS: [(Shoulder, Elbow); LANES] = [
 
 /// The search for the nearest answer.
 #[derive(Clone)]
-pub(crate) struct SideBySide<'a> {
+pub(crate) struct BranchLanes<'a> {
     pub arm: &'a SphericalWristArm,
     pub target: &'a RigidTransform,
     pub goal: &'a Goal,
@@ -45,7 +45,7 @@ struct Arms<V> {
     meets: (bool, [f64; LANES]),
 }
 
-impl Kernel for SideBySide<'_> {
+impl Kernel for BranchLanes<'_> {
     type Output = Result<Option<NearestConfiguration>, Rare>;
 
     #[inline(always)]
@@ -106,7 +106,7 @@ impl<V: Vector> Arms<V> {
     /// Returns `[q₄, q₅ + α₅, q₆ + α₆]` of the plain wrist.
     #[inline(always)]
     fn turns(&self) -> Result<[V; 3], Rare> {
-        let turn = Turns::of(&self.wrist, self.reached)?;
+        let turn = Turns::new(&self.wrist, self.reached)?;
         Ok([
             atan2_vector(turn.first.0, turn.first.1),
             atan2_vector(turn.second.0, turn.second.1),
@@ -115,7 +115,7 @@ impl<V: Vector> Arms<V> {
     }
 }
 
-impl SideBySide<'_> {
+impl BranchLanes<'_> {
     /// Computes joints 1 to 3 and the rest for the wrist.
     #[inline(always)]
     fn arms<V: Vector>(&self) -> Result<Arms<V>, Rare> {
@@ -123,8 +123,8 @@ impl SideBySide<'_> {
         if self.arm.chain.rounding.is_some() {
             return Err(Rare);
         }
-        let swings = Swings::<V>::of(links, self.goal)?;
-        let triangles = Triangles::of(links, swings.wrist)?;
+        let swings = Swings::<V>::new(links, self.goal)?;
+        let triangles = Triangles::new(links, swings.wrist)?;
         let Triangles {
             cosine, sine, reached, ..
         } = triangles;
@@ -194,13 +194,13 @@ mod tests {
             stretch in prop_oneof![3 => Just(1.0), 1 => 0.8..1.2f64],
         ) {
             let robot = RobotModel::irb120().map_err(|error| TestCaseError::fail(error.to_string()))?;
-            let arm = SphericalWristArm::recognise(&Geometry::of(&robot)).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let arm = SphericalWristArm::recognise(&Geometry::from_robot(&robot)).map_err(|error| TestCaseError::fail(error.to_string()))?;
             let mut target = robot.fk(&q.into()).bodies[6];
             target.translation *= stretch;
             let (goal, window) = (arm.links.goal(&target), Window::new(robot.limits(), &start.into()));
             let expected = arm.search_in_turn(&target, &goal, &window);
-            let side_by_side = SideBySide { arm: &arm, target: &target, goal: &goal, window: &window };
-            for found in portable_and_exact(&side_by_side).into_iter().flatten() {
+            let branch_lanes = BranchLanes { arm: &arm, target: &target, goal: &goal, window: &window };
+            for found in portable_and_exact(&branch_lanes).into_iter().flatten() {
                 prop_assert_eq!(found, expected);
             }
         }
@@ -209,18 +209,18 @@ mod tests {
     #[test]
     fn ordinary_targets_are_not_rare() {
         let robot = RobotModel::irb120().unwrap();
-        let arm = SphericalWristArm::recognise(&Geometry::of(&robot)).unwrap();
+        let arm = SphericalWristArm::recognise(&Geometry::from_robot(&robot)).unwrap();
         let target = robot.fk(&JointVector::new(0.3, 0.2, -0.4, 0.5, 0.6, -0.7)).bodies[6];
         let (goal, window) = (
             arm.links.goal(&target),
             Window::new(robot.limits(), &JointVector::zeros()),
         );
-        let side_by_side = SideBySide {
+        let branch_lanes = BranchLanes {
             arm: &arm,
             target: &target,
             goal: &goal,
             window: &window,
         };
-        assert!(portable_and_exact(&side_by_side).iter().all(Result::is_ok));
+        assert!(portable_and_exact(&branch_lanes).iter().all(Result::is_ok));
     }
 }
