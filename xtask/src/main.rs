@@ -23,6 +23,8 @@ mod check;
 mod command;
 #[cfg(test)]
 mod comments;
+#[cfg(test)]
+mod glossary;
 mod ledger;
 mod packages;
 mod page;

@@ -1,9 +1,7 @@
 //! Configurations for a pose of the tip: all to start from, and the one that continues a path.
 
 use crate::placed_arm::hindrance::Hindrance;
-use platewash_kinematics::ik::analytic::{
-    AnalyticArm, Degeneracies, Elbow, Label, Rejection, Shoulder, Solution, Wrist,
-};
+use platewash_kinematics::ik::analytic::{AnalyticArm, Degeneracies, Elbow, Label, Rejection, Shoulder, Solution};
 use platewash_kinematics::ik::{IkSettings, IkSettingsError, IkSolver};
 use platewash_kinematics::rotation::RigidTransform;
 use platewash_kinematics::{AXES, Frame, JointLimits, JointVector, Pose, RobotModel};
@@ -100,8 +98,8 @@ impl<'a> Inverse<'a> {
         }
         let all = arm.solve_all(&body, &start.q, limits)?;
         let mut best: Result<JointVector, Option<Rejection>> = Err(None);
-        for wrist in [Wrist::Plain, Wrist::Flipped] {
-            match all.get(Label::new(shoulder, elbow, wrist)) {
+        for slot in all.on_sides(shoulder, elbow) {
+            match slot {
                 Ok(solution) => {
                     let q = solution.nearest(&start.q);
                     best = Ok(match best {

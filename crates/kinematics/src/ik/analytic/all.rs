@@ -3,7 +3,7 @@
 //! A branch that ends beyond a limit by no more than the uncertainty of its joints is closed onto the limit.
 
 use crate::ik::analytic::arm::AnalyticArm;
-use crate::ik::analytic::branch::{Branch, Degeneracies, Label, OutOfReach};
+use crate::ik::analytic::branch::{Branch, Degeneracies, Elbow, Label, OutOfReach, Shoulder};
 use crate::ik::analytic::branches::Branches;
 use crate::ik::analytic::error::{AnalyticError, check_finite};
 use crate::ik::analytic::tolerances::LIMIT_ROUNDING_RAD;
@@ -131,6 +131,13 @@ impl Solutions {
     pub fn rejections(&self) -> impl Iterator<Item = (Label, Rejection)> {
         let rejection = |(label, slot): (Label, &Result<Solution, Rejection>)| Some((label, slot.err()?));
         self.slots.labelled().filter_map(rejection)
+    }
+
+    /// Returns the branches on one side of the shoulder and of the elbow, each a solution or the filter that rejected it.
+    pub fn on_sides(&self, shoulder: Shoulder, elbow: Elbow) -> impl Iterator<Item = Result<Solution, Rejection>> {
+        let is_there = move |label: Label| (label.shoulder, label.elbow) == (shoulder, elbow);
+        let there = self.slots.labelled().filter(move |(label, _)| is_there(*label));
+        there.map(|(_, slot)| *slot)
     }
 
     /// Returns one branch by its label.
