@@ -4,7 +4,7 @@
 use super::{among, judged};
 use nalgebra::Vector3;
 use platewash::bodies::clearance::ClearanceModel;
-use platewash::bodies::clearance::motion::PartPairs;
+use platewash::bodies::clearance::part_pair::PartPairs;
 use platewash::certificate::{PairRule, Status};
 use platewash::kinematics::BodyPoses;
 use platewash::kinematics::geometry::Shape;

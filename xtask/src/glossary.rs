@@ -1,5 +1,6 @@
 //! The words of the documents name what is in the code: the glossary of the proof, and the files that pages of docs name.
 
+use crate::sources::collect;
 use platewash_bundler::root;
 use std::fs;
 use std::path::PathBuf;
@@ -64,5 +65,68 @@ fn the_architecture_names_files_that_are_there() {
         assert!(named.len() > 5, "{page}: {named:?}");
         let gone: Vec<_> = named.into_iter().filter(|name| !is_there(name)).collect();
         assert!(gone.is_empty(), "{page} names what is not there: {gone:?}");
+    }
+}
+
+/// The sources that a cell of a table names: files, and all of a folder; a name without a folder is of the folder before.
+fn sources_of(cell: &str) -> String {
+    let (mut folder, mut sources) = (PathBuf::new(), String::new());
+    for name in quoted(cell).filter(|name| name.ends_with('/') || name.ends_with(".rs")) {
+        let place = match name.contains('/') {
+            true => root().join("crates").join(name),
+            false => folder.join(name),
+        };
+        folder = if place.is_dir() {
+            place.clone()
+        } else {
+            place.parent().unwrap().to_owned()
+        };
+        let mut files = Vec::new();
+        collect(&root(), place.strip_prefix(root()).unwrap().to_owned(), &mut files).unwrap();
+        for file in files {
+            sources += &fs::read_to_string(root().join(&file)).unwrap_or_else(|_| panic!("{}: {cell}", file.display()));
+        }
+    }
+    sources
+}
+
+#[test]
+fn functions_are_in_the_files_that_the_architecture_names_beside_them() {
+    let page = fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    let part = page
+        .split("\n## ")
+        .find(|part| part.starts_with("From a scenario to a proved plan\n"))
+        .unwrap();
+    let mut functions = 0;
+    for row in part.lines().filter(|line| line.starts_with("| ") && line.contains('`')) {
+        let cells: Vec<_> = row.trim_matches('|').split(" | ").collect();
+        let [_, names, files] = cells[..] else {
+            panic!("a row has a step, its functions and their files: {row}");
+        };
+        let sources = sources_of(files);
+        for name in quoted(names).filter_map(|name| name.rsplit("::").next()) {
+            let is_there = ["fn", "struct", "trait"]
+                .iter()
+                .any(|kind| has_word(&sources, &format!("{kind} {name}")));
+            assert!(is_there, "{name} is in none of its files: {row}");
+            functions += 1;
+        }
+    }
+    assert!(functions > 15, "{functions}");
+}
+
+/// The same bytes everywhere need nalgebra's own functions in Rust, too: see `crates/kinematics/src/trig/mod.rs`.
+#[test]
+fn nalgebra_computes_with_libm() {
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let line = manifest.lines().find(|line| line.starts_with("nalgebra = ")).unwrap();
+    assert!(line.contains("\"libm-force\""), "{line}");
+    for entry in fs::read_dir(root().join("crates")).unwrap() {
+        let manifest = fs::read_to_string(entry.unwrap().path().join("Cargo.toml")).unwrap();
+        let lines = manifest.lines().filter(|line| line.starts_with("nalgebra"));
+        assert!(
+            lines.into_iter().all(|line| line == "nalgebra.workspace = true"),
+            "{manifest}"
+        );
     }
 }

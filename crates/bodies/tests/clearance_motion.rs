@@ -1,7 +1,7 @@
 //! Bounds of distances between the moments of a motion.
 
 use nalgebra::Vector3;
-use platewash_bodies::clearance::motion::*;
+use platewash_bodies::clearance::part_pair::*;
 use platewash_bodies::clearance::{ClearanceModel, ITERATIVE_ERROR_M};
 use platewash_fixtures::{kitchen_plate, kitchen_tool, workcell};
 use platewash_kinematics::{JointVector, RobotModel};

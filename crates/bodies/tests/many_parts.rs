@@ -1,6 +1,6 @@
 //! Plates of many parts, against the same parts as separate obstacles that are examined one by one.
 
-use platewash_bodies::clearance::motion::PartPairs;
+use platewash_bodies::clearance::part_pair::PartPairs;
 use platewash_bodies::clearance::{ClearanceModel, ITERATIVE_ERROR_M, is_clear};
 use platewash_fixtures::{kitchen_tool, workcell};
 use platewash_kinematics::{JointVector, Pose, RobotModel};

@@ -169,13 +169,9 @@ fn tell_unplanned(
 ) -> Result<String, End> {
     let scenario = &placed.scenario;
     let failure = Failure::from(error);
-    let Some(report) = failure.report(&scenario.name, scenario.seed) else {
+    // Other places of the plates follow in lines of their own.
+    let Some(report) = failure.report_without_places(&scenario.name, scenario.seed) else {
         return Err(failure.into());
-    };
-    let report = match &failure {
-        // Another place of the plate follows in a line of its own.
-        Failure::Plan(PlanError::Unwashable(plate)) => report.explained(plate.reason_text()),
-        _ => report,
     };
     let gone = answer.gone.clone();
     let planning = Watch::silent(&gone);

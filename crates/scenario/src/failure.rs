@@ -105,11 +105,21 @@ impl Failure {
     }
 
     /// Report of a refused job: its verdict, the reason with the keys that decide it, and the plates concerned; `None` where the input
-    /// is at fault. Command, page and studies tell a refused job from this; Python's exceptions have the same words.
+    /// is at fault. The reason is this failure in words, as a row of a study and an exception of Python have it, too.
     #[must_use]
     pub fn report(&self, scenario: &str, seed: u64) -> Option<InfeasibleReport> {
         let report = InfeasibleReport::new(scenario, seed, &self.plan_error()?)?;
         Some(report.explained(self.to_string()))
+    }
+
+    /// [`Failure::report`] without a word on other places of a plate, for the page, which looks for them afterwards.
+    #[must_use]
+    pub fn report_without_places(&self, scenario: &str, seed: u64) -> Option<InfeasibleReport> {
+        let report = self.report(scenario, seed)?;
+        Some(match self.cause() {
+            Self::Plan(PlanError::Unwashable(plate)) => report.explained(plate.reason_text()),
+            _ => report,
+        })
     }
 
     /// Returns true where the work was cancelled on request.

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use ts_rs::TS;
 
 /// Greatest overlap of bodies that counts as touching: the rounding of positions \[m\].
-const ROUNDING_M: f64 = 1e-9;
+const TOUCHING_M: f64 = 1e-9;
 
 /// Tool of an arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, TS)]
@@ -254,7 +254,7 @@ impl Tool {
             let [x, y] = [aside(Vector3::x()), aside(Vector3::y())];
             let is_beside = x * x + y * y >= radius_m * radius_m || reach(-Vector3::z()) < 0.0;
             // NaN, which is nowhere, is refused with bodies that are none.
-            (by_m > ROUNDING_M && !is_beside).then_some((body, by_m))
+            (by_m > TOUCHING_M && !is_beside).then_some((body, by_m))
         })
     }
 

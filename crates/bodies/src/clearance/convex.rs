@@ -24,7 +24,7 @@ pub(crate) const MOST_VERTICES: usize = 50_000;
 /// Least thickness of a hull, as a part of its size.
 const THINNEST_HULL: f64 = 1e-9;
 
-/// Greatest distance of a point from a mixture of corners that counts as the point itself \[m\]: less than [`crate::clearance::motion`] allows for rounding.
+/// Greatest distance of a point from a mixture of corners that counts as the point itself \[m\]: less than [`crate::clearance::part_pair`] allows for rounding.
 const LEFT_OUT_M: f64 = 1e-10;
 
 /// Reason that points have no hull.

@@ -5,7 +5,7 @@
 //! of the fixed part that is nearest to the middle of the moving one to that middle: it is the better the farther they are apart.
 
 use crate::clearance::body::BodyKind;
-use crate::clearance::distance::{ROUNDING_M, nearest_to};
+use crate::clearance::distance::{DISTANCE_ROUNDING_M, nearest_to};
 use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
 use crate::clearance::part::{Part, PlacedPart};
@@ -110,9 +110,9 @@ fn gap(standing: &PlacedPart<'_>, moving: &PlacedPart<'_>) -> f64 {
     let away = middle - nearest_to(standing, middle);
     let length = away.length();
     if length.is_nan() || length <= 0.0 {
-        return spheres - ROUNDING_M;
+        return spheres - DISTANCE_ROUNDING_M;
     }
     let normal = away / length;
     let along = -moving.support(-normal) - standing.support(normal);
-    spheres.max(along) - ROUNDING_M
+    spheres.max(along) - DISTANCE_ROUNDING_M
 }

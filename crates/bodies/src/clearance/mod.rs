@@ -4,7 +4,7 @@
 //!
 //! # Accuracy
 //!
-//! Distances between spheres and over the floor are closed forms, right to rounding (1e-12 m). The others are proposed by a routine of
+//! Distances between spheres and over the floor are closed forms, right to rounding (`distance.rs` derives its bound, and what is allowed for). The others are proposed by a routine of
 //! their own (for capsules a closed form too, for solids GJK) and held between two bounds, the gap along a direction and the distance of two
 //! points, no more than [`ITERATIVE_ERROR_M`] apart; what is proved uses the lower one. Tests hold them against closed forms,
 //! another method and an independent library. Yes-or-no questions of the planner ([`ClearanceModel::keeps_clearance`]) take the proposal,
@@ -25,7 +25,7 @@
 //! | the convex parts of a mesh | `solid.rs` |
 //! | how far those reach beyond the mesh | `excess.rs` |
 //! | two plates; obstacles that reach into plates or the base | `fixed_bodies.rs` |
-//! | bounds between configurations; of many obstacles at once; those that are near | `motion.rs`, `lever.rs`; `far.rs`; `crowd.rs` |
+//! | bounds between configurations; of many obstacles at once; those that are near | `part_pair.rs`, `lever.rs`; `far.rs`; `crowd.rs` |
 
 mod body;
 mod convex;
@@ -37,11 +37,11 @@ pub mod far;
 mod fixed_bodies;
 pub mod lever;
 mod model;
-pub mod motion;
 mod overlap;
 mod pair_clearance;
 mod pairs;
 mod part;
+pub mod part_pair;
 mod solid;
 mod still;
 #[allow(clippy::disallowed_methods)]

@@ -6,7 +6,7 @@
 //! [`Plate::may_touch_beside`]: platewash_workcell::plate::Plate::may_touch_beside
 
 use crate::clearance::body::{BodyKind, place};
-use crate::clearance::distance::{ROUNDING_M, Separation, bracketed, separation, separation_below};
+use crate::clearance::distance::{DISTANCE_ROUNDING_M, Separation, bracketed, separation, separation_below};
 use crate::clearance::model::{ClearanceModel, nearest};
 use crate::clearance::pair_clearance::{PairClearance, is_clear, required_of};
 use crate::clearance::part::PlacedPart;
@@ -80,7 +80,10 @@ impl ClearanceModel {
         let balls: Vec<_> = self.balls.iter().map(|ball| ball.placed(&poses)).collect();
         let is_apart = |a: usize, b: usize, required: f64| {
             let ((here, radius_m), (there, other_m)) = (balls[a], balls[b]);
-            is_enough((there - here).norm() - radius_m - other_m - ROUNDING_M, required)
+            is_enough(
+                (there - here).norm() - radius_m - other_m - DISTANCE_ROUNDING_M,
+                required,
+            )
         };
         let frames: Vec<OnceCell<Vec<RigidTransform>>> = vec![OnceCell::new(); self.bodies.len()];
         let rigid = |body: usize, part: usize| {

@@ -9,7 +9,7 @@ use std::ops::Range;
 const SIZES: [usize; 3] = [64, 16, 4];
 
 /// Enlargement of the bound of a bundle, far above rounding errors \[m\].
-const ROUNDING_M: f64 = 1e-9;
+const ENLARGED_M: f64 = 1e-9;
 
 /// Moments in bundles of the sizes `SIZES`; the parts of a bundle follow it.
 #[derive(Debug, Clone)]
@@ -80,7 +80,7 @@ impl Bundle {
         };
         Self {
             pose,
-            tip_m: farthest(|pose| pose.tip) + ROUNDING_M,
+            tip_m: farthest(|pose| pose.tip) + ENLARGED_M,
             axis: farthest(|pose| pose.axis),
             moments: own,
             parts: 0,

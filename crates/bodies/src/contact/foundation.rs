@@ -52,6 +52,13 @@ impl Foundation {
         self.compression_m + (pose.tip - point).dot(&pose.axis)
     }
 
+    /// Pressures over compressions, E/H, for the least and the greatest stiffness E \[Pa/m\], formula (27.1).
+    #[must_use]
+    #[inline]
+    pub fn pressure_pa_m(&self) -> [f64; 2] {
+        self.stiffness_pa.map(|pa| pa / self.free_height_m)
+    }
+
     /// Forces F = E V/H of a volume of compressed foam, for the least and the greatest stiffness E \[N\], formula (31.1). `volume_m3` is V.
     #[must_use]
     pub fn forces_n(&self, volume_m3: f64) -> [f64; 2] {

@@ -181,8 +181,7 @@ impl ContactSampler {
         let along_s = (to - from) * (last - first);
         let middle = 0.5 * (from + to);
         let mean = |[first, last]: [f64; 2]| first + (last - first) * middle;
-        let pressure_pa =
-            self.foundation.stiffness_pa[0] / self.foundation.free_height_m * mean(ends.map(|end| end.compression_m));
+        let pressure_pa = self.foundation.pressure_pa_m()[0] * mean(ends.map(|end| end.compression_m));
         dwell.time_s += along_s;
         dwell.dose_pa_m += pressure_pa * mean(slide_m_s) * along_s;
     }

@@ -104,7 +104,7 @@ fn not_near_at_stop(judged: &JudgedJob<'_>, model: &ClearanceModel) -> Vec<Discr
     let too_little = |reduced: &&ReducedClearance| {
         let kept_m = judged.job.requirements.clearance_m - reduced.by_m;
         let found = there.iter().find(|pair| is_pair(&reduced.pair, (&pair.a, &pair.b)))?;
-        (kept_m < found.distance_m - NEARER_M - ROUNDING_M).then(|| {
+        (kept_m < found.distance_m - NEARER_M - STATED_ROUNDING_M).then(|| {
             let what = format!("clearance of {}, as near at the stop", pair_text(&reduced.pair));
             let expected = format!("no less than {}, which they have there", millimetres(found.distance_m));
             Discrepancy::new(what, millimetres(kept_m), expected)
@@ -114,8 +114,8 @@ fn not_near_at_stop(judged: &JudgedJob<'_>, model: &ClearanceModel) -> Vec<Discr
     at_stop.filter_map(|reduced| too_little(&reduced)).collect()
 }
 
-/// Rounding of a distance \[m\].
-const ROUNDING_M: f64 = 1e-6;
+/// Rounding of a clearance that a plan states for its stop \[m\].
+const STATED_ROUNDING_M: f64 = 1e-6;
 
 /// Returns the discrepancy of a waived pair that does not keep clear.
 fn not_clear(line: &PairBound, clearance_m: f64) -> Discrepancy {

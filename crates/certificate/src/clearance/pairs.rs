@@ -17,7 +17,7 @@ use crate::report::check::{Check, Measure, Sense, Status, WorstCase};
 use crate::report::requirement::Requirement;
 use crate::report::unit::Unit;
 use crate::washing::reach;
-use platewash_bodies::clearance::motion::{PairKind, PartPairs};
+use platewash_bodies::clearance::part_pair::{PairKind, PartPairs};
 use platewash_bodies::clearance::{ClearanceModel, StillPair};
 use platewash_kinematics::RobotModel;
 use platewash_motion::trajectory::SegmentKind;

@@ -3,7 +3,7 @@
 //! Formulas (24.2) and (24.3) in `docs/certificate.md`.
 //!
 //! An interval of time and a pair of parts has a lower bound of its distance: from its middle by what the joints can displace, or
-//! from its ends by what the parts can accelerate, and jump in speed ([`platewash_bodies::clearance::motion`]). The interval with the least bound is
+//! from its ends by what the parts can accelerate, and jump in speed ([`platewash_bodies::clearance::part_pair`]). The interval with the least bound is
 //! halved until that is good enough: the limit kept and the least distance found nearly reached. A body of many parts is looked at as a
 //! whole: from the shape that holds all of them, and where that is too near, part by part, the nearest first, until one is too near or all
 //! others are far enough.
@@ -11,7 +11,7 @@
 use crate::clearance::poses::ArmPoses;
 use crate::motion::timeline::{Interval, Timeline};
 use platewash_bodies::clearance::ITERATIVE_ERROR_M;
-use platewash_bodies::clearance::motion::{Mover, PartDistance, PartPair, PartPairs};
+use platewash_bodies::clearance::part_pair::{Mover, PartDistance, PartPair, PartPairs};
 use platewash_workcell::cancel::CancelToken;
 use platewash_workcell::ranked::Ranked;
 use std::cmp::Reverse;

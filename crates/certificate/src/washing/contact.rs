@@ -62,7 +62,7 @@ impl ContactInputs<'_> {
                 worst_m: share.and_then(|share| share.worst_m).map(|place| self.world(place)),
             }
         };
-        let [softest, stiffest] = foundation.stiffness_pa.map(|pa| pa / foundation.free_height_m);
+        let [softest, stiffest] = foundation.pressure_pa_m();
         let extreme = |of: &Extreme, scale: f64| ProvedExtreme {
             bound: finite(of.bound * scale),
             seen: finite(of.seen * scale),

@@ -187,7 +187,7 @@ fn record_speeds(rim: &Rim<'_>, pieces: &[TipPiece<'_>], tracker: &mut BoundTrac
 }
 
 /// Rounding error allowed in a height \[m\].
-const ROUNDING_M: f64 = 1e-9;
+const HEIGHT_ROUNDING_M: f64 = 1e-9;
 
 /// Greatest depth of halving of a piece once the limit is kept.
 const MOST_HALVINGS: u32 = 6;
@@ -282,7 +282,7 @@ impl<'a> Rim<'a> {
         let [from, to] = stretch.ends.map(|m| self.height(m));
         let lower = if from < to || from.is_nan() { from } else { to };
         let arm_m = self.far.beyond_m + self.radius_m;
-        lower - stretch.sag(bounds.second() + arm_m * bounds.second_of_axis()) - ROUNDING_M > 0.0
+        lower - stretch.sag(bounds.second() + arm_m * bounds.second_of_axis()) - HEIGHT_ROUNDING_M > 0.0
     }
 
     /// Checks that a face that is no disc is out of reach all through a stretch, by the plate's enclosing cylinder: no touching point is farther
@@ -297,7 +297,7 @@ impl<'a> Rim<'a> {
         let nearer = if from < to || from.is_nan() { from } else { to };
         let [a, b] = stretch.ends.map(|m| m.speed.norm());
         let speed = a.max(b) + stretch.sag(bounds.third());
-        nearer - 0.5 * stretch.length_s() * speed - arm_m - ROUNDING_M > 0.0
+        nearer - 0.5 * stretch.length_s() * speed - arm_m - HEIGHT_ROUNDING_M > 0.0
     }
 
     /// Upper bound G on the speed of a touching point at a moment \[m/s\], formula (21.2).

@@ -48,7 +48,7 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) fn holder_load(inputs: &ContactInputs<'_>, pressing: &Pressing) -> Option<HolderLoad> {
     let (plate, judged) = (inputs.washing.plate, inputs.washing.judged);
     let (volumes, terms) = (&pressing.holder, judged.job.requirements.holder.as_ref());
-    let stiffest = inputs.foundation.stiffness_pa[1] / inputs.foundation.free_height_m;
+    let stiffest = inputs.foundation.pressure_pa_m()[1];
     let [least, assumed] = FRICTION;
     let most = terms.map_or(assumed, |terms| terms.sponge_friction);
     let sponge_friction = [least.min(most), most];

@@ -5,8 +5,9 @@
 use crate::dry_run::DryRun;
 use crate::job::kind::{PlanKind, Statement, StatementRule};
 use crate::job::measured_shape::MeasuredShape;
+use crate::job::planner_settings::{Planner, PlannerSettings};
 use crate::job::recovery::Recovery;
-use crate::job::requirements::{Limits, Planner, PlannerSettings, Requirements, Treatment};
+use crate::job::requirements::{Limits, Requirements, Treatment};
 use crate::job::soil::Soil;
 use crate::plate::Plate;
 use crate::simulation::SimulationSettings;

@@ -3,9 +3,10 @@
 use crate::dry_run::is_hash;
 use crate::job::error::TermsError;
 use crate::job::kind::{Statement, StatementRule};
+use crate::job::planner_settings::Planner;
 use crate::job::ranges::{positive, within};
 use crate::job::recovery::{Recovery, RecoveryPart};
-use crate::job::requirements::{FixtureTerms, HolderTerms, Planner, RingTerms};
+use crate::job::requirements::{FixtureTerms, HolderTerms, RingTerms};
 use crate::job::soil::Soil;
 use crate::job::terms::{JobTerms, MAX_SEED};
 use crate::layout::MAX_PLATES;

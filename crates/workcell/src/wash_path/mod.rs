@@ -295,8 +295,8 @@ impl WashCurve {
     fn greatest_second_by_rates(&self, surface: &Surface, between: [f64; 2]) -> f64 {
         let [first, second] = self.greatest_rates(between);
         let [least, most] = surface.curvature_bounds();
-        // ρ is no greater than ℓ, which never falls.
-        let [arc_m, ..] = self.arc(between[1]);
+        // ρ is no greater than ℓ.
+        let arc_m = of_pattern!(&self.pattern, path => path.greatest_arc(self, between));
         second + least.abs().max(most.abs()) * first * first + arc_m + 2.0 * first
     }
 

@@ -183,6 +183,10 @@ pub(crate) trait PatternPath {
     /// Returns ℓ and its first two derivatives by θ \[m, m/rad, m/rad²\].
     fn arc(&self, curve: &WashCurve, theta: f64) -> [f64; 3];
 
+    /// Upper bound on ℓ between two θ \[m\]. A pattern whose ℓ falls must look for the greatest in between: the proof of the path
+    /// deviation rests on it.
+    fn greatest_arc(&self, curve: &WashCurve, between: [f64; 2]) -> f64;
+
     /// Upper bounds on |ℓ′| and |ℓ″| between two θ \[m/rad, m/rad²\].
     fn greatest_rates(&self, curve: &WashCurve, between: [f64; 2]) -> [f64; 2];
 

@@ -166,6 +166,12 @@ impl PatternPath for Rings {
         ]
     }
 
+    fn greatest_arc(&self, curve: &WashCurve, [_, to]: [f64; 2]) -> f64 {
+        // ℓ never falls.
+        let [arc_m, ..] = self.arc(curve, to);
+        arc_m
+    }
+
     fn greatest_rates(&self, curve: &WashCurve, [from, to]: [f64; 2]) -> [f64; 2] {
         let (pitch_m, mut start, mut rates) = (self.pitch_m(curve).abs(), 0.0, [0.0_f64; 2]);
         for [ring, blend] in (0..self.blends()).map(|k| self.lengths(k)) {

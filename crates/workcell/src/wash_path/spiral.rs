@@ -66,6 +66,12 @@ impl PatternPath for Spiral {
         ]
     }
 
+    fn greatest_arc(&self, curve: &WashCurve, [_, to]: [f64; 2]) -> f64 {
+        // ℓ never falls.
+        let [arc_m, ..] = self.arc(curve, to);
+        arc_m
+    }
+
     fn greatest_rates(&self, curve: &WashCurve, [from, to]: [f64; 2]) -> [f64; 2] {
         let (rate, end) = (rate(curve), self.end(curve));
         let blends = to >= end - BLEND_RAD && from <= end;

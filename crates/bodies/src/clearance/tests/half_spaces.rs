@@ -1,6 +1,6 @@
 //! Half-spaces anywhere, against heights worked out directly: the lowest of all corners, or the support of the shape along the normal.
 
-use crate::clearance::motion::PartPairs;
+use crate::clearance::part_pair::PartPairs;
 use crate::clearance::tests::*;
 use platewash_workcell::{Obstacle, ObstacleShape};
 

@@ -107,7 +107,7 @@ impl Edges<'_> {
 
     /// Pressure of the softest foam per compression, E/H of formula (27.1) \[Pa/m\].
     fn pressure(&self) -> f64 {
-        self.foundation.stiffness_pa[0] / self.foundation.free_height_m
+        self.foundation.pressure_pa_m()[0]
     }
 
     /// Sliding velocity of the sponge over the middle of a cell, across the sponge's axis \[m/s\].
@@ -325,7 +325,7 @@ impl Polynomial {
             let constant = direction.dot(&end.speed) - linear.dot(&end.pose.tip) - sags.slide_m / whole_s;
             linear.push(constant)
         });
-        let pressure = foundation.stiffness_pa[0] / foundation.free_height_m;
+        let pressure = foundation.pressure_pa_m()[0];
         let [even, odd] = [w0 + w1, w1 - w0];
         let [v_even, v_odd] = [v0 + v1, v1 - v0];
         let scales = [0.25 * pressure * whole_s, pressure * whole_s / 12.0];

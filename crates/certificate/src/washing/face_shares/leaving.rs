@@ -20,7 +20,7 @@ use crate::washing::face_shares::sags::Sags;
 use nalgebra::Vector3;
 
 /// Error of the formulas above due to rounding \[m\].
-const ROUNDING_M: f64 = 1e-12;
+const WAY_ROUNDING_M: f64 = 1e-12;
 
 /// Line in time through the values at two moments.
 struct Line<T> {
@@ -142,7 +142,7 @@ impl Edges<'_> {
         let off = |state: &CellState| (state.way - v0 - b * (self.elapsed_s(window, state) - line.at_s)).norm();
         let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
         let reach_m = cell.max_distance_m() + error_m;
-        let lost_m = ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
+        let lost_m = WAY_ROUNDING_M + off_m + sags.aside_m + cell.bend_m + 2.0 * turned * reach_m;
         let free_m = self.foundation.radius_m - lost_m;
         let (speed, slow) = (b.norm_squared(), outwards - b.norm() * mu);
         let beyond = v0.norm_squared() + mu * mu - free_m * free_m;
@@ -188,7 +188,8 @@ impl Edges<'_> {
             (state.compression_m - line.value - line.rate * (self.elapsed_s(window, state) - line.at_s)).abs()
         };
         let (off_m, turned, sags) = self.deviation_from_line(window, last, axis, off);
-        let lost_m = ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.max_distance_m() + error_m);
+        let lost_m =
+            WAY_ROUNDING_M + off_m + sags.compression_m + cell.bend_m + turned * (cell.max_distance_m() + error_m);
         let sooner_s = lost_m / falls * (1.0 + 1e-12);
         let within = window.states_until(last).all(|seen| seen.inside_m >= sags.aside_m);
         // The foam must be pressed at the first moment, by more than the losses and the time by which a place leaves sooner.

@@ -93,7 +93,7 @@ fn is_first(number: &u8) -> bool {
 
 impl Label {
     /// The labels of an arm with eight branches: front before back, then up before down, then plain before flipped.
-    pub const ALL: [Self; 8] = {
+    pub const EIGHT: [Self; 8] = {
         use {Elbow::*, Shoulder::*, Wrist::*};
         [
             Self::new(Front, Up, Plain),
@@ -125,7 +125,7 @@ impl Label {
         Self { number, ..self }
     }
 
-    /// Position among the branches of an arm: that in [`Label::ALL`], and eight for each number before.
+    /// Position among the branches of an arm: that in [`Label::EIGHT`], and eight for each number before.
     #[must_use]
     pub const fn index(self) -> usize {
         8 * self.number as usize + 4 * self.shoulder as usize + 2 * self.elbow as usize + self.wrist as usize
@@ -134,7 +134,7 @@ impl Label {
     /// Returns the label at a position.
     #[must_use]
     pub(crate) const fn at(index: usize) -> Self {
-        Self::ALL[index % 8].numbered((index / 8) as u8)
+        Self::EIGHT[index % 8].numbered((index / 8) as u8)
     }
 }
 

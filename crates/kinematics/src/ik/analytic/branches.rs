@@ -35,7 +35,7 @@ impl<T> Branches<T> {
     #[inline]
     pub(crate) fn of_eight(value: impl FnMut(Label) -> T) -> Self {
         Self {
-            eight: Label::ALL.map(value),
+            eight: Label::EIGHT.map(value),
             more: Vec::new(),
         }
     }
@@ -70,7 +70,7 @@ mod tests {
                 .all(|(label, k)| label.index() == *k && sixteen.get(label) == Some(k))
         );
         let doubled = sixteen.map(|k| 2 * k);
-        let last = Label::ALL[7].numbered(1);
+        let last = Label::EIGHT[7].numbered(1);
         assert_eq!((doubled.get(last), doubled.iter().count()), (Some(&30), 16));
         assert_eq!(last.to_string(), "back down flipped 2");
         assert_eq!(Branches::of_eight(Label::index).get(last), None);

@@ -54,7 +54,7 @@ fn least_miss(solutions: &Solutions) -> AnalyticError {
         Rejection::OutOfReach(miss) => (1, miss.by_m),
     };
     let less = |a: &Rejection, b: &Rejection| cost(a) < cost(b);
-    let mut least = (Label::ALL[0], Rejection::OutOfReach(OutOfReach::NOWHERE));
+    let mut least = (Label::EIGHT[0], Rejection::OutOfReach(OutOfReach::NOWHERE));
     for (label, rejection) in solutions.rejections() {
         if less(&rejection, &least.1) {
             least = (label, rejection);

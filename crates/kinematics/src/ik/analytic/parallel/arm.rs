@@ -79,7 +79,7 @@ impl ParallelAxesArm {
             Ok((swing, turn, wrists))
         };
         let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
-        Label::ALL.map(|label| {
+        Label::EIGHT.map(|label| {
             let (swing, turn, wrists) = sides[label.shoulder as usize]?;
             let (bends, [sum, q5, q6]) = wrists[label.wrist as usize]?;
             let bend = bends[label.elbow as usize];

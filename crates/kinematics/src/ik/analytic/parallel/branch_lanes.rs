@@ -33,7 +33,7 @@ pub(crate) struct BranchLanes<'a> {
 
 /// Branches as the lanes have them.
 pub(crate) struct AllBranches {
-    /// In the order of [`Label::ALL`].
+    /// In the order of [`Label::EIGHT`].
     pub branches: [Result<(JointVector, Degeneracies), OutOfReach>; 8],
     /// Branches within the limits, as bits in that order; all without a window.
     pub admitted: u8,
@@ -70,7 +70,7 @@ impl Kernel for BranchLanes<'_> {
             branches: [Err(OutOfReach::NOWHERE); 8],
             admitted: 0,
         };
-        for label in Label::ALL {
+        for label in Label::EIGHT {
             let (l, elbow) = (lane(label.shoulder, label.wrist), label.elbow as usize);
             all.branches[label.index()] = if reached >> l & 1 == 1 {
                 all.admitted |= (admitted[elbow] >> l & 1) << label.index();

@@ -62,7 +62,7 @@ impl ClosedForm for ParallelAxesArm {
         let mut search = Search::new(self, target, window);
         match run_exact(all) {
             Ok(all) => {
-                for label in Label::ALL
+                for label in Label::EIGHT
                     .into_iter()
                     .filter(|label| all.admitted >> label.index() & 1 == 1)
                 {

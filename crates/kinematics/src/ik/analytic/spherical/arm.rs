@@ -58,7 +58,7 @@ impl SphericalWristArm {
             Ok((swing, bends, turns))
         };
         let sides = [Shoulder::Front, Shoulder::Back].map(of_side);
-        Label::ALL.map(|label| {
+        Label::EIGHT.map(|label| {
             let (swing, bends, turns) = sides[label.shoulder as usize]?;
             let (bend, turn) = (bends[label.elbow as usize], turns[label.elbow as usize]);
             let [q4, q5, q6] = self.turns.joints(&turn, label.wrist);

@@ -1,4 +1,5 @@
-//! Bounds of the distance between two parts while the joints move, for proofs that hold between samples.
+//! A pair of parts: its distance at a moment, and what bounds it from there on while the joints move. The bound over a stretch of time is
+//! put together in the certificate, `clearance/search.rs`.
 //!
 //! A pair of bodies is a list of pairs of convex parts, one of them *fixed*, on the earlier body of the chain, and one *moving*. In the
 //! frame of the fixed part only the joints between the two bodies move the other. If a body has many parts, shapes that hold some of them
@@ -15,7 +16,7 @@
 //! No function here allocates.
 
 use crate::clearance::body::BodyKind;
-use crate::clearance::distance::{ROUNDING_M, bracketed};
+use crate::clearance::distance::{DISTANCE_ROUNDING_M, bracketed};
 use crate::clearance::lever::{self, Levers};
 use crate::clearance::model::ClearanceModel;
 use crate::clearance::part::{Part, PlacedPart};
@@ -242,7 +243,7 @@ impl<'a> PartPair<'a> {
     /// a capsule or a cylinder.
     pub fn gap_to_sphere(&self, mover: &Mover<'_>) -> f64 {
         let there = self.fixed.origin(mover.poses);
-        self.moving.gap_to_sphere(&mover.rigid, self.fixed, &there) - ROUNDING_M
+        self.moving.gap_to_sphere(&mover.rigid, self.fixed, &there) - DISTANCE_ROUNDING_M
     }
 
     /// Converts a direction from the frame of the fixed part to the base frame.
@@ -257,7 +258,7 @@ impl<'a> PartPair<'a> {
         let normal = (fixed.pose.rotation.inverse() * Vector::from_array(found.normal)).to_array();
         PartDistance {
             distance_m: found.distance,
-            at_least_m: at_least - ROUNDING_M,
+            at_least_m: at_least - DISTANCE_ROUNDING_M,
             place_m: found.place,
             normal: (normal != [0.0; 3]).then_some(normal),
         }
@@ -302,5 +303,5 @@ fn gap_between(fixed: &PlacedPart<'_>, moving: &PlacedPart<'_>, normal: Vector) 
     // Over a half-space there is one direction with a gap, which is fixed to it.
     let outwards = || moving.outwards().map(|outwards| -outwards);
     let normal = fixed.outwards().or_else(outwards).unwrap_or(normal);
-    -moving.support(-normal) - fixed.support(normal) - ROUNDING_M
+    -moving.support(-normal) - fixed.support(normal) - DISTANCE_ROUNDING_M
 }
