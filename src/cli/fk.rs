@@ -372,6 +372,9 @@ impl AllBranchesAnswer {
             self.frame,
             arm.name()
         );
+        let names = self.branches.iter().map(|row| row.branch.len());
+        let names = names.chain(self.rejections.iter().map(|row| row.branch.len()));
+        let wide = names.max().unwrap_or_default();
         // Writing to a String cannot fail.
         for row in &self.branches {
             let joints = columns(&row.q_deg, 6);
@@ -380,10 +383,10 @@ impl AllBranchesAnswer {
                 1.0 => String::new(),
                 _ => format!("   (one of {more} with whole turns)"),
             };
-            let _ = writeln!(text, "{:<18}{joints}{more}", row.branch);
+            let _ = writeln!(text, "{:<wide$}{joints}{more}", row.branch);
         }
         for RejectionRow { branch, reason } in &self.rejections {
-            let _ = writeln!(text, "{branch:<18} none: {reason}");
+            let _ = writeln!(text, "{branch:<wide$} none: {reason}");
         }
         text
     }

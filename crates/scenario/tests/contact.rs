@@ -107,10 +107,9 @@ fn the_planner_chooses_an_unstated_wash_path() {
     let free = settings("");
     assert_eq!((free.path_radius_m, free.turns, free.closing_ring), (None, None, None));
     assert_eq!((free.pattern, free.tilt_rad, free.axis_share), (None, None, None));
-    for (name, pattern) in PatternName::NAMES
-        .into_iter()
-        .zip([PatternName::Spiral, PatternName::Rings])
-    {
+    for pattern in PatternName::ALL {
+        let name = pattern.rules().name;
+        assert!(PatternName::NAMES.contains(&name), "{name}");
         let pinned = settings(&format!(
             "wash.pattern = \"{name}\"\nwash.turns = 2\nwash.path_radius_m = 0.12\nwash.tilt_deg = 8\nwash.axis_share = 0.5"
         ));
