@@ -329,9 +329,9 @@ class Clearance:
 
     def may_touch(self, washed, other):
         """True for the plate that is washed, and for a parallel neighbour that is no higher and whose rim is near the wash path."""
-        if washed == other:
-            return True
         plan = self.plan
+        if washed == other or plan.is_home:
+            return washed == other
         a, b = plan.plates[washed], plan.plates[other]
         away = b.pose[1] - a.pose[1]
         height = away @ a.normal

@@ -57,6 +57,24 @@ class Plan:
         many = len(self.t) == len(self.q) == len(self.qd) >= 2
         expect(many, "knots", "as many times, positions and speeds, and two at least", len(self.t))
         expect(self.t[0] == 0 and (np.diff(self.t) > 1e-9).all(), "knots.t_s", "times that begin at 0 and ascend", "others")
+        self.dry_run, recovery = job.get("dry_run"), job.get("recovery")
+        self.left_out = recovery["left_out"] if recovery else []
+        self.is_home = recovery is not None and recovery["part"] != "rest"
+        self.retreat = recovery["part"]["home"]["retreat"] if self.is_home else None
+        asked, count = self.requirements, len(job["plates"])
+        if self.dry_run:
+            # Nothing is pressed in the air.
+            self.requirements = {key: value for key, value in asked.items() if key not in ("contact", "holder")}
+        if recovery:
+            expect(not self.dry_run, "the job", "a dry run or a recovery", "both")
+            ascending = all(a < b for a, b in zip(self.left_out, self.left_out[1:]))
+            inside = not self.left_out or self.left_out[-1] < count
+            how_many = len(self.left_out) == count if self.is_home else 0 < len(self.left_out) < count
+            expect(ascending and inside and how_many, "recovery.left_out", "plates in order: some, or all on the way home", self.left_out)
+        if self.is_home:
+            none = [key for key in ("contact", "holder", "landing_m_s", "wrist_rad") if key in asked]
+            expect(not none and "lifting_m_s" in asked, "requirements", "of a way home: lifting_m_s, and none of a washing", sorted(asked))
+            expect(not root["order"] and not root["wash_paths"], "the plan", "no order and no wash paths on the way home", root["order"])
         self.home = np.array(job["home_rad"], dtype=float)
         self.arm, self.mount = self.cell["arm"], pose(self.cell["mount"])
         self.plates = [Plate(plate) for plate in job["plates"]]

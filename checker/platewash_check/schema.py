@@ -1,5 +1,7 @@
 """The form of a plan file: which keys there are, and the range of each number. What is not named here is refused."""
 
+import re
+
 import numpy as np
 
 
@@ -104,6 +106,18 @@ def obstacle(value, where):
         expect(not several or all(value["parts"]), where, "points in each part", value)
 
 
+def digest(value, where):
+    expect(isinstance(value, str) and re.fullmatch("[0-9a-f]{64}", value), where, "64 digits of lower-case hexadecimal", value)
+
+
+def part(value, where):
+    """The part of a recovery: the plates that are left, or the motion home, with the line along which the sponge leaves a plate."""
+    if value != "rest":
+        check({"home": {"retreat": anything}}, value, where)
+        if value["home"]["retreat"] is not None:
+            check({"plate": whole(0, 999), "length_m": number(1e-4, 1e3)}, value["home"]["retreat"], f"{where}.home.retreat")
+
+
 def held(value, where):
     if value != "all":
         check([whole(0, 999)], value, where)
@@ -179,6 +193,8 @@ PLAN = {
             "tool": {"bodies": [BODY], "sponge": SPONGE, "tip": POSE, "mass?": anything},
             "reduced_clearances?": anything,
         },
+        "dry_run?": {"parent": digest, "height_m": number(most=1e3, above=0)},
+        "recovery?": {"parent": digest, "left_out": [whole(0, 999)], "part": part},
         **dict.fromkeys(("planner?", "seed?", "simulation?"), anything),
     },
 }

@@ -1,5 +1,7 @@
 """Statements of the plan about itself: 1 to 14 of the certificate that need no bound on the tool's motion."""
 
+from copy import copy
+
 import numpy as np
 
 from .clearance import Part
@@ -12,14 +14,17 @@ SAME_M, REST, OVERLAP_M = 1e-9, 1e-9, 1e-6
 def answers(arm, plan, motion, clearance):
     yield stated("arm", list(of_arm(arm, plan)))
     yield stated("tool", list(of_tool(plan)))
-    yield stated("plates", list(below_floor(plan)))
+    yield stated("plates", list(below_floor(plan, plan.plates)))
+    if plan.dry_run:
+        yield stated("dry_run", list(raised(plan, clearance)))
     yield stated("exclusions", clearance.exclusions() + clearance.still())
     yield stated("wash_paths", list(of_paths(plan)))
     yield stated("segments", list(of_segments(plan)))
     yield stated("every_plate_once", list(once(plan)))
     yield stated("home_to_home", list(from_home(plan)))
-    yield stated("rest_at_wash_ends", list(at_rest(plan)))
-    yield stated("plates_apart", list(apart(plan, clearance)))
+    if not plan.is_home:
+        yield stated("rest_at_wash_ends", list(at_rest(plan)))
+    yield stated("plates_apart", list(apart(plan, clearance, clearance.plate_of)))
     low, high, speed, acceleration = motion.extremes()
     margin = np.minimum(low - arm.lower, arm.upper - high).min(axis=0)
     joint = lambda values: arm.joints[int(np.argmin(values))].name
@@ -62,18 +67,41 @@ def of_tool(plan):
             yield f"{body.name} reaches beyond the sponge's near face"
 
 
-def below_floor(plan):
+def below_floor(plan, plates):
     """No plate reaches below the floor: a level half-space that is an obstacle of that name."""
     for body in plan.obstacles:
         if body.name != "floor" or body.shape != "half_space":
             continue
         normal, height = body.pose[0][:, 2], body.pose[0][:, 2] @ body.pose[1]
-        for k, plate in enumerate(plan.plates):
+        for k, plate in enumerate(plates):
             across = plate.radius * np.linalg.norm(np.cross(normal, plate.normal))
             centre = normal @ plate.pose[1]
             low = min(centre, centre - plate.thickness * (normal @ plate.normal)) - across - height
             if low < -SAME_M:
                 yield f"plate {k + 1} reaches {-1e3 * low:.2f} mm below the floor"
+
+
+def raised(plan, clearance):
+    """In a dry run each plate has its real one as an obstacle below it, by the stated height; these stand where plates can."""
+    height, obstacles, real = plan.dry_run["height_m"], {body.name: body for body in plan.obstacles}, []
+    for k, plate in enumerate(plan.plates):
+        found = obstacles.get(f"real plate {k + 1}")
+        down = (0.5 * plate.thickness + height) * plate.normal
+        disc = {"cylinder": {"radius_m": plate.radius, "half_length_m": 0.5 * plate.thickness}}
+        if found is None or not isinstance(found.shape, dict) or found.shape.get("convex", {}).keys() != {"cylinder"}:
+            yield f"plate {k + 1} has no real plate below it"
+            continue
+        sizes = found.shape["convex"]["cylinder"]
+        off = max(abs(sizes[key] - disc["cylinder"][key]) for key in sizes)
+        off = max(off, *abs(found.pose[1] + down - plate.pose[1]), *abs(found.pose[0][:, 2] - plate.normal))
+        if not off <= SAME_M:
+            yield f"real plate {k + 1} is not {1e3 * height:g} mm below the raised one"
+        lowered = copy(plate)
+        lowered.pose = plate.pose[0], plate.pose[1] - height * plate.normal
+        real.append(lowered)
+    yield from (f"real plates: {words}" for words in below_floor(plan, real))
+    names = {f"real plate {k + 1}": k for k in range(len(plan.plates))}
+    yield from (f"real plates: {words}" for words in apart(plan, clearance, names))
 
 
 def of_paths(plan):
@@ -86,7 +114,11 @@ def of_paths(plan):
 
 def of_segments(plan):
     """Depart; approach, wash and retreat of each plate, a transit between; return; without gaps, from knot to knot."""
-    expected = []
+    if plan.is_home:
+        expected = [("retreat", plan.retreat["plate"])] if plan.retreat else []
+        expected += [("return", segment["plate"]) for segment in plan.segments[-1:]]
+    else:
+        expected = []
     for plate in plan.order:
         first = "transit" if expected else "depart"
         expected += [(kind, plate) for kind in (first, "approach", "wash", "retreat")]
@@ -101,9 +133,10 @@ def of_segments(plan):
 
 def once(plan):
     count = len(plan.plates)
-    if sorted(plan.order) != list(range(count)):
+    washed = [plate for plate in range(count) if plate not in plan.left_out]
+    if sorted(plan.order) != washed:
         yield "not every plate is in the order once"
-    elif plan.requirements["as_listed"] and plan.order != list(range(count)):
+    elif plan.requirements["as_listed"] and plan.order != washed:
         yield "the plates are not washed as listed"
     tool, tilt = plan.tool, plan.requirements["tilt_rad"]
     sponge = tool.radius / np.cos(tilt)
@@ -131,20 +164,22 @@ def at_rest(plan):
             yield f"the arm does not rest at both ends of the wash of plate {segment['plate'] + 1}"
 
 
-def apart(plan, clearance):
-    """No two bodies that stand overlap, where one is a plate or the base."""
+def apart(plan, clearance, plate_of):
+    """No two bodies that stand overlap, where one is a plate or the base; `plate_of` has the plates by the names of their bodies. Of a dry
+    run's real plates the raised ones are none."""
     if plan.requirements["overlap"] != "fail":
         yield "overlapping plates are only reported in this job, which is not checked"
         return
-    still = [body for body in clearance.bodies if body.carrier == 0]
+    others = set(clearance.plate_of) - set(plate_of)
+    still = [body for body in clearance.bodies if body.carrier == 0 and body.name not in others]
     for k, a in enumerate(still):
         for b in still[k + 1 :]:
-            # The base is the first of a pair with it, and plates come before obstacles.
-            is_base, is_plate = a.name in clearance.links, b.name in clearance.plate_of
-            plate = next((clearance.plate_of[x.name] for x in (a, b) if x.name in clearance.plate_of), None)
-            if plate is None and not is_base or b.name in clearance.links:
+            # The base is the first of a pair with it.
+            is_base, plates = a.name in clearance.links, [plate_of[x.name] for x in (a, b) if x.name in plate_of]
+            if not plates and not is_base or b.name in clearance.links:
                 continue
-            held = not is_base and not is_plate and holds(plan, b.name, plate)
+            other = next((x.name for x in (a, b) if x.name not in plate_of), None)
+            held = not is_base and other is not None and holds(plan, other, plates[0])
             is_ground = b.plane is not None and abs(b.plane[1]) <= 1e-9 and b.plane[0][2] >= 1 - 1e-9
             gap = np.inf if held or (is_base and is_ground) else clearance.at_rest(a, b)
             if not gap >= -OVERLAP_M:

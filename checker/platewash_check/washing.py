@@ -128,7 +128,10 @@ class Washing:
 
     def answers(self):
         yield from self.speeds()
-        yield from self.beside_plates()
+        if self.plan.is_home:
+            yield from self.leaves_plate()
+        else:
+            yield from self.beside_plates()
 
     def speeds(self):
         """15 to 18: speed and acceleration of the tip."""
@@ -138,6 +141,8 @@ class Washing:
         for of, kinds, longest, (quantity, key, unit, order) in (
             (*where, which) for where in (("tip", free, 4e-3), ("wash", ("wash",), 2e-3)) for which in orders
         ):
+            if of == "wash" and self.plan.is_home:
+                continue
             limit = min(limits[f"tip_{key}"], need[f"wash_{key}"] if of == "wash" else np.inf)
 
             def evaluate(_, ends):
@@ -229,6 +234,24 @@ class Washing:
                 # The axis meets the face up to that far from below the tip.
                 aside = (delta + tool.compression + max(below, off, 0.0)) * tan
                 yield self.stays(need["holder"], m, k, tilt, hard / free, curves, aside)
+
+    def leaves_plate(self):
+        """20, 21, 23 on the way home after a stop: the sponge, which is at the face, leaves it slowly along the normal."""
+        if not self.plan.retreat:
+            return
+        tool, segment = self.plan.tool, self.plan.segments[0]
+        steps = self.steps(segment, 4e-3)
+        across = lambda s, e: ([norm(self.in_plate(segment, i)[1][:, :2]) for i in e.at], e.axis[2])
+        sine, _ = self.most(steps, across, np.sin(np.pi / 4))
+        tilt = np.arcsin(sine) if sine <= 1 else np.inf
+        place, axis = (values[0] for values in self.in_plate(segment, self.ends(steps).at[0]))
+        over = place[2] - 1e-3 + tool.height * np.cos(tilt) - tool.radius * np.sin(tilt)
+        at_face = axis[2] < 0 and tilt <= np.pi / 4 and over >= 0
+        yield stated("contact_height", [] if at_face else ["the retreat does not begin at the face"])
+        yield self.contact_speed(tilt, 0.0)
+        beside = lambda s, e: ([norm(self.in_plate(segment, i)[0][:, :2] - place[:2]) for i in e.at], e.tip[2])
+        bound, when = self.most(steps, beside, LINE_M)
+        yield judged("line_deviation", bound, LINE_M, "m", f"at {when:.4f} s")
 
     def stays(self, holder, m, k, tilt, stiffness, curves, aside):
         """33: a fixture takes the greatest force across the plate's axis and the greatest torque about it."""
