@@ -163,7 +163,8 @@ def test_pairs_that_are_left_out_are_those_of_the_rules(plan_file):
     assert any("collar reaches behind the flange" in fault for fault in faults), faults
     # A free-standing box whose name begins like a plate's.
     rack = changed(plan_file, lambda cell: cell["obstacles"].append(box("plate rack", [0.02] * 3, [-0.5, -0.5, 0.5])))
-    assert list(apart(rack[0], Clearance(irb120(), *rack))) == []
+    clearance = Clearance(irb120(), *rack)
+    assert list(apart(rack[0], clearance, clearance.plate_of)) == []
 
 
 def test_the_area_beyond_a_rim_is_that_of_a_dense_sample():
