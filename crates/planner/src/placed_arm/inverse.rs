@@ -27,6 +27,8 @@ pub(crate) struct Start {
     /// Shoulder and elbow, where the arm has named branches. The wrist follows by continuity: where axes 4 and 6 are
     /// parallel in the arm's plane, the names of its branches change and joint 4 does not.
     pub sides: Option<(Shoulder, Elbow)>,
+    /// Number of the branch among those on these sides: [`Label::number`]; 0 without sides.
+    pub number: u8,
 }
 
 /// The inverse kinematics of an arm.
@@ -125,7 +127,11 @@ impl<'a> Inverse<'a> {
     /// # Errors
     /// As [`Inverse::continuing`], when there is none.
     pub fn starts(&self, target: &RigidTransform, near: &JointVector, width: Width) -> Result<Vec<Start>, Hindrance> {
-        let anywhere = Start { q: *near, sides: None };
+        let anywhere = Start {
+            q: *near,
+            sides: None,
+            number: 0,
+        };
         let (arm, tip, limits) = match self {
             Self::Analytic { arm, tip, limits } => (arm, tip, limits),
             Self::Numeric(solver) => {
@@ -137,15 +143,27 @@ impl<'a> Inverse<'a> {
                 if found.is_empty() {
                     self.continuing(target, &anywhere)?;
                 }
-                return Ok(found.into_iter().map(|q| Start { q, sides: None }).collect());
+                let unnamed = |q| Start {
+                    q,
+                    sides: None,
+                    number: 0,
+                };
+                return Ok(found.into_iter().map(unnamed).collect());
             }
         };
         let body = AnalyticArm::body_target(tip, target).ok_or(Hindrance::NotFinite)?;
         let all = arm.solve_all(&body, near, limits)?;
         // A farther turn of a joint has the same pose and clearances, and would merge with the nearest one.
         let of_branch = |solution: &Solution| {
-            let sides = Some((solution.label.shoulder, solution.label.elbow));
-            solution.nearest_configurations(near).map(move |q| Start { q, sides })
+            let Label {
+                shoulder,
+                elbow,
+                number,
+                ..
+            } = solution.label;
+            let sides = Some((shoulder, elbow));
+            let start = move |q| Start { q, sides, number };
+            solution.nearest_configurations(near).map(start)
         };
         let mut found: Vec<_> = all.iter().flat_map(of_branch).collect();
         let above =
@@ -172,7 +190,7 @@ pub(crate) fn merge_starts(starts: &mut Vec<Start>, more: Vec<Start>) {
             } else {
                 SAME_UNNAMED_RAD
             };
-            start.sides == other.sides && turned.amax() < near
+            (start.sides, start.number) == (other.sides, other.number) && turned.amax() < near
         };
         if !starts.iter().any(same) {
             starts.push(start);

@@ -22,6 +22,7 @@ fn of_all_turns(inverse: &Inverse<'_>, target: &RigidTransform, near: &JointVect
     let of = |(label, q): (Label, JointVector)| Start {
         q,
         sides: Some((label.shoulder, label.elbow)),
+        number: label.number,
     };
     let mut found: Vec<Start> = all.configurations().map(of).collect();
     let rank = |start: &Start| start.sides != Some((Shoulder::Front, Elbow::Up));
