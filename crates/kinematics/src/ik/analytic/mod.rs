@@ -1,5 +1,14 @@
 //! Analytic inverse kinematics: all branches of an arm in closed form, for two structures of arms.
 //!
+//! | concept | file |
+//! | --- | --- |
+//! | the arm with its closed form; how its structure is recognised, by its geometry | `arm`; `recognise`, `geometry`, `mismatch` |
+//! | the contract of a closed form; the two that there are | `closed_form`; `spherical`, `parallel` |
+//! | names of branches, and a value for each; four at a time | `branch`, `branches`; `branch_lanes` |
+//! | parts of both forms: joint 1 and a triangle; three turns; Newton steps | `links`; `wrist`; `chain` |
+//! | answers within the limits: all, and the nearest | `all`; `nearest`, `search`, `window` |
+//! | tolerances; errors | `tolerances`; `error` |
+//!
 //! # Which arms
 //!
 //! [`AnalyticArm::recognise`] looks at the folded chain alone, `T_base_6 = Π F_i Rot_z(q_i)`, so zero positions,
