@@ -8,7 +8,8 @@
 
 use crate::shipped::{certified, planned};
 use platewash::certificate::{ClearanceRule, ProgramLimits, Requirement, Status, prove_program};
-use platewash::export::dialect::{DIALECTS, Dialect, Points};
+use platewash::export::dialect::{Dialect, Points};
+use platewash::export::dialects::DIALECTS;
 use platewash::export::judgement::{JOINT_SPEED_SHARE, motions};
 use platewash::export::reading::{Reading, SegmentShape};
 use platewash::export::{ExportSettings, ExportedProgram, compare, export};

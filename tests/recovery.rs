@@ -3,7 +3,7 @@
 use crate::shipped;
 use platewash::bodies::clearance::{ClearanceModel, PairClearance};
 use platewash::certificate::{Requirement, Status, certify, prove};
-use platewash::export::dialect::by_name;
+use platewash::export::dialects::by_name;
 use platewash::export::program::ProgramFile;
 use platewash::export::{ExportSettings, compare, export};
 use platewash::kinematics::RobotModel;

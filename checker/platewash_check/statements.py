@@ -87,14 +87,13 @@ def raised(plan, clearance):
     for k, plate in enumerate(plan.plates):
         found = obstacles.get(f"real plate {k + 1}")
         down = (0.5 * plate.thickness + height) * plate.normal
-        disc = {"cylinder": {"radius_m": plate.radius, "half_length_m": 0.5 * plate.thickness}}
         if found is None or not isinstance(found.shape, dict) or found.shape.get("convex", {}).keys() != {"cylinder"}:
             yield f"plate {k + 1} has no real plate below it"
             continue
-        sizes = found.shape["convex"]["cylinder"]
-        off = max(abs(sizes[key] - disc["cylinder"][key]) for key in sizes)
-        off = max(off, *abs(found.pose[1] + down - plate.pose[1]), *abs(found.pose[0][:, 2] - plate.normal))
-        if not off <= SAME_M:
+        disc = found.shape["convex"]["cylinder"]
+        sizes = disc["radius_m"] - plate.radius, disc["half_length_m"] - 0.5 * plate.thickness
+        off = np.r_[sizes, found.pose[1] + down - plate.pose[1], found.pose[0][:, 2] - plate.normal]
+        if not (abs(off) <= SAME_M).all():
             yield f"real plate {k + 1} is not {1e3 * height:g} mm below the raised one"
         lowered = copy(plate)
         lowered.pose = plate.pose[0], plate.pose[1] - height * plate.normal

@@ -244,7 +244,7 @@ class Washing:
         across = lambda s, e: ([norm(self.in_plate(segment, i)[1][:, :2]) for i in e.at], e.axis[2])
         sine, _ = self.most(steps, across, np.sin(np.pi / 4))
         tilt = np.arcsin(sine) if sine <= 1 else np.inf
-        place, axis = (values[0] for values in self.in_plate(segment, self.ends(steps).at[0]))
+        place, axis = (values[0] for values in self.in_plate(segment, self.ends(steps.part(slice(1))).at[0]))
         over = place[2] - 1e-3 + tool.height * np.cos(tilt) - tool.radius * np.sin(tilt)
         at_face = axis[2] < 0 and tilt <= np.pi / 4 and over >= 0
         yield stated("contact_height", [] if at_face else ["the retreat does not begin at the face"])

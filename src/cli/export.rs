@@ -17,7 +17,7 @@ use platewash::export::judgement::{Case, ProgramJudgement};
 use platewash::export::program::ProgramFile;
 use platewash::export::{
     Change, CompareError, ExportError, ExportSettings, ExportedProgram, Joint3, Refusal, compare, contact_not_judged,
-    dialect, export, ros2,
+    dialects, export, ros2,
 };
 use platewash::kinematics::urdf::file::read_bytes;
 use platewash::motion::plan::Plan;
@@ -68,7 +68,7 @@ pub struct ExportArguments {
 }
 
 fn target(name: &str) -> Result<&'static dyn Dialect> {
-    dialect::by_name(name).with_context(|| format!("expected one of {}", dialect::names()))
+    dialects::by_name(name).with_context(|| format!("expected one of {}", dialects::names()))
 }
 
 fn waived(name: &str) -> Result<Requirement> {

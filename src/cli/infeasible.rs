@@ -57,7 +57,7 @@ fn in_full(
     let watch = progress.watch(&options.cancel);
     let arm = scenario.arm()?;
     let start = Instant::now();
-    let (why, others) = match &error {
+    let (why, others) = match error.as_ref() {
         PlanError::Unwashable(first) => {
             let job = scenario.job_on(&arm, &scenario.place(&arm, &watch)?)?;
             // The other half of the time is left for the search for remedies.

@@ -1,7 +1,8 @@
 //! What the tests of programs share.
 
 use platewash_export::Joint3;
-use platewash_export::dialect::{Dialect, ReadError, by_name};
+use platewash_export::dialect::{Dialect, ReadError};
+use platewash_export::dialects::by_name;
 use platewash_export::program::{Point, Program, ProgramFile};
 use platewash_export::reading::Reading;
 use platewash_kinematics::{JointVector, RobotModel};

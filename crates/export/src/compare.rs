@@ -7,8 +7,8 @@
 use crate::changed_settings::changed_settings;
 use crate::changes::{Change, changes, same_file};
 use crate::dialect::language::Dialect;
-use crate::dialect::list::{self, DIALECTS};
 use crate::dialect::start_within::start_within_deg;
+use crate::dialects::{self, DIALECTS};
 use crate::export::{self, ExportError};
 use crate::judgement::{self, ProgramJudgement};
 use crate::program::ProgramFile;
@@ -55,7 +55,7 @@ pub struct ProgramComparison {
 #[non_exhaustive]
 pub enum CompareError {
     /// No dialect knows it.
-    #[error("{name}: no program of {}", list::names())]
+    #[error("{name}: no program of {}", dialects::names())]
     Unknown {
         /// The file's name.
         name: String,

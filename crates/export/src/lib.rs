@@ -10,7 +10,8 @@
 //!
 //! | concept | module |
 //! | --- | --- |
-//! | a language of programs; the list of all; the largest distance from the start at which a program moves | `dialect` |
+//! | a language of programs; the largest distance from the start at which a program moves | `dialect` |
+//! | the list of all dialects | `dialects` |
 //! | a program in no language, its files and places in them; a file made of bytes | `program`, `decode` |
 //! | a program read back; words, numbers and signs of a text | `reading` |
 //! | RAPID, of ABB: written and read | `rapid` |
@@ -35,6 +36,7 @@ pub mod controller_settings;
 pub mod csv;
 mod decode;
 pub mod dialect;
+pub mod dialects;
 mod export;
 mod header;
 mod joint_3;

@@ -1,6 +1,7 @@
 //! The list of all dialects.
 
-use platewash_export::dialect::{DIALECTS, Dialect, by_name};
+use platewash_export::dialect::Dialect;
+use platewash_export::dialects::{DIALECTS, by_name};
 use platewash_export::program::ProgramFile;
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::linkage::urdf;
 use platewash_bodies::job::WashJob;
 use platewash_certificate::{Certified, certify};
-use platewash_export::dialect::by_name;
+use platewash_export::dialects::by_name;
 use platewash_export::program::ProgramFile;
 use platewash_export::{CompareError, ExportError, ExportSettings, ExportedProgram, Joint3, Refusal, compare, export};
 use platewash_fixtures::kitchen_terms;

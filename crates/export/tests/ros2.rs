@@ -1,7 +1,8 @@
 //! A plan as ROS 2 messages, read back: knots, times, bytes, several files as one program.
 
 use platewash_certificate::{Certified, certify};
-use platewash_export::dialect::{Dialect, by_name};
+use platewash_export::dialect::Dialect;
+use platewash_export::dialects::by_name;
 use platewash_export::program::{Point, Program, ProgramFile};
 use platewash_export::reading::{Reading, SegmentShape};
 use platewash_export::ros2::times::LEAD_IN_S;

@@ -1,6 +1,7 @@
 //! Messages that are refused, with the rule and the line: one for each rule, and texts that are no message.
 
-use platewash_export::dialect::{ReadError, by_name};
+use platewash_export::dialect::ReadError;
+use platewash_export::dialects::by_name;
 use platewash_export::program::ProgramFile;
 use platewash_export::reading::Reading;
 use platewash_kinematics::RobotModel;

@@ -1,9 +1,9 @@
 //! Why a job could not be planned.
 
 use crate::joint_path::JointPathError;
+use crate::near_pair::NearPair;
 use crate::out_of_range::OutOfRange;
 use crate::pattern::Shortfall;
-use crate::suggest::near_pair::NearPair;
 use crate::timing::TimingError;
 use crate::transit::{ClearanceShortfall, LiftLineError, TransitError};
 use crate::unwashable_plate::UnwashablePlate;

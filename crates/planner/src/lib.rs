@@ -18,11 +18,12 @@
 //! | the result; the time of a wash against the least | `planned_job`, `pace` |
 //! | going on after a stop | `recovery` |
 //! | a job that cannot be done, and where its plates could lie | `infeasible`, `unwashable_plate`, `outlook`, `washable_map`, `suggest` |
-//! | errors; the caller that waits | `error`, `out_of_range`, `watch` |
+//! | errors; the caller that waits | `error`, `near_pair`, `out_of_range`; `watch` |
 
 mod error;
 mod infeasible;
 pub mod joint_path;
+mod near_pair;
 mod order;
 mod out_of_range;
 mod outlook;

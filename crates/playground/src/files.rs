@@ -2,7 +2,8 @@
 
 use platewash_certificate::certify_with;
 use platewash_editor::{LastResult, paper_beside};
-use platewash_export::dialect::{self, Dialect};
+use platewash_export::dialect::Dialect;
+use platewash_export::dialects;
 use platewash_export::{ExportSettings, export};
 use platewash_simulator::{SimulationReport, simulate};
 use platewash_viewer::bundle::Bundle;
@@ -48,7 +49,7 @@ pub struct FileLine {
 /// The reason that there are none, in words.
 pub fn files(result: &LastResult, question: &FileQuestion) -> Result<Vec<FileLine>, String> {
     let name = question.file.as_str();
-    let text = match (name, dialect::by_name(name)) {
+    let text = match (name, dialects::by_name(name)) {
         (_, Some(dialect)) => return program(result, dialect),
         ("plan.json", _) => plan(result)?.to_json().map_err(|error| error.to_string()),
         ("certificate.json", _) => {
@@ -58,7 +59,7 @@ pub fn files(result: &LastResult, question: &FileQuestion) -> Result<Vec<FileLin
         ("page.html", _) => html(result, question.bundle.as_ref()),
         _ => Err(format!(
             "{name}: no such file; expected plan.json, certificate.json, page.html, {}",
-            dialect::names()
+            dialects::names()
         )),
     };
     let name = name.to_owned();

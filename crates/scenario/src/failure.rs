@@ -20,6 +20,7 @@ use platewash_simulator::{ControlError, DynamicsError, SimulationError};
 use platewash_workcell::cancel::Cancelled;
 use platewash_workcell::layout::LayoutError;
 use platewash_workcell::verdict::Infeasibility;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Reason that a scenario could not be carried out. Its words name the keys that decide it.
@@ -96,10 +97,12 @@ impl Failure {
 
     /// The error that left a job without a plan; `None` where the input is at fault.
     #[must_use]
-    pub fn plan_error(&self) -> Option<PlanError> {
+    pub fn plan_error(&self) -> Option<Cow<'_, PlanError>> {
         match self.cause() {
-            Self::Plan(error) => Some(error.clone()),
-            Self::Layout(error) | Self::Paper(PaperError::Layout(error)) => Some(PlanError::Layout(error.clone())),
+            Self::Plan(error) => Some(Cow::Borrowed(error)),
+            Self::Layout(error) | Self::Paper(PaperError::Layout(error)) => {
+                Some(Cow::Owned(PlanError::Layout(error.clone())))
+            }
             _ => None,
         }
     }
@@ -108,7 +111,7 @@ impl Failure {
     /// is at fault. The reason is this failure in words, as a row of a study and an exception of Python have it, too.
     #[must_use]
     pub fn report(&self, scenario: &str, seed: u64) -> Option<InfeasibleReport> {
-        let report = InfeasibleReport::new(scenario, seed, &self.plan_error()?)?;
+        let report = InfeasibleReport::new(scenario, seed, self.plan_error()?.as_ref())?;
         Some(report.explained(self.to_string()))
     }
 

@@ -2,7 +2,7 @@
 
 use platewash_certificate::{Certificate, Requirement, Verdict};
 use platewash_kinematics::ik::IkPathError;
-use platewash_planner::{PlanError, PlannedJob};
+use platewash_planner::{InfeasibleReport, PlanError, PlannedJob};
 use platewash_scenario::Failure;
 use platewash_workcell::verdict::Infeasibility;
 use serde::{Deserialize, Serialize};
@@ -86,9 +86,12 @@ impl Row {
 
     /// The row with the reason that there is no plan.
     pub(crate) fn failed(self, error: &Failure) -> Self {
+        let report = error.report("", 0);
+        let place = Place::of_failure(error, report.as_ref());
+        let reason = report.map_or_else(|| error.to_string(), |report| report.reason);
         Self {
-            place: Place::of_failure(error),
-            ..self.ended(Outcome::from(error), error.to_string())
+            place,
+            ..self.ended(Outcome::from(error), reason)
         }
     }
 
@@ -200,8 +203,7 @@ impl Place {
     }
 
     /// Place of the obstruction of a plan.
-    pub(crate) fn of_failure(failure: &Failure) -> Self {
-        let report = failure.report("", 0);
+    fn of_failure(failure: &Failure, report: Option<&InfeasibleReport>) -> Self {
         let Failure::Plan(error) = failure else {
             return Self::default();
         };
@@ -289,7 +291,8 @@ mod tests {
             lift_m: 0.05,
             error,
         };
-        let place = Place::of_failure(&Failure::Plan(line));
+        let failure = Failure::Plan(line);
+        let place = Place::of_failure(&failure, failure.report("", 0).as_ref());
         assert_eq!((place.plate, place.waypoint), (Some(2), Some(7)));
     }
 }

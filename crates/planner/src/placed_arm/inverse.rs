@@ -19,6 +19,31 @@ const SAME_UNNAMED_RAD: f64 = 0.5;
 /// Starts of the numeric solver's list that are tried for all branches of a pose.
 const LISTED: usize = 96;
 
+/// Sides of shoulder and elbow that an arm with named branches stays on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Sides {
+    pub shoulder: Shoulder,
+    pub elbow: Elbow,
+    /// Number of the branch among those on these sides: [`Label::number`].
+    pub number: u8,
+}
+
+impl From<Label> for Sides {
+    fn from(label: Label) -> Self {
+        let Label {
+            shoulder,
+            elbow,
+            number,
+            ..
+        } = label;
+        Self {
+            shoulder,
+            elbow,
+            number,
+        }
+    }
+}
+
 /// A configuration to start from, and the branch to stay on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Start {
@@ -26,9 +51,7 @@ pub(crate) struct Start {
     pub q: JointVector,
     /// Shoulder and elbow, where the arm has named branches. The wrist follows by continuity: where axes 4 and 6 are
     /// parallel in the arm's plane, the names of its branches change and joint 4 does not.
-    pub sides: Option<(Shoulder, Elbow)>,
-    /// Number of the branch among those on these sides: [`Label::number`]; 0 without sides.
-    pub number: u8,
+    pub sides: Option<Sides>,
 }
 
 /// The inverse kinematics of an arm.
@@ -90,7 +113,7 @@ impl<'a> Inverse<'a> {
         };
         let body = AnalyticArm::body_target(tip, target).ok_or(Hindrance::NotFinite)?;
         let found = arm.nearest(&body, &start.q, limits);
-        let Some((shoulder, elbow)) = start.sides else {
+        let Some(Sides { shoulder, elbow, .. }) = start.sides else {
             return Ok(found?.q);
         };
         if let Ok(found) = found
@@ -127,11 +150,7 @@ impl<'a> Inverse<'a> {
     /// # Errors
     /// As [`Inverse::continuing`], when there is none.
     pub fn starts(&self, target: &RigidTransform, near: &JointVector, width: Width) -> Result<Vec<Start>, Hindrance> {
-        let anywhere = Start {
-            q: *near,
-            sides: None,
-            number: 0,
-        };
+        let anywhere = Start { q: *near, sides: None };
         let (arm, tip, limits) = match self {
             Self::Analytic { arm, tip, limits } => (arm, tip, limits),
             Self::Numeric(solver) => {
@@ -143,31 +162,20 @@ impl<'a> Inverse<'a> {
                 if found.is_empty() {
                     self.continuing(target, &anywhere)?;
                 }
-                let unnamed = |q| Start {
-                    q,
-                    sides: None,
-                    number: 0,
-                };
-                return Ok(found.into_iter().map(unnamed).collect());
+                return Ok(found.into_iter().map(|q| Start { q, sides: None }).collect());
             }
         };
         let body = AnalyticArm::body_target(tip, target).ok_or(Hindrance::NotFinite)?;
         let all = arm.solve_all(&body, near, limits)?;
         // A farther turn of a joint has the same pose and clearances, and would merge with the nearest one.
         let of_branch = |solution: &Solution| {
-            let Label {
-                shoulder,
-                elbow,
-                number,
-                ..
-            } = solution.label;
-            let sides = Some((shoulder, elbow));
-            let start = move |q| Start { q, sides, number };
-            solution.nearest_configurations(near).map(start)
+            let sides = Some(Sides::from(solution.label));
+            solution.nearest_configurations(near).map(move |q| Start { q, sides })
         };
         let mut found: Vec<_> = all.iter().flat_map(of_branch).collect();
-        let above =
-            |(shoulder, elbow)| elbow == Elbow::Up && (shoulder == Shoulder::Front || arm.shoulder_sides_are_alike());
+        let above = |sides: Sides| {
+            sides.elbow == Elbow::Up && (sides.shoulder == Shoulder::Front || arm.shoulder_sides_are_alike())
+        };
         let rank = |start: &Start| !start.sides.is_some_and(above);
         let far = |start: &Start| (start.q - near).norm();
         found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
@@ -190,7 +198,7 @@ pub(crate) fn merge_starts(starts: &mut Vec<Start>, more: Vec<Start>) {
             } else {
                 SAME_UNNAMED_RAD
             };
-            (start.sides, start.number) == (other.sides, other.number) && turned.amax() < near
+            start.sides == other.sides && turned.amax() < near
         };
         if !starts.iter().any(same) {
             starts.push(start);

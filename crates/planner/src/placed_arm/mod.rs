@@ -1,7 +1,7 @@
 //! A placed arm: the arm with its tool among the bodies that it must keep clear of, and the pose of the tool at a contact point.
 
 mod hindrance;
-mod inverse;
+pub(crate) mod inverse;
 pub(crate) mod stance;
 pub(crate) mod tilt_policy;
 

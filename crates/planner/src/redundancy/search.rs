@@ -139,7 +139,6 @@ impl Graph {
             let near = Start {
                 q: known.map_or(start.q, |vertex| vertex.q),
                 sides: start.sides,
-                number: start.number,
             };
             let target = task.placed.tip_rigid(&contact, tilt);
             let stands = task.check_cone(&contact, &target).is_ok();

@@ -148,11 +148,7 @@ impl<'a> Task<'a> {
     /// A start from anywhere near.
     pub(crate) fn anywhere_near(&self) -> Start {
         let q = self.near;
-        Start {
-            q,
-            sides: None,
-            number: 0,
-        }
+        Start { q, sides: None }
     }
 
     /// The configuration at a pose of the tip, continued from `start` and clear.

@@ -1,8 +1,8 @@
 //! A home with clearance: the tool points down over the plates, far from everything, from limits and singularities.
 
 use crate::error::PlanError;
+use crate::near_pair::NearPair;
 use crate::placed_arm::{Contact, PlacedArm, Stretch, Width};
-use crate::suggest::near_pair::NearPair;
 use nalgebra::Vector3;
 use platewash_bodies::clearance::{ClearanceModel, PairClearance};
 use platewash_kinematics::model::manipulability;

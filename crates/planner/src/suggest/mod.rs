@@ -2,11 +2,10 @@
 //! washed.
 
 mod home;
-pub(crate) mod near_pair;
 mod region;
 mod sector;
 
+pub use crate::near_pair::NearPair;
 pub use crate::suggest::home::{SuggestedHome, near_pairs, suggest_home};
-pub use crate::suggest::near_pair::NearPair;
 pub use crate::suggest::region::{RegionSquare, Sector, SuggestedRegion, place_in_front, suggest_region};
 pub use crate::suggest::sector::suggest_sector;

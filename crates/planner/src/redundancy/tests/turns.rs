@@ -1,5 +1,6 @@
 //! Joints of many turns: those that no motion needs are not looked at, and nothing is lost by it.
 
+use crate::placed_arm::inverse::Sides;
 use crate::placed_arm::{Stance, Start, merge_starts};
 use crate::redundancy::tests::*;
 use platewash_kinematics::ik::analytic::{AnalyticArm, Elbow, Label, Shoulder};
@@ -21,11 +22,14 @@ fn of_all_turns(inverse: &Inverse<'_>, target: &RigidTransform, near: &JointVect
     let all = arm.solve_all(&target, near, limits).unwrap();
     let of = |(label, q): (Label, JointVector)| Start {
         q,
-        sides: Some((label.shoulder, label.elbow)),
-        number: label.number,
+        sides: Some(Sides::from(label)),
     };
     let mut found: Vec<Start> = all.configurations().map(of).collect();
-    let rank = |start: &Start| start.sides != Some((Shoulder::Front, Elbow::Up));
+    let rank = |start: &Start| {
+        start
+            .sides
+            .is_none_or(|sides| (sides.shoulder, sides.elbow) != (Shoulder::Front, Elbow::Up))
+    };
     let far = |start: &Start| (start.q - near).norm();
     found.sort_by(|a, b| rank(a).cmp(&rank(b)).then(far(a).total_cmp(&far(b))));
     let mut starts = Vec::new();
